@@ -1,0 +1,1 @@
+"""The bank: precomputed drive waveforms and responses in one memory-mapped file."""

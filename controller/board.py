@@ -1,0 +1,320 @@
+"""Boards: everything about one panel, from `boards/<name>/board.toml` to frozen, checked records.
+
+Files speak millimetres and milliseconds; properties give SI. A key that is unknown, of the wrong
+type or impossible is a ConfigError naming file, key and value.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+import sys
+import sysconfig
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from controller.errors import ConfigError
+
+T = TypeVar("T")
+
+CHANNELS = 32
+SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
+
+Positive = Annotated[float, Meta(gt=0)]
+NotNegative = Annotated[float, Meta(ge=0)]
+Share = Annotated[float, Meta(gt=0, le=1)]
+
+
+class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A table of a TOML file: frozen, typed, without unknown keys."""
+
+
+class Plate(Record, frozen=True):
+    """Material and edge of the plate; origin at a corner, x along the length."""
+
+    length_mm: Positive
+    width_mm: Positive
+    thickness_mm: Positive
+    young_modulus_pa: Positive
+    poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
+    density_kg_m3: Positive
+    edge: Literal["simply_supported"]
+    decay_time_ms: Positive
+    theory: Literal["kirchhoff"] = "kirchhoff"
+
+    @property
+    def length_m(self) -> float:
+        """Extent along x in m."""
+        return self.length_mm * 1e-3
+
+    @property
+    def width_m(self) -> float:
+        """Extent along y in m."""
+        return self.width_mm * 1e-3
+
+    @property
+    def thickness_m(self) -> float:
+        """Thickness in m."""
+        return self.thickness_mm * 1e-3
+
+    @property
+    def decay_time_s(self) -> float:
+        """Time in which a free displacement falls to 1/e, in s."""
+        return self.decay_time_ms * 1e-3
+
+
+class Actuator(Record, frozen=True):
+    """A square piezo patch, its channel and the level (0 or 1) at which it waits while armed."""
+
+    channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
+    x_mm: float
+    y_mm: float
+    size_mm: Positive
+    idle: Annotated[int, Meta(ge=0, le=1)]
+
+
+class Driver(Record, frozen=True):
+    """The push-pull stage of one channel and the series R-L into the piezo's C (paper, fig. 4)."""
+
+    supply_v: Annotated[float, Meta(gt=0, le=60)]
+    resistance_ohm: Positive
+    inductance_h: Positive
+    capacitance_f: Positive
+    moment_n_per_v: Positive
+
+
+class Waveform(Record, frozen=True):
+    """What one emission is made of."""
+
+    band_low_hz: Positive
+    band_high_hz: Positive
+    duration_ms: Positive
+    bit_clock_hz: Annotated[float, Meta(ge=100e3, le=2e6)]
+
+    def __post_init__(self) -> None:
+        if self.band_high_hz <= self.band_low_hz:
+            raise ValueError(f"band_high_hz = {self.band_high_hz} is not above band_low_hz = {self.band_low_hz}")
+        if self.band_high_hz >= self.bit_clock_hz / 2:
+            raise ValueError(f"band_high_hz = {self.band_high_hz} is not below half of bit_clock_hz = {self.bit_clock_hz}")
+        if not 1 <= round(self.duration_ms * 1e-3 * self.bit_clock_hz) <= 1000:
+            raise ValueError(f"duration_ms = {self.duration_ms} is not 1 to 1000 samples of bit_clock_hz = {self.bit_clock_hz}")
+
+    @property
+    def samples(self) -> int:
+        """Drive words in one emission."""
+        return round(self.duration_ms * 1e-3 * self.bit_clock_hz)
+
+    @property
+    def bit_period_s(self) -> float:
+        """Time one drive word is held, in s."""
+        return 1 / self.bit_clock_hz
+
+    @property
+    def duration_s(self) -> float:
+        """T: one emission, in s."""
+        return self.samples / self.bit_clock_hz
+
+
+class Bank(Record, frozen=True):
+    """How the board's own bank is built and used."""
+
+    pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
+    snap_mm: NotNegative
+
+
+class Touch(Record, frozen=True):
+    """The touch panel and where its axes lie on the plate."""
+
+    kind: Literal["recording"]
+    recording: str
+    x_mm_from_axes: tuple[float, float, float]
+    y_mm_from_axes: tuple[float, float, float]
+
+
+class LinkSettings(Record, frozen=True):
+    """How drive words reach the FPGA."""
+
+    kind: Literal["simulated"]
+    clock_hz: Annotated[int, Meta(ge=1_000_000, le=400_000_000)]
+    sck_hz: Annotated[int, Meta(ge=100_000, le=100_000_000)]
+    slots: Annotated[int, Meta(ge=1, le=16)]
+
+    def __post_init__(self) -> None:
+        if self.sck_hz * 6 > self.clock_hz:
+            raise ValueError(f"sck_hz = {self.sck_hz} is above a sixth of clock_hz = {self.clock_hz}")
+
+
+class Limits(Record, frozen=True):
+    """What the panel may be asked for."""
+
+    heartbeat_timeout_ms: Annotated[float, Meta(gt=0, le=250)]
+    ramp_ms: Annotated[float, Meta(gt=0, le=100)]
+    max_duty: Share
+    max_edge_rate_hz: Positive
+
+
+class Board(Record, frozen=True):
+    """One panel. `folder` holds its board.toml; scene and recording names are relative to it."""
+
+    name: str
+    scene: str
+    plate: Plate
+    actuators: tuple[Actuator, ...]
+    driver: Driver
+    waveform: Waveform
+    bank: Bank
+    touch: Touch
+    link: LinkSettings
+    limits: Limits
+    folder: Path = Path()
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.actuators) <= CHANNELS:
+            raise ValueError(f"actuators are {len(self.actuators)}; a board has 1 to {CHANNELS} channels")
+        channels = [a.channel for a in self.actuators]
+        for index, a in enumerate(self.actuators):
+            if a.channel in channels[:index]:
+                raise ValueError(
+                    f"actuators[{index}].channel = {a.channel} is taken by actuators[{channels.index(a.channel)}] already"
+                )
+            half = a.size_mm / 2
+            for axis, value, extent in (("x_mm", a.x_mm, self.plate.length_mm), ("y_mm", a.y_mm, self.plate.width_mm)):
+                if not half <= value <= extent - half:
+                    raise ValueError(f"actuators[{index}].{axis} = {value} puts the patch off the plate (0 to {extent} mm)")
+
+    @property
+    def idle_word(self) -> int:
+        """Drive word of the idle levels: bit q is the level of channel q."""
+        return sum(a.idle << a.channel for a in self.actuators)
+
+    @property
+    def channel_mask(self) -> int:
+        """Drive word with the bit of every channel that has an actuator."""
+        return sum(1 << a.channel for a in self.actuators)
+
+    @property
+    def bit_ticks(self) -> int:
+        """Clocks of the FPGA for which one drive word is held."""
+        return round(self.link.clock_hz / self.waveform.bit_clock_hz)
+
+    def digest(self) -> bytes:
+        """SHA-256 of the plate, actuator, driver and waveform tables: what a bank is computed from."""
+        tables = (self.plate, self.actuators, self.driver, self.waveform)
+        return hashlib.sha256(msgspec.json.encode(tables, order="deterministic")).digest()
+
+
+def load_board(path: Path) -> Board:
+    """Read and check a board.toml.
+
+    Parameters
+    ----------
+    path : Path
+        The file, or the folder that holds it.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value.
+    """
+    file = path / "board.toml" if path.is_dir() else path
+    board = load_toml(file, Board)
+    if board.bit_ticks * board.waveform.bit_clock_hz != board.link.clock_hz:
+        clock = board.waveform.bit_clock_hz
+        raise ConfigError(f"{file}: waveform.bit_clock_hz = {clock} does not divide link.clock_hz = {board.link.clock_hz}")
+    return msgspec.structs.replace(board, folder=file.parent)
+
+
+def load_toml(file: Path, kind: type[T]) -> T:
+    """Read a TOML file into a Record, refusing what the Record does not describe.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value; also for a file that is absent, unreadable or not TOML.
+    """
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
+    except ValueError as error:
+        raise ConfigError(f"{file}: not valid TOML: {error}") from error
+    for path, value in _leaves(tables, ()):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ConfigError(f"{file}: {_dotted(path)} = {value} is not a number one can work with")
+    try:
+        return msgspec.convert(tables, kind)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{file}: {_in_words(str(error), tables)}") from error
+
+
+def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+    """Every value below a TOML table with its path."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _leaves(inner, (*path, key))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from _leaves(inner, (*path, index))
+    else:
+        yield path, value
+
+
+def _dotted(path: tuple[str | int, ...]) -> str:
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
+
+
+def _in_words(message: str, tables: dict[str, Any]) -> str:
+    """Msgspec's message with its `$.path` as a key of the file and the value found there."""
+    text, _, where = message.partition(" - at `$")
+    path: tuple[str | int, ...] = tuple(
+        int(index) if index else key for key, index in re.findall(r"\.([^.\[\]`]+)|\[(\d+)\]", where)
+    )
+    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", text)
+    if unknown:
+        path = (*path, unknown[1])
+        text = "unknown key"
+    value: Any = tables
+    for part in path:
+        value = value[part]
+    if not path or isinstance(value, dict | list):
+        return f"{_dotted(path)}: {text}" if path else text
+    return f"{_dotted(path)} = {value!r}: {text}"
+
+
+def find_board(name_or_path: str) -> Path:
+    """Folder of a board: a path, else a name looked up in /etc, the source tree and the installed data.
+
+    Raises
+    ------
+    ConfigError
+        If there is none, listing the boards that exist.
+    """
+    given = Path(name_or_path)
+    if given.is_file() and given.suffix == ".toml":
+        return given.parent
+    if (given / "board.toml").is_file():
+        return given
+    places = [SYSTEM_BOARDS, data_folder("boards")]
+    for place in places:
+        if (place / name_or_path / "board.toml").is_file():
+            return place / name_or_path
+    known = sorted({file.parent.name for place in places for file in place.glob("*/board.toml")})
+    raise ConfigError(f"board {name_or_path!r} not found; there are: {', '.join(known) or 'none'} (or a folder with a board.toml)")
+
+
+def data_folder(room: str) -> Path:
+    """Where `boards`, `fpga_rtl` or `systemd` lie: in the source tree, else under the installation's prefix."""
+    beside = Path(__file__).resolve().parent.parent / room
+    if beside.is_dir() and (beside.parent / "pyproject.toml").is_file():
+        return beside
+    for prefix in (sysconfig.get_path("data"), sys.prefix, "/usr"):
+        folder = Path(prefix) / "share" / "haptic-panel" / room
+        if folder.is_dir():
+            return folder
+    return beside
