@@ -1,0 +1,81 @@
+"""The grid of cells: the points of the plate for which a bank may hold an entry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board import Plate
+from controller.errors import ConfigError
+
+Four = tuple[int, int, int, int]
+FourWeights = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """A square lattice; cell `iy * nx + ix` is the point `(x0 + ix pitch, y0 + iy pitch)`."""
+
+    pitch_m: float
+    nx: int
+    ny: int
+    x0_m: float
+    y0_m: float
+
+    @classmethod
+    def of(cls, plate: Plate, pitch_m: float) -> Grid:
+        """Lay the most cells that are at least one pitch from every side of the plate, and centre them.
+
+        Raises
+        ------
+        ConfigError
+            If the pitch leaves no cell, or is not above zero.
+        """
+        extents = (plate.length_m, plate.width_m)
+        if not (math.isfinite(pitch_m) and 0 < pitch_m <= min(extents) / 2):
+            raise ConfigError(
+                f"pitch_mm = {pitch_m * 1e3:g}: not between 0 and half of the plate's shorter side ({min(extents) * 500:g} mm)"
+            )
+        # the slack lets 210 mm hold 42 pitches of 5 mm although neither is a binary fraction
+        nx, ny = (math.floor(extent / pitch_m - 2 + 1e-9) + 1 for extent in extents)
+        x0_m, y0_m = ((extent - (n - 1) * pitch_m) / 2 for extent, n in zip(extents, (nx, ny), strict=True))
+        return cls(pitch_m, nx, ny, x0_m, y0_m)
+
+    @property
+    def cells(self) -> int:
+        """Cells of the whole grid, built or not."""
+        return self.nx * self.ny
+
+    def nearest(self, x_m: float, y_m: float) -> tuple[int, float]:
+        """Cell nearest to a point, and its distance from it in m."""
+        ix = min(max(round((x_m - self.x0_m) / self.pitch_m), 0), self.nx - 1)
+        iy = min(max(round((y_m - self.y0_m) / self.pitch_m), 0), self.ny - 1)
+        distance_m = math.hypot(x_m - self.x0_m - ix * self.pitch_m, y_m - self.y0_m - iy * self.pitch_m)
+        return iy * self.nx + ix, distance_m
+
+    def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
+        """Give the four cells around a point and their bilinear weights, which sum to one.
+
+        A point beyond the outermost cells takes the nearest point of the rim instead: the
+        weights of the cells that do not count are zero.
+        """
+        fx = min(max((x_m - self.x0_m) / self.pitch_m, 0.0), self.nx - 1.0)
+        fy = min(max((y_m - self.y0_m) / self.pitch_m, 0.0), self.ny - 1.0)
+        ix, iy = min(int(fx), max(self.nx - 2, 0)), min(int(fy), max(self.ny - 2, 0))
+        fx, fy = fx - ix, fy - iy
+        right = 1 if self.nx > 1 else 0
+        up = self.nx if self.ny > 1 else 0
+        cell = iy * self.nx + ix
+        return (
+            (cell, cell + right, cell + up, cell + up + right),
+            ((1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy),
+        )
+
+    def points(self) -> NDArray[np.float64]:
+        """Every cell's point, (cells, 2) in m, in the order of the cells."""
+        x_m = self.x0_m + self.pitch_m * np.arange(self.nx)
+        y_m = self.y0_m + self.pitch_m * np.arange(self.ny)
+        return np.stack([np.tile(x_m, self.ny), np.repeat(y_m, self.nx)], axis=1)

@@ -1,0 +1,97 @@
+"""Drive words and quantised responses: what a bank entry is made of.
+
+Word n is sample n of an emission and bit q of it is channel q, little-endian, so the FPGA plays an
+entry word by word and a memoryview of the bank goes to the wire as it is.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board import CHANNELS
+
+__all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "quantise"]
+
+WORD = np.dtype("<u4")
+
+
+def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDArray[np.uint32]:
+    """Pack the sign of a response that is already in drive order (reversed in time).
+
+    Among all waveforms of two levels this one gives the response its largest value at the
+    end of the emission: every sample adds `|response|` (paper, section III-A).
+
+    Parameters
+    ----------
+    drive_order : (sample, channel) array
+        Response of each channel at the focal point, the sample played first first, any unit.
+        Above zero plays high, below low; where it is exactly zero nothing can be gained and the
+        channel stays at its idle bit: no edge, no energy.
+    idle_word : int
+        Drive word of the idle levels.
+
+    Returns
+    -------
+    (sample,) uint32 array
+        Drive words, first played first.
+
+    Raises
+    ------
+    ValueError
+        If `drive_order` is not finite or not (sample, 32), or `idle_word` is not 32 bits.
+    """
+    _check(drive_order)
+    if not 0 <= idle_word < 1 << CHANNELS:
+        raise ValueError(f"idle word {idle_word:#x} is not {CHANNELS} bits")
+    words = _pack(drive_order > 0)
+    if idle_word:
+        words |= _pack(drive_order >= 0) & WORD.type(idle_word)
+    return words
+
+
+def _pack(bits: NDArray[np.bool_]) -> NDArray[np.uint32]:
+    return np.packbits(bits, axis=1, bitorder="little").view(WORD)[:, 0]
+
+
+def _check(drive_order: NDArray[np.number[Any]]) -> None:
+    if drive_order.ndim != 2 or drive_order.shape[1] != CHANNELS:
+        raise ValueError(f"response is {drive_order.shape}, not (sample, {CHANNELS})")
+    if not np.isfinite(drive_order).all():
+        raise ValueError("response has values that are not finite")
+
+
+def channel_bits(words: NDArray[np.uint32]) -> NDArray[np.uint8]:
+    """Unpack drive words into (sample, channel) zeros and ones; inverse of the packing."""
+    as_bytes = np.ascontiguousarray(words, WORD).view(np.uint8).reshape(-1, WORD.itemsize)
+    return np.unpackbits(as_bytes, axis=1, bitorder="little")
+
+
+def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], float]:
+    """Round a response to 8 bits: `drive_order` is about `levels * scale`, to half a scale.
+
+    Parameters
+    ----------
+    drive_order : (sample, channel) float array
+        Response in drive order, in m per V.
+
+    Returns
+    -------
+    levels : (sample, channel) int8 array
+        -127 to 127.
+    scale_m_per_v : float
+        `max|drive_order| / 127` as a float32 holds it; 0 for a response that is zero throughout.
+
+    Raises
+    ------
+    ValueError
+        If `drive_order` is not finite or not (sample, 32).
+    """
+    _check(drive_order)
+    scale = np.float32(max(drive_order.max(initial=0.0), -drive_order.min(initial=0.0)) / 127)
+    if scale < np.finfo(np.float32).tiny:
+        return np.zeros(drive_order.shape, np.int8), 0.0
+    # float32 rounds the scale by 6e-8 at most, so no quotient rounds to more than 127
+    return np.rint(drive_order * np.float32(1 / scale)).astype(np.int8), float(scale)
