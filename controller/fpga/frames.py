@@ -1,0 +1,190 @@
+"""Frames: the self-delimiting messages between host and FPGA, packed into buffers the caller keeps.
+
+Every frame is one chip-select assertion, little-endian, its CRC that of `zlib.crc32` over all
+bytes before it:
+
+    u16 sync | u8 type | u8 sequence | u16 payload bytes | u16 argument | payload | u32 CRC-32
+
+Every frame but LOAD is 32 bytes, as is the status that comes back meanwhile. Nothing here works
+byte by byte: header, payload and CRC are one C call each, and a waveform is copied once.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from typing import NamedTuple
+
+from controller.errors import LinkError
+from controller.fpga.registers import (
+    CHUNK_WORDS,
+    FRAME_SYNC,
+    LOAD_PAYLOAD_MAX_BYTES,
+    LOAD_PAYLOAD_MIN_BYTES,
+    PROTOCOL_VERSION,
+    SHORT_PAYLOAD_BYTES,
+    STATUS_SYNC,
+    WAVEFORM_WORDS,
+    Control,
+    Fault,
+    FrameType,
+    Register,
+    Result,
+    State,
+)
+
+HEADER = struct.Struct("<HBBHH")
+SHORT = struct.Struct("<HBBHH5I")  # a short frame but for its CRC
+STATUS = struct.Struct("<HBBHHIIQII")
+CRC = struct.Struct("<I")
+
+FRAME_BYTES = 32  # of a status and of every frame but LOAD
+LOAD_FRAME_BYTES = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size  # of a full chunk
+
+WritableBuffer = bytearray | memoryview
+ReadableBuffer = bytes | bytearray | memoryview
+
+
+class Status(NamedTuple):
+    """What the FPGA answers: about the frame before, and as of the fall of chip select."""
+
+    result: Result
+    sequence: int  # of the last accepted frame
+    state: State
+    faults: Fault
+    data: int  # value of the last READ
+    trigger_count: int  # all rising edges seen, modulo 2**32
+    timestamp_ticks: int  # clocks since reset
+    emissions: int  # that ran to their end, modulo 2**32
+
+
+def pack_short(buffer: WritableBuffer, offset: int, kind: FrameType, sequence: int, argument: int, *words: int) -> int:
+    """Pack a frame of 32 bytes at `offset`; payload words not given are 0.
+
+    Returns
+    -------
+    int
+        The offset of its end.
+    """
+    SHORT.pack_into(buffer, offset, FRAME_SYNC, kind, sequence & 0xFF, SHORT_PAYLOAD_BYTES, argument, *words, *_ZEROS[len(words)])
+    return _seal(buffer, offset, offset + SHORT.size)
+
+
+def pack_nop(buffer: WritableBuffer, offset: int, sequence: int) -> int:
+    """Pack a frame that only feeds the heartbeat and fetches a status; returns its end."""
+    return pack_short(buffer, offset, FrameType.NOP, sequence, 0)
+
+
+def pack_read(buffer: WritableBuffer, offset: int, sequence: int, register: int) -> int:
+    """Pack a READ, whose value lies in the status that comes with the next frame; returns its end."""
+    return pack_short(buffer, offset, FrameType.READ, sequence, register)
+
+
+def pack_write(buffer: WritableBuffer, offset: int, sequence: int, register: int, value: int) -> int:
+    """Pack a WRITE of one register; returns its end."""
+    return pack_short(buffer, offset, FrameType.WRITE, sequence, register, value)
+
+
+def pack_arm(buffer: WritableBuffer, offset: int, sequence: int, build_hash: int) -> int:
+    """Pack the command that ramps to the idle word, sent once identity and build are known; returns its end."""
+    return pack_short(buffer, offset, FrameType.WRITE, sequence, Register.CONTROL, Control.ARM, PROTOCOL_VERSION, build_hash)
+
+
+def pack_control(buffer: WritableBuffer, offset: int, sequence: int, command: Control) -> int:
+    """Pack DISARM, CLEAR or STOP; returns its end."""
+    return pack_short(buffer, offset, FrameType.WRITE, sequence, Register.CONTROL, command)
+
+
+def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, length_words: int) -> int:
+    """Pack the command that makes the chunks loaded before the waveform of a slot; returns its end."""
+    return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words)
+
+
+def pack_play(buffer: WritableBuffer, offset: int, sequence: int, slot: int, count: int = 1, period_ticks: int = 0) -> int:
+    """Pack a play of `count` emissions (0: endless), begun by the next trigger; returns its end."""
+    return pack_short(buffer, offset, FrameType.PLAY, sequence, slot, count, period_ticks)
+
+
+def pack_load(buffer: WritableBuffer, offset: int, sequence: int, chunk: int, words: memoryview) -> int:
+    """Pack up to 500 bytes of drive words as one LOAD, filled with zeros to the shortest length allowed; returns its end."""
+    payload = offset + HEADER.size
+    end = payload + words.nbytes
+    buffer[payload:end] = words
+    if words.nbytes < LOAD_PAYLOAD_MIN_BYTES:
+        filled = payload + LOAD_PAYLOAD_MIN_BYTES
+        buffer[end:filled] = bytes(filled - end)
+        end = filled
+    HEADER.pack_into(buffer, offset, FRAME_SYNC, FrameType.LOAD, sequence & 0xFF, end - payload, chunk)
+    return _seal(buffer, offset, end)
+
+
+def pack_upload(buffer: WritableBuffer, offset: int, sequence: int, words: memoryview) -> int:
+    """Pack a waveform as LOAD frames one behind the other; `upload_slices` says where each lies. Returns the end.
+
+    Parameters
+    ----------
+    words : memoryview of bytes
+        1 to 1000 drive words of 4 bytes.
+    """
+    step = 4 * CHUNK_WORDS
+    for chunk in range(-(-words.nbytes // step)):
+        offset = pack_load(buffer, offset, sequence + chunk, chunk, words[chunk * step : (chunk + 1) * step])
+    return offset
+
+
+def upload_slices(length_words: int) -> tuple[slice, ...]:
+    """Where `pack_upload` puts each frame (each one chip-select assertion), relative to its offset.
+
+    Raises
+    ------
+    ValueError
+        If no waveform has this length.
+    """
+    if not 1 <= length_words <= WAVEFORM_WORDS:
+        raise ValueError(f"a waveform has 1 to {WAVEFORM_WORDS} words, not {length_words}")
+    slices = []
+    start = 0
+    for first in range(0, length_words, CHUNK_WORDS):
+        payload = max(4 * min(CHUNK_WORDS, length_words - first), LOAD_PAYLOAD_MIN_BYTES)
+        slices.append(slice(start, start + HEADER.size + payload + CRC.size))
+        start = slices[-1].stop
+    return tuple(slices)
+
+
+def pack_status(buffer: WritableBuffer, offset: int, status: Status) -> int:
+    """Pack what the FPGA answers; returns its end."""
+    result, sequence, state, faults, *counters = status
+    STATUS.pack_into(buffer, offset, STATUS_SYNC, result, sequence, state, faults, *counters, 0)
+    return _seal(buffer, offset, offset + FRAME_BYTES - CRC.size)
+
+
+def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
+    """Read the status that came back with a frame.
+
+    Raises
+    ------
+    LinkError
+        If it has no sync word or a wrong CRC, or a code this version does not know.
+    """
+    sync, result, sequence, state, faults, data, triggers, timestamp, emissions, crc = STATUS.unpack_from(buffer, offset)
+    if sync != STATUS_SYNC:
+        raise LinkError(
+            f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is the SPI mode 0, is MISO wired?"
+        )
+    wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
+    if crc != wanted:
+        raise LinkError(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
+    try:
+        code = Result(result)
+    except ValueError:
+        raise LinkError(f"status has result code {result}, which this version does not know") from None
+    return Status(code, sequence, State(state), Fault(faults), data, triggers, timestamp, emissions)
+
+
+_ZEROS = tuple((0,) * (5 - given) for given in range(6))
+
+
+def _seal(buffer: WritableBuffer, start: int, end: int) -> int:
+    """Append the CRC of `buffer[start:end]`; memoryview, so that nothing is copied."""
+    CRC.pack_into(buffer, end, zlib.crc32(memoryview(buffer)[start:end]))
+    return end + CRC.size

@@ -1,0 +1,46 @@
+"""The one interface to an FPGA: frames there and back, and the trigger pin.
+
+`SimulatedLink` (the gateware model) and the device's SPI link are the same to everything above.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+
+class Link(Protocol):
+    """Frames to and from the FPGA, and its trigger pin.
+
+    Attributes
+    ----------
+    bytes_sent : int
+        Frame bytes since the link was opened.
+    wire_ns : int
+        Time those bytes took on the wire.
+    away_ns : int
+        Time spent inside this link that is not the host's own work: waiting for the wire, computing
+        the far end.
+    """
+
+    bytes_sent: int
+    wire_ns: int
+    away_ns: int
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames that lie back to back, each under its own chip select, and store what comes back.
+
+        Raises
+        ------
+        LinkError
+            If the device fails.
+        """
+
+    def trigger(self) -> float:
+        """Pulse the trigger pin; the time of its edge in s on the loop's clock."""
+
+    def ready_s(self) -> float:
+        """Earliest time on the loop's clock at which a trigger given now would rise."""
+
+    def close(self) -> None:
+        """Let go of the device."""
