@@ -1,0 +1,201 @@
+"""Impulse responses h[point, sample, channel]: every mode stepped exactly, many points as one GEMM.
+
+A drive word is held for one bit period, so the response of a mode to a pulse of 1 V of that length
+is the difference of two step responses, taken at the ends of the bit periods: exact, without a
+time step. Sample j is the displacement (j + 1) bit periods after the start of the pulse.
+
+The band-limited response is the response for all times (zero before the pulse, decaying for ever
+after T) through a real, even gain over frequency (zero phase), then cut to the samples of one
+emission, [0, T]. It is applied to the modes, so it costs nothing per point. The gain is 1 inside
+the band and falls to 0 over `EDGE_HZ` centred on each band edge, as a raised cosine.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from controller.board import CHANNELS, Board
+from controller.offline.driver import DriverResponse
+from controller.offline.plate import PlateModes
+from controller.offline.step_response import StepResponse, channel_forces
+
+Floats = NDArray[np.float64]
+EDGE_HZ = 2e3
+POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough to stay in the cache
+SETTLED = 14  # decay times after which the rest of a response is below 1e-6
+
+
+class ResponseModel:
+    """Responses of any point of a board's plate.
+
+    Parameters
+    ----------
+    board : Board
+    highest_hz : float
+        Modes above are left out.
+
+    Attributes
+    ----------
+    plate_modes : PlateModes
+    step : StepResponse
+    forces : (mode, 32) array
+        N per V.
+    modal : (mode, sample) array
+        Response of each mode to a pulse of one bit period, in m per N.
+    modal_band : (mode, sample) array
+        The same, band-limited.
+    gemm_seconds : float
+        Time spent so far in the response step (shapes, modal forces, GEMM, order of axes).
+    """
+
+    def __init__(self, board: Board, highest_hz: float = 100e3) -> None:
+        self.plate_modes = PlateModes.of(board.plate, highest_hz)
+        self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
+        self.forces = channel_forces(board, self.plate_modes)
+        waveform = board.waveform
+        self.samples = waveform.samples
+        self.modal = pulse_response(self.step, waveform.bit_period_s, waveform.samples)
+        self.modal_band = band_limited_response(
+            self.step,
+            waveform.bit_period_s,
+            waveform.samples,
+            (waveform.band_low_hz, waveform.band_high_hz),
+            board.plate.decay_time_s,
+        )
+        self.gemm_seconds = 0.0
+        self._kernels: dict[tuple[bool, bool, str], NDArray[np.floating[Any]]] = {}
+
+    @property
+    def modes(self) -> int:
+        """Number of modes in every response."""
+        return self.plate_modes.count
+
+    def responses(
+        self,
+        points_m: ArrayLike,
+        band_limited: bool = False,
+        dtype: DTypeLike = np.float64,
+        out: NDArray[np.floating[Any]] | None = None,
+    ) -> NDArray[np.floating[Any]]:
+        """Responses in the order of time.
+
+        Parameters
+        ----------
+        points_m : (point, 2) array
+            x and y in m.
+        band_limited : bool
+            The waveform's band only, zero phase.
+        dtype : float32 or float64
+        out : (point, sample, 32) array of `dtype`, optional
+            Filled and returned.
+
+        Returns
+        -------
+        (point, sample, 32) array
+            m per V held for one bit period; zero for channels without an actuator.
+
+        Raises
+        ------
+        ValueError
+            If `out` has another shape or type.
+        """
+        return self._responses(points_m, self._kernel(band_limited, False, np.dtype(dtype)), out)
+
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """Band-limited responses reversed in time: sample n meets drive word n, and sum(v * response) is u at T.
+
+        Parameters, result and errors as in `responses`.
+        """
+        return self._responses(points_m, self._kernel(True, True, np.dtype(dtype)), out)
+
+    def _kernel(self, band_limited: bool, reverse: bool, dtype: np.dtype[Any]) -> NDArray[np.floating[Any]]:
+        """Modal responses as the (sample, mode) factor of the GEMM; kept."""
+        key = (band_limited, reverse, dtype.str)
+        if key not in self._kernels:
+            modal = self.modal_band if band_limited else self.modal
+            self._kernels[key] = np.ascontiguousarray((modal[:, ::-1] if reverse else modal).T, dtype)
+        return self._kernels[key]
+
+    def _responses(
+        self, points_m: ArrayLike, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]] | None
+    ) -> NDArray[np.floating[Any]]:
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        shape = (len(points), self.samples, CHANNELS)
+        if out is None:
+            out = np.empty(shape, kernel.dtype)
+        if out.shape != shape or out.dtype != kernel.dtype:
+            raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
+        started = time.perf_counter()
+        block = min(POINTS_PER_GEMM, len(points))
+        forces = np.ascontiguousarray(self.forces.T, kernel.dtype)
+        driven = np.empty((block, CHANNELS, self.modes), kernel.dtype)
+        product = np.empty((self.samples, block * CHANNELS), kernel.dtype)
+        for first in range(0, len(points), POINTS_PER_GEMM):
+            some = points[first : first + POINTS_PER_GEMM]
+            shapes = self.plate_modes.mode_shapes(some, kernel.dtype)
+            np.multiply(shapes[:, None, :], forces, out=driven[: len(some)])
+            columns = len(some) * CHANNELS
+            np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=product[:, :columns])
+            out[first : first + len(some)] = product[:, :columns].reshape(self.samples, len(some), CHANNELS).swapaxes(0, 1)
+        self.gemm_seconds += time.perf_counter() - started
+        return out
+
+
+def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Floats:
+    """Displacement of each mode (j + 1) bit periods after the start of a unit pulse of one bit period: (mode, sample)."""
+    times = np.arange(1, samples + 1) * bit_period_s
+    weights = -step.residues * np.expm1(-step.poles * bit_period_s)  # two steps a bit period apart
+    modal = step.by_mode((weights[:, None] * np.exp(np.outer(step.poles, times))).real)
+    driver_weights = -step.driver_residues * np.expm1(-step.driver_poles * bit_period_s)
+    modal += (driver_weights @ np.exp(np.outer(step.driver_poles, times))).real
+    return modal
+
+
+def band_limited_response(
+    step: StepResponse, bit_period_s: float, samples: int, band_hz: tuple[float, float], decay_time_s: float
+) -> Floats:
+    """`pulse_response` of all times through a zero-phase band-pass, cut to `samples`: (mode, sample).
+
+    The spectrum of a sampled exponential is a geometric series, so only the bins of the band are
+    computed and nothing is cut off at T before filtering.
+    """
+    length = 1 << int(np.ceil(np.log2(samples + SETTLED * decay_time_s / bit_period_s)))
+    frequency: Floats = np.fft.rfftfreq(length, bit_period_s).astype(np.float64, copy=False)
+    gain = band_gain(frequency, band_hz)
+    bins = np.flatnonzero(gain)
+    turn = np.exp(-2j * np.pi * frequency[bins] * bit_period_s)
+
+    def spectrum(weight: NDArray[np.complex128], pole: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        z = np.exp(pole * bit_period_s)[:, None]
+        first = weight[:, None] * z
+        half: NDArray[np.complex128] = 0.5 * (first / (1 - z * turn) + first.conj() / (1 - z.conj() * turn))
+        return half
+
+    weights = -step.residues * np.expm1(-step.poles * bit_period_s)
+    of_poles = spectrum(weights, step.poles)
+    total = of_poles[: step.static.size]
+    np.add.at(total, step.mode_of_pole[step.static.size :], of_poles[step.static.size :])
+    driver_weights = -step.driver_residues * np.expm1(-step.driver_poles * bit_period_s)
+    for d in range(step.driver_poles.size):
+        total += spectrum(driver_weights[:, d], np.broadcast_to(step.driver_poles[d], len(total)))
+    modal = np.empty((len(total), samples))
+    for first in range(0, len(total), 256):
+        block = np.zeros((len(total[first : first + 256]), frequency.size), np.complex128)
+        block[:, bins] = total[first : first + 256] * gain[bins]
+        modal[first : first + 256] = np.fft.irfft(block, length, axis=1)[:, :samples]
+    return modal
+
+
+def band_gain(frequency_hz: Floats, band_hz: tuple[float, float], edge_hz: float = EDGE_HZ) -> Floats:
+    """Real gain over frequency: 1 in the band, a raised cosine of `edge_hz` centred on each edge, 0 outside."""
+    low, high = band_hz
+    rise = np.clip((frequency_hz - low) / edge_hz + 0.5, 0, 1)
+    fall = np.clip((high - frequency_hz) / edge_hz + 0.5, 0, 1)
+    gain: Floats = np.sin(np.pi / 2 * rise) ** 2 * np.sin(np.pi / 2 * fall) ** 2
+    return gain
