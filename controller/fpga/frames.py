@@ -100,7 +100,7 @@ def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, le
     return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words)
 
 
-def pack_play(buffer: WritableBuffer, offset: int, sequence: int, slot: int, count: int = 1, period_ticks: int = 0) -> int:
+def pack_play(buffer: WritableBuffer, offset: int, sequence: int, slot: int, *, count: int = 1, period_ticks: int = 0) -> int:
     """Pack a play of `count` emissions (0: endless), begun by the next trigger; returns its end."""
     return pack_short(buffer, offset, FrameType.PLAY, sequence, slot, count, period_ticks)
 
@@ -168,9 +168,7 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     """
     sync, result, sequence, state, faults, data, triggers, timestamp, emissions, crc = STATUS.unpack_from(buffer, offset)
     if sync != STATUS_SYNC:
-        raise LinkError(
-            f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is the SPI mode 0, is MISO wired?"
-        )
+        raise LinkError(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
     wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
     if crc != wanted:
         raise LinkError(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
