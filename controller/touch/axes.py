@@ -1,0 +1,67 @@
+"""From a touch panel's axes to plate metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from controller.board import Board
+
+
+@dataclass(frozen=True, slots=True)
+class AxisRange:
+    """Smallest and largest value that one axis says it can take."""
+
+    minimum: int
+    maximum: int
+
+
+class Axes:
+    """Both axes of one panel on one board.
+
+    A raw value is normalised to 0..1 by its axis' range; the board's affine map
+    (`touch.x_mm_from_axes`, `touch.y_mm_from_axes`: per unit of x, per unit of y, at their
+    minimum) gives the place on the plate. Panels may be mirrored, swapped, or reach beyond the glass.
+
+    Parameters
+    ----------
+    board : Board
+        Gives the plate and the map.
+    x, y : AxisRange
+        Ranges of the device's axes. An axis without extent (one single tap, its range guessed)
+        reads as its middle.
+    """
+
+    __slots__ = ("_from_axes", "_plate_m", "x", "y")
+
+    def __init__(self, board: Board, x: AxisRange, y: AxisRange) -> None:
+        self.x = x
+        self.y = y
+        self._plate_m = (board.plate.length_m, board.plate.width_m)
+        self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
+
+    def clamp(self, x: int, y: int) -> tuple[int, int]:
+        """Raw position moved to the nearest one inside both ranges."""
+        return _between(x, self.x), _between(y, self.y)
+
+    def place_m(self, x: int, y: int) -> tuple[float, float]:
+        """Place on the plate in m of a raw position inside the ranges, held to the plate."""
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes
+        length_m, width_m = self._plate_m
+        x_m = x_by_x * x + x_by_y * y + x_at_0
+        y_m = y_by_x * x + y_by_y * y + y_at_0
+        return min(max(x_m, 0.0), length_m), min(max(y_m, 0.0), width_m)
+
+
+def _between(value: int, axis: AxisRange) -> int:
+    return min(max(value, axis.minimum), axis.maximum)
+
+
+def _per_raw(mm_from_axes: tuple[float, float, float], x: AxisRange, y: AxisRange) -> tuple[float, float, float]:
+    """Metres per raw unit of x, of y, and at raw (0, 0)."""
+    at_minimum = mm_from_axes[2]
+    per_raw = []
+    for mm, axis in zip(mm_from_axes, (x, y), strict=False):
+        extent = axis.maximum - axis.minimum
+        per_raw.append(mm / extent if extent else 0.0)
+        at_minimum += -per_raw[-1] * axis.minimum if extent else mm / 2
+    return per_raw[0] * 1e-3, per_raw[1] * 1e-3, at_minimum * 1e-3

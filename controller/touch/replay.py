@@ -1,0 +1,83 @@
+"""A recording as a source of touch samples: report by report, in its own time."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from controller.touch import event_codes as ev
+from controller.touch.axes import Axes
+from controller.touch.panel import Counts
+from controller.touch.recording import Recording
+from controller.touch.samples import TouchSample
+
+
+class RecordingSource:
+    """Replays a recording; a `TouchSource`.
+
+    Fingers still down at the end are released then.
+
+    Parameters
+    ----------
+    recording : Recording
+        What to replay.
+    axes : Axes
+        From `recording.axes(board)`.
+    start_s : float
+        Time of its first event in the loop's clock.
+    """
+
+    def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
+        self._decoder = recording.decoder(axes)
+        self._events = recording.events
+        self._start_s = start_s
+        self._next = 0  # first event not yet fed
+        self._report_ends = [i for i, (kind, code, _, _) in enumerate(self._events) if (kind, code) == (ev.EV_SYN, ev.SYN_REPORT)]
+        self._report = 0
+        self._warnings = recording.warnings
+        self._ended = not self._events
+        self._last_words: Counter[str] = Counter()
+
+    @property
+    def counts(self) -> Counts:
+        """Reports, contacts and fingers replayed so far."""
+        return self._decoder.counts
+
+    @property
+    def warnings(self) -> Counter[str]:
+        """Of the file and of what was replayed so far."""
+        return self._warnings + self._decoder.warnings + self._last_words
+
+    def fileno(self) -> None:
+        """Nothing to wait on but time."""
+        return
+
+    def next_time_s(self) -> float | None:
+        """When the next report is due; None when all were read."""
+        if self._ended:
+            return None
+        if self._report < len(self._report_ends):
+            return self._start_s + self._events[self._report_ends[self._report]][3]
+        return self._start_s + self._events[-1][3]
+
+    def read(self, now_s: float) -> tuple[TouchSample, ...]:
+        """Samples of the next report if it is due by `now_s`; see `TouchSource.read`."""
+        due_s = self.next_time_s()
+        if due_s is None or due_s > now_s:
+            return ()
+        if self._report == len(self._report_ends):
+            self._ended = True
+            released = self._decoder.release(due_s)
+            self._last_words["still_down_at_end"] += len(released)
+            return released
+        end = self._report_ends[self._report]
+        feed = self._decoder.feed
+        for index in range(self._next, end):
+            kind, code, value, _ = self._events[index]
+            feed(kind, code, value, due_s)
+        self._next = end + 1
+        self._report += 1
+        return feed(ev.EV_SYN, ev.SYN_REPORT, 0, due_s) or ()
+
+    def close(self) -> None:
+        """Nothing is held."""
+        self._ended = True
