@@ -1,0 +1,93 @@
+"""A link to the bit-exact model of the gateware, in place of SPI and GPIO.
+
+Frames take the time they would on the board's wire: a frame begins when the wire is free, its
+chip select is low for its bits at SCK, and the next one follows after a pause. The model's clock is
+the loop's clock, so a replay in virtual time and one in real time go through the same ticks.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+
+from controller.board import LinkSettings
+from controller.fpga.capture import Capture
+from controller.fpga.model import GatewareModel
+
+SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
+HEARTBEAT_LIMIT_S = 0.25
+TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger pin: the frame must have been judged
+
+
+class SimulatedLink:
+    """`Link` to a GatewareModel.
+
+    Parameters
+    ----------
+    settings : LinkSettings
+        Clock, SCK and slots of the board.
+    now_s : callable
+        The loop's clock; tick 0 is its value now.
+    build_hash : int
+        What the model is to say it was built from.
+    """
+
+    def __init__(self, settings: LinkSettings, now_s: Callable[[], float], build_hash: int) -> None:
+        self.bytes_sent = 0
+        self.wire_ns = 0
+        self.away_ns = 0
+        self.clock_hz = settings.clock_hz
+        self._now_s = now_s
+        self._start_s = now_s()
+        self._ticks_per_bit = settings.clock_hz / settings.sck_hz
+        self._pause_ticks = round(SELECT_PAUSE_SCK * self._ticks_per_bit)
+        self._free_tick = 0  # when the wire is free
+        limit = round(HEARTBEAT_LIMIT_S * settings.clock_hz)
+        self.model = GatewareModel(settings.clock_hz, settings.slots, build_hash, limit)
+        self.model.permit(0, True)
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames to the model, each at its time on the wire."""
+        started_ns = time.perf_counter_ns()
+        first = tick = max(self._tick_now(), self._free_tick)
+        start = 0
+        for length in lengths:
+            release = tick + round(8 * length * self._ticks_per_bit) + self._pause_ticks
+            self.model.exchange(tick, release, sent[start : start + length], received[start : start + length])
+            tick = release + self._pause_ticks
+            start += length
+        self._free_tick = tick
+        self.bytes_sent += start
+        self.wire_ns += round((tick - first) / self.clock_hz * 1e9)
+        self.away_ns += time.perf_counter_ns() - started_ns
+
+    def trigger(self) -> float:
+        """Pulse the model's trigger pin, now or when the frames before it have gone."""
+        started_ns = time.perf_counter_ns()
+        tick = self._trigger_tick()
+        self.model.trigger(tick)
+        self._free_tick = max(self._free_tick, tick)
+        self.away_ns += time.perf_counter_ns() - started_ns
+        return self.time_s(tick)
+
+    def ready_s(self) -> float:
+        """When a trigger given now would rise."""
+        return self.time_s(self._trigger_tick())
+
+    def time_s(self, tick: int) -> float:
+        """A tick of the model on the loop's clock."""
+        return self._start_s + tick / self.clock_hz
+
+    def close(self) -> None:
+        """Let the model live on to what it would do by itself."""
+        self.model.advance(max(self._tick_now(), self._free_tick))
+
+    def take_capture(self) -> Capture:
+        """What the pins did since the last call."""
+        return self.model.take_capture()
+
+    def _trigger_tick(self) -> int:
+        return max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
+
+    def _tick_now(self) -> int:
+        return round((self._now_s() - self._start_s) * self.clock_hz)

@@ -1,0 +1,124 @@
+"""board.toml: the shipped board loads, and everything that cannot be meant is refused with file, key and value."""
+
+import re
+
+import pytest
+
+from controller.board import find_board, load_board
+from controller.errors import ConfigError
+
+SHIPPED = (find_board("simulated") / "board.toml").read_text()
+
+
+def refused(tmp_path, text):
+    file = tmp_path / "board.toml"
+    file.write_text(text)
+    with pytest.raises(ConfigError) as caught:
+        load_board(tmp_path)
+    message = str(caught.value)
+    assert message.startswith(f"{file}: ")
+    assert "\n" not in message
+    assert caught.value.exit_code == 78
+    return message.removeprefix(f"{file}: ")
+
+
+def test_the_simulated_board_is_the_papers():
+    board = load_board(find_board("simulated"))
+    assert (board.plate.length_m, board.plate.width_m, board.plate.thickness_m) == (0.21, 0.148, 0.0005)
+    assert board.waveform.samples == 1000
+    assert board.waveform.duration_s == 2e-3
+    assert board.bit_ticks == 200
+    assert len(board.actuators) == 32
+    assert board.channel_mask == 0xFFFFFFFF
+
+
+def test_half_of_each_discs_quadrants_idle_high_as_a_checkerboard():
+    board = load_board(find_board("simulated"))
+    for disc in range(8):
+        first = board.actuators[4 * disc : 4 * disc + 4]
+        high = [a for a in first if a.idle]
+        assert len(high) == 2
+        assert high[0].x_mm != high[1].x_mm
+        assert high[0].y_mm != high[1].y_mm
+    assert board.idle_word == 0x99999999
+
+
+def test_no_two_discs_are_mirror_images():
+    board = load_board(find_board("simulated"))
+    discs = [tuple(sum(getattr(a, axis) for a in board.actuators[4 * d : 4 * d + 4]) / 4 for axis in ("x_mm", "y_mm")) for d in range(8)]
+    for x, y in discs:
+        for image in ((210 - x, y), (x, 148 - y), (210 - x, 148 - y)):
+            assert all(abs(image[0] - u) + abs(image[1] - v) > 2 for u, v in discs)
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "said"),
+    [
+        ("thickness_mm = 0.5", "thick_mm = 0.5", r"plate\.thick_mm = 0\.5: unknown key"),
+        ("[limits]", "[limit]", r"limit: unknown key"),
+        ("length_mm = 210.0", 'length_mm = "210"', r"plate\.length_mm = '210': Expected `float`, got `str`"),
+        ("length_mm = 210.0", "length_mm = -210.0", r"plate\.length_mm = -210\.0: .*> 0"),
+        ("length_mm = 210.0", "length_mm = nan", r"plate\.length_mm = nan"),
+        ("length_mm = 210.0", "length_mm = inf", r"plate\.length_mm = inf"),
+        ("size_mm = 4.6", "size_mm = -4.6", r"actuators\[0\]\.size_mm = -4\.6"),
+        ("x_mm =  26.5", "x_mm = 2.0", r"actuators\[0\]\.x_mm = 2\.0 .*off the plate"),
+        ("y_mm =  12.5", "y_mm = 147.0", r"actuators\[0\]\.y_mm = 147\.0 .*off the plate"),
+        ("channel =  1,", "channel = 0,", r"actuators\[1\]\.channel = 0 is taken by actuators\[0\]"),
+        ("channel = 31,", "channel = 32,", r"actuators\[31\]\.channel = 32"),
+        ("channel = 31,", "channel = -1,", r"actuators\[31\]\.channel = -1"),
+        ("band_high_hz = 70e3", "band_high_hz = 250e3", r"band_high_hz = 250000\.0 is not below half of bit_clock_hz"),
+        ("band_high_hz = 70e3", "band_high_hz = 10e3", r"band_high_hz = 10000\.0 is not above band_low_hz"),
+        ("supply_v = 60.0", "supply_v = 61.0", r"driver\.supply_v = 61\.0"),
+        ("bit_clock_hz = 500e3", "bit_clock_hz = 300e3", r"bit_clock_hz = 300000\.0 does not divide link\.clock_hz"),
+        ("sck_hz = 16_000_000", "sck_hz = 20_000_000", r"sck_hz = 20000000 is above a sixth"),
+        ("duration_ms = 2.0", "duration_ms = 3.0", r"duration_ms = 3\.0 is not 1 to 1000 samples"),
+        ("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 251.0", r"heartbeat_timeout_ms = 251\.0"),
+        ("[210.0, 0.0, 0.0]", "[210.0, 0.0]", r"touch\.x_mm_from_axes"),
+        ('name = "simulated"', 'name = "simulated', r"not valid TOML"),
+        ("[plate]", "[plate.plate]", r"plate"),
+    ],
+)
+def test_refuses_what_cannot_be_meant(tmp_path, was, becomes, said):
+    assert was in SHIPPED
+    assert re.search(said, refused(tmp_path, SHIPPED.replace(was, becomes, 1)))
+
+
+def test_refuses_more_than_32_channels(tmp_path):
+    extra = "{ channel = 5, x_mm = 100.0, y_mm = 70.0, size_mm = 4.6, idle = 0 },\n]\n\n[plate]"
+    assert "actuators are 33" in refused(tmp_path, SHIPPED.replace("]\n\n[plate]", extra, 1))
+
+
+@pytest.mark.parametrize("content", [b"", b"\x00\xff\xfe", b"name = 1"])
+def test_refuses_a_file_that_is_no_board(tmp_path, content):
+    (tmp_path / "board.toml").write_bytes(content)
+    with pytest.raises(ConfigError, match=re.escape(str(tmp_path))):
+        load_board(tmp_path)
+
+
+def test_an_absent_file_is_named(tmp_path):
+    with pytest.raises(ConfigError, match=r"board\.toml: cannot be read"):
+        load_board(tmp_path)
+
+
+def test_an_unknown_board_lists_those_that_exist():
+    with pytest.raises(ConfigError, match="'nothing' not found; there are: .*simulated"):
+        find_board("nothing")
+
+
+def test_a_board_is_found_by_name_by_folder_and_by_file():
+    folder = find_board("simulated")
+    assert find_board(str(folder)) == folder
+    assert find_board(str(folder / "board.toml")) == folder
+
+
+def test_the_digest_changes_with_what_a_bank_is_computed_from_and_with_nothing_else(tmp_path):
+    def digest(was="", becomes=""):
+        (tmp_path / "board.toml").write_text(SHIPPED.replace(was, becomes, 1))
+        return load_board(tmp_path).digest()
+
+    same = digest()
+    assert digest("thickness_mm = 0.5", "thickness_mm = 0.501") != same
+    assert digest("x_mm =  26.5", "x_mm =  26.6") != same
+    assert digest("capacitance_f = 2.0e-9", "capacitance_f = 2.02e-9") != same
+    assert digest("slots = 4", "slots = 3") == same
+    assert digest("# beside", "# next to") == same
