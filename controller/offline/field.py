@@ -1,0 +1,193 @@
+"""The displacement of the whole plate at one focus time, and what a focus is judged by.
+
+All of it comes from modal amplitudes, so a map is two small matrix products and the time around T
+is known without stepping. Displacements are relative to the position at rest at the idle word: the
+static bow of the idle levels is there all day and nothing that a finger or a vibrometer would see.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from controller.offline.plate import PlateModes
+from controller.offline.step_response import StepResponse
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Point = tuple[float, float]
+
+MAP_STEP_M = 2e-3
+OUTSIDE_M = 10e-3  # contrast is against what lies farther from the focus
+LINE_M = np.arange(-120, 121) * 0.05e-3  # where the spot is measured
+CREST_M = 2.5e-3  # the crest of a spot is looked for this near the focus: less than half a wavelength at 70 kHz
+AROUND_S = np.arange(-50, 51) * 0.1e-6
+
+
+@dataclass(frozen=True)
+class FocusMetrics:
+    """One focus as DESIGN.md defines it.
+
+    `amplitude_m` is u at the focus at T; `contrast` its size over the rms outside 10 mm of every
+    focus, `contrast_all` over all points of the map; `spot_m` the full width at half height, mean
+    over x, y and both diagonals; `peak_offset_s` the time of the largest displacement within 5 us, from T.
+    """
+
+    amplitude_m: float
+    contrast: float
+    contrast_all: float
+    spot_m: float
+    peak_offset_s: float
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """State of plate and drivers at T, up to the steps of voltage before T.
+
+    Attributes
+    ----------
+    pole_amplitudes : (pole,) complex array
+        Of the plate's free oscillations at T, m.
+    driver_amplitudes : (mode, 2) complex array
+        Of the part that follows the drivers' own settling, m.
+    level : (mode,) array
+        Where the voltages played last would hold each mode, from the rest position, m.
+    near_s : (edge,) array
+        Times of the voltage steps around T, relative to T; those at T or later are not in the state.
+    near_force : (mode, edge) array
+        Their forces on the modes, N.
+    """
+
+    modes: PlateModes
+    step: StepResponse
+    pole_amplitudes: Complex
+    driver_amplitudes: Complex
+    level: Floats
+    near_s: Floats
+    near_force: Floats
+
+    @cached_property
+    def modal(self) -> Floats:
+        """Displacement of each mode at T in m: (mode,)."""
+        return self.level + self.step.by_mode(self.pole_amplitudes.real) + self.driver_amplitudes.real.sum(1)
+
+    @cached_property
+    def _matrix(self) -> Floats:
+        """`modal` by order: (m, n)."""
+        matrix = np.zeros((self.modes.x_order.max(), self.modes.y_order.max()))
+        matrix[self.modes.x_order - 1, self.modes.y_order - 1] = self.modal
+        return matrix
+
+    def at(self, points_m: ArrayLike) -> Floats:
+        """Displacement at T in m at points (point, 2)."""
+        points = np.asarray(points_m, np.float64).reshape(-1, 2)
+        along_x = self.modes.x_sines(points[:, 0]) @ self._matrix
+        values: Floats = np.einsum("pn,pn->p", along_x, self.modes.y_sines(points[:, 1]))
+        return values
+
+    def map(self, step_m: float = MAP_STEP_M) -> tuple[Floats, Floats, Floats]:
+        """Displacement at T over the plate: x (nx,), y (ny,), u (ny, nx), all in m; points at most `step_m` apart."""
+        x, y = _centres(self.modes.length_m, step_m), _centres(self.modes.width_m, step_m)
+        return x, y, self.modes.y_sines(y) @ (self._matrix.T @ self.modes.x_sines(x).T)
+
+    def around(self, point_m: Point) -> Floats:
+        """Displacement in m of one point at the times `AROUND_S` from T: exact, steps of voltage in between included."""
+        shape = self.modes.mode_shapes(point_m)[0]
+        rows = shape[self.step.mode_of_pole]
+        tables = _tables(self.step)
+        u = float(shape @ self.level) + _ring(tables, rows * self.pole_amplitudes, shape @ self.driver_amplitudes)
+        for edge_s, force in zip(self.near_s, self.near_force.T, strict=True):
+            # the state holds the steps before T: take each out again for times before it; add those after T
+            here = AROUND_S > edge_s if edge_s >= 0 else AROUND_S < edge_s
+            poles = rows * force[self.step.mode_of_pole] * self.step.residues * np.exp(-self.step.poles * edge_s)
+            drivers = (shape * force) @ self.step.driver_residues * np.exp(-self.step.driver_poles * edge_s)
+            pushed = float((shape * force) @ self.step.static) + _ring(tables, poles, drivers, here)
+            u[here] += pushed if edge_s >= 0 else -pushed
+        return u
+
+    def focus_metrics(self, x_m: float, y_m: float, foci: Sequence[Point] = ()) -> FocusMetrics:
+        """Judge the focus at (x, y).
+
+        Parameters
+        ----------
+        foci : sequence of (x_m, y_m)
+            All points focused on at this time; contrast is taken outside 10 mm of any. Default: this one.
+        """
+        amplitude = float(self.at((x_m, y_m))[0])
+        x, y, u = self.map()
+        outside = np.ones(u.shape, np.bool_)
+        for fx, fy in foci or [(x_m, y_m)]:
+            outside &= np.hypot(x - fx, (y - fy)[:, None]) > OUTSIDE_M
+        squared = u**2
+        return FocusMetrics(
+            amplitude_m=amplitude,
+            contrast=_over(amplitude, float(squared[outside].mean()) if outside.any() else 0.0),
+            contrast_all=_over(amplitude, float(squared.mean())),
+            spot_m=self._spot(x_m, y_m, amplitude),
+            peak_offset_s=self._peak_offset((x_m, y_m), amplitude),
+        )
+
+    def _spot(self, x_m: float, y_m: float, amplitude: float) -> float:
+        widths = []
+        for dx, dy in ((1.0, 0.0), (0.0, 1.0), (0.5**0.5, 0.5**0.5), (0.5**0.5, -(0.5**0.5))):
+            x, y = x_m + dx * LINE_M, y_m + dy * LINE_M
+            on_plate = (x >= 0) & (x <= self.modes.length_m) & (y >= 0) & (y <= self.modes.width_m)
+            line = np.where(on_plate, self.at(np.column_stack([x, y])), 0.0)
+            widths.append(half_width(line if amplitude >= 0 else -line))
+        return float(np.mean(widths))
+
+    def _peak_offset(self, point_m: Point, amplitude: float) -> float:
+        u = self.around(point_m) * (1 if amplitude >= 0 else -1)
+        top = int(np.argmax(u))
+        if top in (0, len(u) - 1):
+            return float(AROUND_S[top])
+        before, at, after = u[top - 1 : top + 2]
+        return float(AROUND_S[top] + 0.5 * (before - after) / (before - 2 * at + after) * (AROUND_S[1] - AROUND_S[0]))
+
+
+def half_width(line: Floats) -> float:
+    """Full width at half height of the crest near the middle of a line sampled at `LINE_M`, in m.
+
+    A crest that does not fall to half within the line has the width up to the line's end.
+    """
+    near = np.flatnonzero(abs(LINE_M) <= CREST_M)
+    top = int(near[np.argmax(line[near])])
+    half = line[top] / 2
+    return _crossing(line[top:], half) + _crossing(line[top::-1], half)
+
+
+def _crossing(falling: Floats, half: float) -> float:
+    """Distance from the first sample to where the line falls to `half`."""
+    step = float(LINE_M[1] - LINE_M[0])
+    below = np.flatnonzero(falling <= half)
+    if not below.size or below[0] == 0:
+        return step * (len(falling) - 1)
+    i = int(below[0])
+    return step * (i - 1 + float((falling[i - 1] - half) / (falling[i - 1] - falling[i])))
+
+
+@lru_cache(maxsize=2)
+def _tables(step: StepResponse) -> tuple[Complex, Complex]:
+    """exp(pole * t) of the plate's and the driver's poles at the times `AROUND_S`: (time, pole) each."""
+    return np.exp(np.outer(AROUND_S, step.poles)), np.exp(np.outer(AROUND_S, step.driver_poles))
+
+
+def _ring(
+    tables: tuple[Complex, Complex], poles: Complex, drivers: Complex, here: slice | NDArray[np.bool_] = slice(None)
+) -> Floats:
+    """Re sum_p amplitude_p exp(pole_p t) at the times `AROUND_S[here]`."""
+    result: Floats = (tables[0][here] @ poles + tables[1][here] @ drivers).real
+    return result
+
+
+def _centres(extent_m: float, step_m: float) -> Floats:
+    count = int(np.ceil(extent_m / step_m - 1e-9))
+    return (np.arange(count) + 0.5) * (extent_m / count)
+
+
+def _over(amplitude: float, mean_square: float) -> float:
+    return abs(amplitude) / mean_square**0.5 if mean_square > 0 else float("inf")

@@ -1,0 +1,231 @@
+"""The plate twin: what the plate does when the pins of the FPGA do what they did.
+
+It knows nothing of banks, frames or waveforms: only pin changes with their ticks. Each change is a
+step of voltage on some channels, the answer to a step is a sum of exponentials (`step_response`), so
+the state at any tick is an exact superposition, from everything at 0 V and at rest at tick 0 on:
+the arming ramp is in it, and so is what is left of earlier emissions.
+
+Pin changes are cut into groups at focus ticks and wherever nothing changes for 16 bit periods. What a
+group leaves behind depends only on its words and their spacing, so equal groups are computed once.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board import CHANNELS, Board
+from controller.fpga.capture import Capture
+from controller.offline.driver import DriverResponse
+from controller.offline.field import AROUND_S, Field
+from controller.offline.focusing import focus
+from controller.offline.impulse_response import ResponseModel
+from controller.offline.plate import PlateModes
+from controller.offline.step_response import StepResponse, channel_forces
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+GAP_BITS = 16
+LONGEST_GROUP_BITS = 1024
+NEAR_S = float(AROUND_S[-1])
+
+
+class Wake(NamedTuple):
+    """What a group of steps leaves at the tick of its last step: amplitudes of plate poles (pole,) and driver poles (2, 32)."""
+
+    plate: Complex
+    driver: Complex
+
+
+@dataclass
+class Work:
+    """How many groups were computed and how many were known already."""
+
+    groups_computed: int = 0
+    groups_reused: int = 0
+
+
+class PlateTwin:
+    """A simulated plate behind 32 pins.
+
+    Parameters
+    ----------
+    board : Board
+    highest_hz : float
+        Modes above are left out.
+    remembered : int
+        Groups kept (0.1 MB each); the one not used for longest goes first.
+
+    Attributes
+    ----------
+    work : Work
+        Counters.
+    """
+
+    def __init__(self, board: Board, highest_hz: float = 100e3, remembered: int = 256) -> None:
+        self.board = board
+        self.modes = PlateModes.of(board.plate, highest_hz)
+        self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
+        self.forces = channel_forces(board, self.modes)
+        self.work = Work()
+        self._highest_hz = highest_hz
+        self._remembered = remembered
+        self._wakes: OrderedDict[bytes, Wake] = OrderedDict()
+        self._table: NDArray[np.float64] | None = None
+        self._references: dict[tuple[float, float], float] = {}
+        self._responses: ResponseModel | None = None
+        self._pole_forces = np.ascontiguousarray(self.forces[self.step.mode_of_pole])
+
+    def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
+        """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
+
+        Parameters
+        ----------
+        capture : Capture
+            From tick 0 on, everything low before its first change.
+        clock_hz : float
+            Of the ticks.
+
+        Yields
+        ------
+        Field
+            In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
+        """
+        ticks = capture.ticks.astype(np.int64)
+        bits = _bits(np.where(capture.hv != 0, capture.words, 0).astype(np.uint32))
+        steps = np.diff(bits, axis=0, prepend=np.zeros((1, CHANNELS))) * self.board.driver.supply_v
+        focus_ticks = capture.focus_ticks.astype(np.int64)
+        bit_ticks = clock_hz * self.board.waveform.bit_period_s
+        cuts = _cuts(ticks, focus_ticks, bit_ticks)
+        plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, CHANNELS), np.complex128)
+        idle = _bits(np.array([self.board.idle_word], np.uint32))[0] * self.board.driver.supply_v
+        now = 0
+        group = 0
+        for focus_tick in focus_ticks:
+            end = int(np.searchsorted(ticks, focus_tick, side="left"))
+            while group + 1 < len(cuts) and cuts[group + 1] <= end:
+                some = slice(cuts[group], cuts[group + 1])
+                wake = self._wake(ticks[some], steps[some], bit_ticks)
+                passed = (int(ticks[cuts[group + 1] - 1]) - now) / clock_hz
+                plate = plate * np.exp(self.step.poles * passed) + wake.plate
+                driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + wake.driver
+                now = int(ticks[cuts[group + 1] - 1])
+                group += 1
+            passed = (int(focus_tick) - now) / clock_hz
+            near = np.arange(
+                np.searchsorted(ticks, focus_tick - NEAR_S * clock_hz), np.searchsorted(ticks, focus_tick + NEAR_S * clock_hz)
+            )
+            volts = bits[end - 1] * self.board.driver.supply_v if end else np.zeros(CHANNELS)
+            yield Field(
+                modes=self.modes,
+                step=self.step,
+                pole_amplitudes=plate * np.exp(self.step.poles * passed),
+                driver_amplitudes=self.step.driver_residues
+                * (self.forces @ (driver * np.exp(self.step.driver_poles * passed)[:, None]).T),
+                level=self.step.static * (self.forces @ (volts - idle)),
+                near_s=(ticks[near] - focus_tick) / clock_hz,
+                near_force=self.forces @ steps[near].T,
+            )
+
+    def reference_amplitude(self, x_m: float, y_m: float) -> float:
+        """A_ref in m: all modes, float64, the sign of this very point's band-limited response, once, from the idle word."""
+        key = (x_m, y_m)
+        if key not in self._references:
+            if self._responses is None:
+                self._responses = ResponseModel(self.board, self._highest_hz)
+            drive_order = self._responses.drive_order_responses(np.array([key]), dtype=np.float64)
+            words = focus(drive_order, [1.0], self.board.idle_word)
+            response = self._responses.responses(np.array([key]))[0, ::-1]
+            volts = (_bits(words) - _bits(np.array([self.board.idle_word], np.uint32))) * self.board.driver.supply_v
+            self._references[key] = float(np.vdot(volts, response))
+        return self._references[key]
+
+    def _wake(self, ticks: NDArray[np.int64], steps: Floats, bit_ticks: float) -> Wake:
+        key = (ticks - ticks[0]).tobytes() + steps.astype(np.float32).tobytes()
+        known = self._wakes.get(key)
+        if known is not None:
+            self._wakes.move_to_end(key)
+            self.work.groups_reused += 1
+            return known
+        self.work.groups_computed += 1
+        wake = self._superpose((ticks[-1] - ticks) / bit_ticks, steps)
+        self._wakes[key] = wake
+        if len(self._wakes) > self._remembered:
+            self._wakes.popitem(last=False)
+        return wake
+
+    def _superpose(self, ago_bits: Floats, steps: Floats) -> Wake:
+        """Sum the steps of a group, each as old as `ago_bits` bit periods at the group's last step."""
+        period = self.board.waveform.bit_period_s
+        whole = np.rint(ago_bits).astype(np.int64)
+        count = self.step.poles.size
+        if np.array_equal(whole, ago_bits) and whole[0] < LONGEST_GROUP_BITS:
+            spread = np.zeros((int(whole[0]) + 1, CHANNELS))
+            spread[whole] = steps
+            rung = self._decay_table()[:, : len(spread)] @ spread
+        else:
+            decay = np.exp(np.outer(self.step.poles, ago_bits * period))
+            rung = np.concatenate([decay.real, decay.imag]) @ steps
+        rung = np.einsum("pq,rpq->rp", self._pole_forces, rung.reshape(2, count, CHANNELS))
+        plate = (rung[0] + 1j * rung[1]) * self.step.residues
+        return Wake(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
+
+    def _decay_table(self) -> Floats:
+        """exp(pole * n bit periods), real parts above imaginary parts: (2 * pole, n)."""
+        if self._table is None:
+            times = np.arange(LONGEST_GROUP_BITS) * self.board.waveform.bit_period_s
+            decay = np.exp(np.outer(self.step.poles, times))
+            self._table = np.concatenate([decay.real, decay.imag])
+        return self._table
+
+
+def _bits(words: NDArray[np.uint32]) -> Floats:
+    return ((words[:, None] >> np.arange(CHANNELS, dtype=np.uint32)) & 1).astype(np.float64)
+
+
+def _cuts(ticks: NDArray[np.int64], focus_ticks: NDArray[np.int64], bit_ticks: float) -> list[int]:
+    """First changes of the groups, and the number of changes."""
+    quiet = np.flatnonzero(np.diff(ticks) >= GAP_BITS * bit_ticks) + 1
+    wanted = {0, len(ticks), *quiet.tolist(), *np.searchsorted(ticks, focus_ticks, side="left").tolist()}
+    cuts: list[int] = []
+    for cut in sorted(wanted):
+        while cuts and ticks[cut - 1] - ticks[cuts[-1]] >= LONGEST_GROUP_BITS * bit_ticks:
+            cuts.append(int(np.searchsorted(ticks, ticks[cuts[-1]] + LONGEST_GROUP_BITS * bit_ticks, side="left")))
+        cuts.append(int(cut))
+    return cuts
+
+
+def capture_of_words(
+    words: NDArray[np.uint32], bit_ticks: int, idle_word: int, start_tick: int, period_ticks: int = 0, repetitions: int = 1
+) -> Capture:
+    """Pins that idle from tick 0 on and play `words` from `start_tick` on, without an FPGA.
+
+    Parameters
+    ----------
+    words : (sample,) uint32 array
+    bit_ticks : int
+        Ticks for which a word is held.
+    period_ticks : int
+        Start to start, if there is more than one repetition; between emissions the pins hold `idle_word`.
+    """
+    starts = start_tick + np.arange(repetitions) * period_ticks
+    length = len(words) * bit_ticks
+    emission = np.arange(len(words) + 1) * bit_ticks
+    ticks = np.concatenate([[0], (starts[:, None] + emission).ravel()])
+    played = np.concatenate([[idle_word], np.tile(np.append(words, np.uint32(idle_word)), repetitions)]).astype(np.uint32)
+    last = np.append(ticks[1:] != ticks[:-1], True)  # back to back, the next emission's first word counts
+    ticks, played = ticks[last], played[last]
+    changed = np.append(played[0] != 0, played[1:] != played[:-1])
+    ticks, played = ticks[changed], played[changed]
+    return Capture(
+        ticks=ticks.astype(np.uint64),
+        words=played,
+        hv=np.ones(len(played), np.uint8),
+        focus_ticks=(starts + length).astype(np.uint64),
+    )
