@@ -18,6 +18,7 @@ from typing import NamedTuple
 from controller.errors import LinkError
 from controller.fpga.registers import (
     CHUNK_WORDS,
+    CHUNKS,
     FRAME_SYNC,
     LOAD_PAYLOAD_MAX_BYTES,
     LOAD_PAYLOAD_MIN_BYTES,
@@ -40,6 +41,7 @@ CRC = struct.Struct("<I")
 
 FRAME_BYTES = 32  # of a status and of every frame but LOAD
 LOAD_FRAME_BYTES = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size  # of a full chunk
+UPLOAD_BYTES = CHUNKS * LOAD_FRAME_BYTES  # of the longest waveform
 
 WritableBuffer = bytearray | memoryview
 ReadableBuffer = bytes | bytearray | memoryview

@@ -1,0 +1,57 @@
+"""Judging a frame as `frame_decoder.v` does: what it asks for, or why it is refused."""
+
+from __future__ import annotations
+
+import zlib
+from typing import NamedTuple
+
+from controller.fpga.frames import CRC, HEADER, SHORT
+from controller.fpga.registers import (
+    CHUNKS,
+    FRAME_SYNC,
+    LOAD_PAYLOAD_MAX_BYTES,
+    LOAD_PAYLOAD_MIN_BYTES,
+    SHORT_PAYLOAD_BYTES,
+    FrameType,
+    Result,
+)
+
+_SYNC_BYTES = FRAME_SYNC.to_bytes(2, "little")
+
+
+class Frame(NamedTuple):
+    """One chip-select assertion as it ended; `refusal` is OK for an accepted frame."""
+
+    refusal: Result
+    kind: int = 0
+    sequence: int = 0
+    argument: int = 0
+    words: tuple[int, ...] = (0, 0, 0, 0, 0)
+    loaded_words: int = 0  # that entered the landing buffer, at chunk `argument`
+
+
+def judge(mosi: memoryview) -> Frame:
+    """Judge all bytes of one chip-select assertion."""
+    size = len(mosi)
+    sync_good = mosi[:2] == _SYNC_BYTES
+    if size < HEADER.size:
+        return Frame(Result.BAD_LENGTH if sync_good else Result.BAD_SYNC)
+    _, kind, sequence, length, argument = HEADER.unpack_from(mosi)
+    is_load = kind == FrameType.LOAD
+    if is_load:
+        length_good = LOAD_PAYLOAD_MIN_BYTES <= length <= LOAD_PAYLOAD_MAX_BYTES and length % 4 == 0
+    else:
+        length_good = length == SHORT_PAYLOAD_BYTES
+    loaded_words = 0
+    if is_load and sync_good and length_good and argument < CHUNKS:
+        loaded_words = min(size - HEADER.size, length) // 4
+    if not sync_good:
+        refusal = Result.BAD_SYNC
+    elif not length_good or size != HEADER.size + length + CRC.size:
+        refusal = Result.BAD_LENGTH
+    elif zlib.crc32(mosi[: -CRC.size]) != CRC.unpack_from(mosi, size - CRC.size)[0]:
+        refusal = Result.BAD_CRC
+    else:
+        refusal = Result.OK
+    words = SHORT.unpack_from(mosi)[5:] if size >= SHORT.size else Frame(Result.OK).words
+    return Frame(refusal, kind, sequence, argument, words, loaded_words)
