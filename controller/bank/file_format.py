@@ -1,0 +1,201 @@
+"""The bank file, byte by byte: README.md says it in words, this says it in `struct`.
+
+A header of one or more pages, then five sections, each from the next page on; every byte that
+nothing describes is zero. Tables are covered by a CRC-32 in the header, entries by one each.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+import zlib
+from dataclasses import dataclass, field
+from typing import Any
+
+from controller.bank.grid import Grid
+from controller.bank.packing import CHANNELS
+from controller.errors import BankError
+
+MAGIC = b"HPNLBANK"
+VERSION = 1
+PAGE = 4096
+LINE = 64  # responses start on a cache line
+MAX_HEADER = 1 << 20
+
+# magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
+# nx, ny, samples, channels, entries, parameters bytes, sections, zero
+FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
+SECTION = struct.Struct("<16sQQIIII")  # name, offset, bytes, rows, bytes of a row, stride, CRC-32
+CRC = struct.Struct("<I")  # the last four bytes of the header: of all before them
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Rows of equal length, `stride` bytes apart; `crc` is 0 where each row has its own checksum."""
+
+    name: str
+    offset: int
+    rows: int
+    row_bytes: int
+    stride: int
+    crc: int = 0
+
+    @property
+    def size(self) -> int:
+        """Bytes from the first row to the end of the last one's stride."""
+        return self.rows * self.stride
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """All that a bank says about itself."""
+
+    creator: str
+    board_digest: bytes
+    grid: Grid
+    bit_clock_hz: float
+    samples: int
+    entries: int
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def header_bytes(self) -> int:
+        """Bytes of the header: whole pages."""
+        return up(FIXED.size + 5 * SECTION.size + len(self._json()) + CRC.size, PAGE)
+
+    def sections(self) -> tuple[Section, ...]:
+        """Where everything lies; it follows from the counts alone. Tables have no CRC yet."""
+        drive_bytes, response_bytes = 4 * self.samples, CHANNELS * self.samples
+        offset = self.header_bytes
+        placed = []
+        for name, rows, row_bytes, stride in (
+            ("index", self.grid.cells, 4, 4),
+            ("checksums", self.entries, 8, 8),
+            ("scale", self.entries, 4, 4),
+            ("drive", self.entries, drive_bytes, up(drive_bytes, PAGE)),
+            ("response", self.entries, response_bytes, up(response_bytes, LINE)),
+        ):
+            placed.append(Section(name, offset, rows, row_bytes, stride))
+            offset = up(offset + placed[-1].size, PAGE)
+        return tuple(placed)
+
+    @property
+    def file_bytes(self) -> int:
+        """Bytes of the whole file."""
+        last = self.sections()[-1]
+        return up(last.offset + last.size, PAGE)
+
+    def pack(self, sections: tuple[Section, ...]) -> bytes:
+        """Lay out the header, with the sections' checksums in the table."""
+        creator, parameters = self.creator.encode(), self._json()
+        if len(creator) > 64:
+            raise ValueError(f"creator {self.creator!r} is longer than 64 bytes")
+        if self.header_bytes > MAX_HEADER:
+            raise ValueError(f"parameters of {len(parameters)} bytes do not fit a header of {MAX_HEADER} bytes")
+        grid = self.grid
+        body = FIXED.pack(
+            *(MAGIC, VERSION, self.header_bytes, self.file_bytes, creator, self.board_digest),
+            *(grid.pitch_m, grid.x0_m, grid.y0_m, self.bit_clock_hz, grid.nx, grid.ny),
+            *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), 0),
+        )
+        for s in sections:
+            body += SECTION.pack(s.name.encode(), s.offset, s.size, s.rows, s.row_bytes, s.stride, s.crc)
+        body = (body + parameters).ljust(self.header_bytes - CRC.size, b"\0")
+        return body + CRC.pack(zlib.crc32(body))
+
+    def _json(self) -> bytes:
+        return json.dumps(self.parameters, sort_keys=True, allow_nan=False).encode()
+
+
+def up(value: int, step: int) -> int:
+    """Round up to a multiple."""
+    return -(-value // step) * step
+
+
+def header_length(start: bytes, file_bytes: int) -> int:
+    """Bytes of the header, from the file's first 16 bytes.
+
+    Raises
+    ------
+    BankError
+        For what is empty, no bank, of another version, or cut off within the header.
+    """
+    if file_bytes == 0:
+        raise BankError("is empty")
+    if start[:8] != MAGIC[: len(start)]:
+        raise BankError(f"is not a bank: it begins with {start[:8]!r}")
+    if len(start) < 16:
+        raise BankError(f"is truncated: {file_bytes} bytes, less than a header")
+    _, version, length, *_ = struct.unpack("<8sII", start[:16])
+    if version != VERSION:
+        raise BankError(f"has format version {version}; this program reads version {VERSION}")
+    if not PAGE <= length <= MAX_HEADER or length % PAGE:
+        raise BankError(f"is damaged: header of {length} bytes")
+    if file_bytes < length:
+        raise BankError(f"is truncated: {file_bytes} bytes, less than its header of {length}")
+    return int(length)
+
+
+def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
+    """Read a header; the reverse of `Header.pack`.
+
+    Parameters
+    ----------
+    data : bytes
+        As many bytes as `header_length` said.
+    file_bytes : int
+        Size of the file in which it was found.
+
+    Raises
+    ------
+    BankError
+        If the checksum is wrong, the file is cut short or has grown, or a table or section is not
+        where this version of the format puts it.
+    """
+    body = data[: -CRC.size]
+    if CRC.unpack(data[-CRC.size :])[0] != zlib.crc32(body):
+        raise BankError("is damaged: CRC-32 of the header is wrong")
+    fixed = FIXED.unpack_from(body)
+    told_bytes, creator, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
+    parameters_bytes, section_count, zero = fixed[15:]
+    if file_bytes != told_bytes:
+        raise BankError(f"{'is truncated' if file_bytes < told_bytes else 'has grown'}: {file_bytes} bytes instead of {told_bytes}")
+    at = FIXED.size + section_count * SECTION.size
+    if channels != CHANNELS or section_count != 5 or zero or not samples or at + parameters_bytes > len(body):
+        raise BankError("has a header that this version of the format does not allow")
+    if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
+        raise BankError("has a grid or bit clock that cannot be")
+    try:
+        parameters = json.loads(body[at : at + parameters_bytes])
+        header = Header(
+            creator.rstrip(b"\0").decode(), digest, Grid(pitch_m, nx, ny, x0_m, y0_m), bit_clock_hz, samples, entries, parameters
+        )
+    except ValueError as error:
+        raise BankError(f"has unreadable build parameters or creator ({error})") from None
+    if not isinstance(parameters, dict):
+        raise BankError("has build parameters that are no table")
+    if body[at + parameters_bytes :].strip(b"\0"):
+        raise BankError("has padding in its header that is not zero")
+    rows = [SECTION.unpack_from(body, FIXED.size + i * SECTION.size) for i in range(section_count)]
+    return header, _sections(header, rows, len(data), told_bytes)
+
+
+def _sections(header: Header, rows: list[tuple[Any, ...]], header_bytes: int, file_bytes: int) -> dict[str, Section]:
+    """Check the section table: known names, in order, each on the page after the last one's end."""
+    found = {}
+    end = header_bytes
+    for told, should in zip(rows, header.sections(), strict=True):
+        name, offset, size, count, row_bytes, stride, crc = told
+        name = name.rstrip(b"\0").decode(errors="replace")
+        if name != should.name:
+            raise BankError(f"has section {name!r} where {should.name!r} belongs")
+        if offset != up(end, PAGE):
+            raise BankError(f"has section {name!r} at byte {offset}, not at {up(end, PAGE)}: out of order, apart or overlapping")
+        if (size, count, row_bytes, stride) != (should.size, should.rows, should.row_bytes, should.stride):
+            raise BankError(f"has a section {name!r} that does not fit its samples, cells and entries")
+        end = offset + size
+        found[name] = Section(name, offset, count, row_bytes, stride, crc)
+    if up(end, PAGE) != file_bytes:
+        raise BankError(f"has sections that end at byte {end} of {file_bytes}")
+    return found

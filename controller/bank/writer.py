@@ -1,0 +1,200 @@
+"""Writes a bank so that at any moment the old one or the new one is there, whole.
+
+Entries go to a temporary file beside the bank as they come; when all are there it is fsynced,
+renamed over the old bank, and the folder fsynced. Whatever interrupts this, even the loss of power,
+leaves the old bank; a file left behind by a writer that died is removed by the next one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import errno
+import fcntl
+import glob
+import os
+import secrets
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.file_format import Header, Section
+from controller.bank.packing import CHANNELS, WORD
+from controller.errors import BankError
+
+
+class BankWriter:
+    """A bank being written; use as a context manager.
+
+    Leaving the block commits the bank if every cell has its entry; an exception discards it.
+
+    Parameters
+    ----------
+    path : Path
+        Where the bank is to be; its folder must exist.
+    header : Header
+        `header.entries` is the number of cells in `cells`.
+    cells : (grid.cells,) bool array
+        Which cells have an entry. Entries lie in the order of their cells.
+
+    Raises
+    ------
+    BankError
+        If the folder or the disk does not take the file; the old bank is untouched.
+    """
+
+    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_]) -> None:
+        if cells.shape != (header.grid.cells,) or np.count_nonzero(cells) != header.entries:
+            raise ValueError(f"{np.count_nonzero(cells)} of {cells.shape} cells do not fit the header")
+        header.pack(header.sections())  # what the format cannot hold is refused before the work
+        self.path = path
+        self._header = header
+        self._sections = {s.name: s for s in header.sections()}
+        self._index = np.where(cells, np.cumsum(cells) - 1, -1).astype("<i4")
+        self._checksums = np.zeros((header.entries, 2), "<u4")
+        self._scale = np.zeros(header.entries, "<f4")
+        self._written = np.zeros(header.entries, bool)
+        self._fd = -1
+
+    def __enter__(self) -> BankWriter:
+        with self._disk_errors():
+            if self.path.is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            remove_leftovers(self.path)
+            self._temporary, self._fd = _create_locked(self.path)
+            try:
+                _reserve(self._fd, self._header.file_bytes)
+            except BaseException:
+                self._discard()
+                raise
+        return self
+
+    def add(self, cell: int, words: NDArray[np.uint32], response: NDArray[np.int8], scale_m_per_v: float) -> None:
+        """Write the entry of one cell.
+
+        Parameters
+        ----------
+        cell : int
+            A cell of `cells` that has no entry yet.
+        words : (samples,) uint32 array
+            Drive words.
+        response : (samples, 32) int8 array
+            Response in drive order, in steps of `scale_m_per_v`.
+        scale_m_per_v : float
+            m per V of one step.
+        """
+        samples = self._header.samples
+        if words.shape != (samples,) or words.dtype != WORD or response.shape != (samples, CHANNELS) or response.dtype != np.int8:
+            raise ValueError(f"entry of {words.shape} {words.dtype} and {response.shape} {response.dtype}, not {samples} samples")
+        entry = int(self._index[cell])
+        if entry < 0 or self._written[entry]:
+            raise ValueError(f"cell {cell} {'was not asked for' if entry < 0 else 'has its entry already'}")
+        with self._disk_errors():
+            for column, (name, data) in enumerate((("drive", words), ("response", response))):
+                payload = np.ascontiguousarray(data).data.cast("B")
+                section = self._sections[name]
+                _write(self._fd, payload, section.offset + entry * section.stride)
+                self._checksums[entry, column] = zlib.crc32(payload)
+        self._scale[entry] = scale_m_per_v
+        self._written[entry] = True
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        try:
+            if kind is None:
+                self._commit()
+        finally:
+            self._discard()
+
+    def _commit(self) -> None:
+        if not self._written.all():
+            raise BankError(f"{self.path}: {np.count_nonzero(~self._written)} of {self._written.size} entries were never written")
+        with self._disk_errors():
+            sections = tuple(self._finished(s) for s in self._sections.values())
+            _write(self._fd, memoryview(self._header.pack(sections)), 0)
+            os.fsync(self._fd)
+            self._temporary.replace(self.path)
+        _sync_folder(self.path)
+
+    def _finished(self, section: Section) -> Section:
+        """Write a table and note its CRC-32; entries have theirs in `checksums`."""
+        tables = {"index": self._index, "checksums": self._checksums, "scale": self._scale}
+        if section.name not in tables:
+            return section
+        payload = tables[section.name].tobytes()
+        _write(self._fd, memoryview(payload), section.offset)
+        return dataclasses.replace(section, crc=zlib.crc32(payload))
+
+    def _discard(self) -> None:
+        """Remove the temporary file if it has not become the bank; its lock goes with it."""
+        if self._fd < 0:
+            return
+        with contextlib.suppress(OSError):
+            self._temporary.unlink()
+        os.close(self._fd)
+        self._fd = -1
+
+    @contextlib.contextmanager
+    def _disk_errors(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise BankError(f"{self.path}: cannot be written ({error.strerror}); a bank that was there is untouched") from error
+
+
+def _create_locked(path: Path) -> tuple[Path, int]:
+    """Create a temporary file beside `path` and lock it: the lock says that its writer lives."""
+    while True:
+        temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.building")
+        fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+        fcntl.flock(fd, fcntl.LOCK_EX)
+        if os.fstat(fd).st_nlink:  # else another writer took it for a leftover before it was locked
+            return temporary, fd
+        os.close(fd)
+
+
+def remove_leftovers(path: Path) -> int:
+    """Remove temporary files of this bank whose writer has died; say how many."""
+    removed = 0
+    for leftover in path.parent.glob(f".{glob.escape(path.name)}.*.building"):
+        with contextlib.suppress(OSError):  # another writer may remove it first, or own it
+            fd = os.open(leftover, os.O_RDWR | os.O_CLOEXEC)
+            try:
+                fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                leftover.unlink()
+                removed += 1
+            finally:
+                os.close(fd)
+    return removed
+
+
+def _sync_folder(path: Path) -> None:
+    """Make the new name as durable as the file."""
+    try:
+        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as error:
+        if error.errno != errno.EINVAL:  # a file system whose folders cannot be synced
+            raise BankError(f"{path}: written, but its folder cannot be synced ({error.strerror})") from error
+
+
+def _reserve(fd: int, size: int) -> None:
+    """Make the file its full size, zeros, so that a disk too small says so before the work."""
+    try:
+        os.posix_fallocate(fd, 0, size)
+    except OSError as error:
+        if error.errno not in {errno.EOPNOTSUPP, errno.EINVAL}:
+            raise
+        os.ftruncate(fd, size)  # this file system cannot reserve: it will say so while writing
+
+
+def _write(fd: int, data: memoryview, offset: int) -> None:
+    while data:
+        written = os.pwrite(fd, data, offset)
+        data, offset = data[written:], offset + written
