@@ -24,7 +24,7 @@ Point = tuple[float, float]
 MAP_STEP_M = 2e-3
 OUTSIDE_M = 10e-3  # contrast is against what lies farther from the focus
 LINE_M = np.arange(-120, 121) * 0.05e-3  # where the spot is measured
-CREST_M = 2.5e-3  # the crest of a spot is looked for this near the focus: less than half a wavelength at 70 kHz
+CREST_M = np.arange(-16, 17) * 0.25e-3  # a spot's crest is looked for this near: less than half a wavelength at 70 kHz
 AROUND_S = np.arange(-50, 51) * 0.1e-6
 
 
@@ -73,7 +73,8 @@ class Field:
     @cached_property
     def modal(self) -> Floats:
         """Displacement of each mode at T in m: (mode,)."""
-        return self.level + self.step.by_mode(self.pole_amplitudes.real) + self.driver_amplitudes.real.sum(1)
+        modal: Floats = self.level + self.step.by_mode(self.pole_amplitudes.real) + self.driver_amplitudes.real.sum(1)
+        return modal
 
     @cached_property
     def _matrix(self) -> Floats:
@@ -102,7 +103,7 @@ class Field:
         u = float(shape @ self.level) + _ring(tables, rows * self.pole_amplitudes, shape @ self.driver_amplitudes)
         for edge_s, force in zip(self.near_s, self.near_force.T, strict=True):
             # the state holds the steps before T: take each out again for times before it; add those after T
-            here = AROUND_S > edge_s if edge_s >= 0 else AROUND_S < edge_s
+            here = np.greater(AROUND_S, edge_s) if edge_s >= 0 else np.less(AROUND_S, edge_s)
             poles = rows * force[self.step.mode_of_pole] * self.step.residues * np.exp(-self.step.poles * edge_s)
             drivers = (shape * force) @ self.step.driver_residues * np.exp(-self.step.driver_poles * edge_s)
             pushed = float((shape * force) @ self.step.static) + _ring(tables, poles, drivers, here)
@@ -127,14 +128,24 @@ class Field:
             amplitude_m=amplitude,
             contrast=_over(amplitude, float(squared[outside].mean()) if outside.any() else 0.0),
             contrast_all=_over(amplitude, float(squared.mean())),
-            spot_m=self._spot(x_m, y_m, amplitude),
+            spot_m=self._spot(self.crest(x_m, y_m), amplitude),
             peak_offset_s=self._peak_offset((x_m, y_m), amplitude),
         )
 
-    def _spot(self, x_m: float, y_m: float, amplitude: float) -> float:
+    def crest(self, x_m: float, y_m: float) -> Point:
+        """Where the spot that holds (x, y) is highest at T: within 4 mm along x and y, on the side of zero where (x, y) is."""
+        x = x_m + CREST_M[(x_m + CREST_M >= 0) & (x_m + CREST_M <= self.modes.length_m)]
+        y = y_m + CREST_M[(y_m + CREST_M >= 0) & (y_m + CREST_M <= self.modes.width_m)]
+        u = self.modes.x_sines(x) @ self._matrix @ self.modes.y_sines(y).T
+        u *= 1.0 if self.at((x_m, y_m))[0] >= 0 else -1.0
+        i, j = np.unravel_index(int(np.argmax(u)), u.shape)
+        step = float(CREST_M[1] - CREST_M[0])
+        return float(x[i]) + step * _vertex(u[:, j], int(i)), float(y[j]) + step * _vertex(u[i], int(j))
+
+    def _spot(self, crest: Point, amplitude: float) -> float:
         widths = []
         for dx, dy in ((1.0, 0.0), (0.0, 1.0), (0.5**0.5, 0.5**0.5), (0.5**0.5, -(0.5**0.5))):
-            x, y = x_m + dx * LINE_M, y_m + dy * LINE_M
+            x, y = crest[0] + dx * LINE_M, crest[1] + dy * LINE_M
             on_plate = (x >= 0) & (x <= self.modes.length_m) & (y >= 0) & (y <= self.modes.width_m)
             line = np.where(on_plate, self.at(np.column_stack([x, y])), 0.0)
             widths.append(half_width(line if amplitude >= 0 else -line))
@@ -143,21 +154,26 @@ class Field:
     def _peak_offset(self, point_m: Point, amplitude: float) -> float:
         u = self.around(point_m) * (1 if amplitude >= 0 else -1)
         top = int(np.argmax(u))
-        if top in (0, len(u) - 1):
-            return float(AROUND_S[top])
-        before, at, after = u[top - 1 : top + 2]
-        return float(AROUND_S[top] + 0.5 * (before - after) / (before - 2 * at + after) * (AROUND_S[1] - AROUND_S[0]))
+        return float(AROUND_S[top] + _vertex(u, top) * (AROUND_S[1] - AROUND_S[0]))
 
 
 def half_width(line: Floats) -> float:
-    """Full width at half height of the crest near the middle of a line sampled at `LINE_M`, in m.
+    """Full width at half height of a crest in the middle of a line sampled at `LINE_M`, in m.
 
     A crest that does not fall to half within the line has the width up to the line's end.
     """
-    near = np.flatnonzero(abs(LINE_M) <= CREST_M)
-    top = int(near[np.argmax(line[near])])
-    half = line[top] / 2
+    top = len(LINE_M) // 2
+    half = float(line[top]) / 2
     return _crossing(line[top:], half) + _crossing(line[top::-1], half)
+
+
+def _vertex(values: Floats, top: int) -> float:
+    """Offset, in samples, of a parabola's vertex from the largest of its samples; 0 at the rim."""
+    if top in (0, len(values) - 1):
+        return 0.0
+    before, at, after = (float(v) for v in values[top - 1 : top + 2])
+    curvature = before - 2 * at + after
+    return 0.5 * (before - after) / curvature if curvature else 0.0
 
 
 def _crossing(falling: Floats, half: float) -> float:
@@ -186,7 +202,7 @@ def _ring(
 
 def _centres(extent_m: float, step_m: float) -> Floats:
     count = int(np.ceil(extent_m / step_m - 1e-9))
-    return (np.arange(count) + 0.5) * (extent_m / count)
+    return np.linspace(0.5, count - 0.5, count) * (extent_m / count)
 
 
 def _over(amplitude: float, mean_square: float) -> float:

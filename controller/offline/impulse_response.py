@@ -6,8 +6,9 @@ time step. Sample j is the displacement (j + 1) bit periods after the start of t
 
 The band-limited response is the response for all times (zero before the pulse, decaying for ever
 after T) through a real, even gain over frequency (zero phase), then cut to the samples of one
-emission, [0, T]. It is applied to the modes, so it costs nothing per point. The gain is 1 inside
-the band and falls to 0 over `EDGE_HZ` centred on each band edge, as a raised cosine.
+emission, [0, T]. It is applied to the modes, so it costs nothing per point. The gain is a half at the
+band's edges and goes from 0 to 1 over `EDGE_HZ` as a raised cosine: with the paper's 20 kHz nothing
+is left below 16 kHz. Sharper edges ring for longer and lose contrast (28.0 at 0.1 kHz, 30.7 at 8 kHz).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from controller.offline.plate import PlateModes
 from controller.offline.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
-EDGE_HZ = 2e3
+EDGE_HZ = 8e3
 POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough to stay in the cache
 SETTLED = 14  # decay times after which the rest of a response is below 1e-6
 
@@ -193,7 +194,7 @@ def band_limited_response(
 
 
 def band_gain(frequency_hz: Floats, band_hz: tuple[float, float], edge_hz: float = EDGE_HZ) -> Floats:
-    """Real gain over frequency: 1 in the band, a raised cosine of `edge_hz` centred on each edge, 0 outside."""
+    """Real gain over frequency: 1 in the band, 0 outside, a raised cosine of `edge_hz` centred on each edge."""
     low, high = band_hz
     rise = np.clip((frequency_hz - low) / edge_hz + 0.5, 0, 1)
     fall = np.clip((high - frequency_hz) / edge_hz + 0.5, 0, 1)

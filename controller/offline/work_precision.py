@@ -1,0 +1,137 @@
+"""The figures a panel reaches, measured as DESIGN.md defines them, with nothing left out.
+
+Every function takes a board and gives plain numbers, so that `haptic-panel ... --json` can print them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.packing import channel_bits, drive_words
+from controller.board import Board
+from controller.offline.audible import surface_energy
+from controller.offline.field import Field
+from controller.offline.focusing import focus
+from controller.offline.impulse_response import ResponseModel
+from controller.offline.plate_twin import PlateTwin, capture_of_words
+
+Floats = NDArray[np.float64]
+Figures = dict[str, Any]
+
+MARGIN_M = 10e-3
+SQUARE_M = 10e-3
+SETTLED = 40  # decay times between stepping to the idle word and an emission
+
+
+def figures(board: Board, seed: int = 1, points: int = 20) -> Figures:
+    """All figures of a board at random points at least 10 mm from the edges, each as min, median and max.
+
+    Parameters
+    ----------
+    seed : int
+        Of the points.
+    points : int
+        How many; none is left out.
+    """
+    model = ResponseModel(board)
+    places = random_points(board, seed, points)
+    return {
+        "seed": seed,
+        "points": points,
+        "modes": model.modes,
+        "moment_n_per_v": board.driver.moment_n_per_v,
+        "single": single_foci(board, model, places),
+        "single_all_idle_low": single_foci(idling_low(board), model, places),
+        "four_foci": four_foci(board, model, places),
+        "float32": float32_against_float64(board, model, places),
+    }
+
+
+def random_points(board: Board, seed: int, count: int) -> Floats:
+    """Points at least 10 mm from the plate's edges: (point, 2) in m."""
+    far = np.array([board.plate.length_m, board.plate.width_m]) - MARGIN_M
+    return np.random.default_rng(seed).uniform(MARGIN_M, far, (count, 2))
+
+
+def idling_low(board: Board) -> Board:
+    """The same board with all channels waiting at 0 V."""
+    return msgspec.structs.replace(board, actuators=tuple(msgspec.structs.replace(a, idle=0) for a in board.actuators))
+
+
+def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
+    """The plate at T of one emission from rest at the idle word."""
+    board = twin.board
+    settled = round(SETTLED * board.plate.decay_time_s * board.link.clock_hz)
+    return next(twin.fields(capture_of_words(words, board.bit_ticks, board.idle_word, settled), board.link.clock_hz))
+
+
+def single_foci(board: Board, model: ResponseModel, points_m: Floats) -> Figures:
+    """Foci one at a time: amplitude, contrast, spot, time of the peak, and sound.
+
+    `audible_fraction_db` is `surface_energy` below 16 kHz over that of all frequencies to 100 kHz,
+    `audible_m2_per_s` the energy below 16 kHz itself.
+    """
+    twin = PlateTwin(board)
+    rows = []
+    for x_m, y_m in points_m.tolist():
+        words = focus(model.drive_order_responses([(x_m, y_m)], dtype=np.float64), [1.0], board.idle_word)
+        judged = emit(twin, words).focus_metrics(x_m, y_m)
+        audible = surface_energy(board, words, board.idle_word)
+        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=100e3)
+        rows.append(
+            {
+                "amplitude_um": judged.amplitude_m * 1e6,
+                "contrast": judged.contrast,
+                "contrast_all": judged.contrast_all,
+                "spot_mm": judged.spot_m * 1e3,
+                "peak_offset_us": judged.peak_offset_s * 1e6,
+                "relative_amplitude": judged.amplitude_m / twin.reference_amplitude(x_m, y_m),
+                "audible_m2_per_s": audible,
+                "audible_fraction_db": 10 * float(np.log10(audible / (audible + inaudible))),
+            }
+        )
+    return {key: spread([row[key] for row in rows]) for key in rows[0]}
+
+
+def four_foci(board: Board, model: ResponseModel, points_m: Floats) -> Figures:
+    """Four foci at the corners of squares of 10 mm, summed with equal weights, then the sign.
+
+    The squares are centred on the points, moved inwards where a corner would be nearer than 10 mm to an
+    edge. `share` is the amplitude of each corner over that of a single focus at the same point.
+    """
+    twin = PlateTwin(board)
+    inner = np.array([board.plate.length_m, board.plate.width_m]) - MARGIN_M - SQUARE_M / 2
+    share, contrast, spot = [], [], []
+    for centre in np.clip(points_m, MARGIN_M + SQUARE_M / 2, inner):
+        corners = centre + SQUARE_M / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+        words = focus(model.drive_order_responses(corners, dtype=np.float64), [1.0] * 4, board.idle_word)
+        field = emit(twin, words)
+        foci = [(float(x), float(y)) for x, y in corners]
+        for x_m, y_m in foci:
+            judged = field.focus_metrics(x_m, y_m, foci)
+            share.append(judged.amplitude_m / twin.reference_amplitude(x_m, y_m))
+            contrast.append(judged.contrast)
+            spot.append(judged.spot_m * 1e3)
+    return {"share": spread(share), "contrast": spread(contrast), "spot_mm": spread(spot)}
+
+
+def float32_against_float64(board: Board, model: ResponseModel, points_m: Floats) -> Figures:
+    """Bits that differ between responses computed in float32 and float64, and what they cost in amplitude."""
+    differing, ratio = [], []
+    for point in points_m:
+        exact = model.drive_order_responses(point, dtype=np.float64)[0]
+        words = drive_words(exact, board.idle_word)
+        rounded = drive_words(model.drive_order_responses(point, dtype=np.float32)[0], board.idle_word)
+        differing.append(float((channel_bits(words) != channel_bits(rounded)).mean()))
+        ratio.append(float(np.vdot(2.0 * channel_bits(rounded) - 1, exact) / np.vdot(2.0 * channel_bits(words) - 1, exact)))
+    return {"bits_differing": spread(differing), "amplitude_ratio": spread(ratio)}
+
+
+def spread(values: Sequence[float]) -> dict[str, float]:
+    """Smallest, median and largest."""
+    return {"min": float(np.min(values)), "median": float(np.median(values)), "max": float(np.max(values))}
