@@ -108,6 +108,15 @@ class Bank:
         """Which cells have an entry, (grid.cells,)."""
         return np.array(self._entry_of) >= 0
 
+    @property
+    def checksums(self) -> list[list[int]]:
+        """CRC-32 of the drive words and of the response of each entry."""
+        return self._crc_of
+
+    def read(self, offset: int, size: int) -> bytes:
+        """Copy bytes of the file; fewer at its end."""
+        return os.pread(self._fd, size, offset)
+
     def has(self, cell: int) -> bool:
         """Whether the bank holds an entry for this cell."""
         return 0 <= cell < len(self._entry_of) and self._entry_of[cell] >= 0

@@ -1,0 +1,125 @@
+"""Looks at whole banks: what one holds, whether every bit is as written, whether it is still the right one."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.file_format import Section
+from controller.bank.grid import Grid
+from controller.bank.reader import Bank
+from controller.board import Board
+from controller.errors import BankError
+
+
+def bank_info(path: Path) -> dict[str, Any]:
+    """Tell what a bank says about itself, from its header and tables alone.
+
+    Raises
+    ------
+    BankError
+        If it is no bank, or its header or a table is damaged.
+    """
+    with Bank.open(path) as bank:
+        header, grid = bank.header, bank.grid
+        return {
+            "path": str(path),
+            "bytes": header.file_bytes,
+            "creator": header.creator,
+            "board": header.parameters.get("board"),
+            "board_digest": header.board_digest.hex(),
+            "grid": {
+                "pitch_mm": grid.pitch_m * 1e3,
+                "nx": grid.nx,
+                "ny": grid.ny,
+                "x0_mm": grid.x0_m * 1e3,
+                "y0_mm": grid.y0_m * 1e3,
+            },
+            "cells": header.entries,
+            "cells_of_grid": grid.cells,
+            "samples": header.samples,
+            "bit_clock_hz": header.bit_clock_hz,
+            "parameters": header.parameters,
+            "sections": {s.name: {"offset": s.offset, "bytes": s.size} for s in bank.sections.values()},
+        }
+
+
+def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
+    """Read every byte of a bank and check it; a flip of any bit is found.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    progress : callable, optional
+        Called with bytes read and bytes in all.
+
+    Raises
+    ------
+    BankError
+        Naming the place of the first damage.
+    """
+    with Bank.open(path) as bank:  # checks the header, its padding and the tables
+        end = bank.header.header_bytes
+        for section in bank.sections.values():
+            _check_padding(bank, end, section.offset)
+            end = section.offset + section.size
+            if section.name in {"drive", "response"}:
+                _check_entries(bank, section, progress or (lambda _done, _all: None))
+        _check_padding(bank, end, bank.header.file_bytes)
+        return {"path": str(path), "bytes": bank.header.file_bytes, "cells": bank.header.entries, "good": True}
+
+
+def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
+    """Check every row against its CRC-32, and what lies between the rows."""
+    column = ["drive", "response"].index(section.name)
+    cell_of = np.flatnonzero(bank.cells)
+    for entry, checksums in enumerate(bank.checksums):
+        start = section.offset + entry * section.stride
+        row = bank.read(start, section.row_bytes)
+        if zlib.crc32(row) != checksums[column]:
+            raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]})")
+        _check_padding(bank, start + section.row_bytes, start + section.stride)
+        progress(start + section.stride, bank.header.file_bytes)
+
+
+def _check_padding(bank: Bank, start: int, end: int) -> None:
+    if bank.read(start, end - start).strip(b"\0"):
+        raise _damage(bank, start, end - start, "padding that is not zero")
+
+
+def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
+    return BankError(f"{bank.path}: damaged in bytes {start} to {start + size - 1}: {what}; rebuild it: {bank.rebuild}")
+
+
+def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_] | None, creator: str | None = None) -> bool:
+    """Whether a bank is whole and serves this board, grid and set of cells; else it is to be (re)built.
+
+    Parameters
+    ----------
+    path : Path
+        The bank; it need not exist.
+    board : Board
+        What it must have been built for.
+    pitch_m : float
+        Pitch it must have.
+    cells : (cells,) bool array or None
+        Cells it must hold; all for None. More do no harm.
+    creator : str, optional
+        Program and version that must have built it.
+    """
+    grid = Grid.of(board.plate, pitch_m)
+    try:
+        with Bank.open(path, board) as bank:
+            needed = np.ones(grid.cells, bool) if cells is None else cells
+            if bank.grid != grid or (needed & ~bank.cells).any() or creator not in {None, bank.header.creator}:
+                return False
+        verify_bank(path)
+    except BankError:
+        return False
+    return True

@@ -1,0 +1,173 @@
+"""Builds a board's bank: responses of the cells in blocks, packed, quantised and written as they come."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import importlib.metadata
+import resource
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.file_format import Header
+from controller.bank.grid import Grid
+from controller.bank.packing import CHANNELS, drive_words, quantise
+from controller.bank.writer import BankWriter
+from controller.board import Board
+from controller.errors import BankError, ConfigError
+from controller.offline.impulse_response import ResponseModel
+
+HIGHEST_HZ = 100e3
+CELLS_PER_BLOCK = 64  # 8 MB of responses at 1000 samples
+# (rows, inner, columns): large squares, and the shapes of the response step itself
+SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
+
+
+@dataclasses.dataclass(frozen=True)
+class BuildReport:
+    """What a build gave and what it cost.
+
+    `gemm_fraction` is 2 cells modes samples channels / (best sgemm rate x response_seconds): how near the
+    response step, all of it, comes to what the machine's matrix multiplication can do. None if not measured.
+    """
+
+    path: str
+    bytes: int
+    cells: int
+    modes: int
+    seconds: float
+    model_seconds: float
+    response_seconds: float
+    sgemm_gflops: float | None
+    gemm_fraction: float | None
+    peak_memory_mb: float
+
+
+def build_bank(
+    board: Board,
+    path: Path,
+    pitch_m: float | None = None,
+    cells: NDArray[np.bool_] | None = None,
+    *,
+    scene: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    measure_sgemm: bool = True,
+    highest_hz: float = HIGHEST_HZ,
+) -> BuildReport:
+    """Build a bank and put it in place of the one at `path`, if any.
+
+    Parameters
+    ----------
+    board : Board
+    path : Path
+        Its folder is made if it is missing.
+    pitch_m : float, optional
+        Of the grid; the board's own by default.
+    cells : (cells of the grid,) bool array, optional
+        Cells to build; all by default.
+    scene : str, optional
+        What `cells` came from, noted in the build parameters.
+    progress : callable, optional
+        Called with cells done and cells in all after every block.
+    measure_sgemm : bool
+        Measure the best rate of matrix multiplication for `gemm_fraction`: about a second.
+    highest_hz : float
+        Modes above are left out.
+
+    Raises
+    ------
+    ConfigError
+        If the pitch leaves no cell, or `cells` is empty.
+    BankError
+        If the folder or disk does not take the file; an old bank is untouched.
+    """
+    started = time.perf_counter()
+    grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
+    wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
+    if wanted.shape != (grid.cells,):
+        raise ValueError(f"cells are {wanted.shape}, not ({grid.cells},)")
+    if not wanted.any():
+        raise ConfigError(f"{scene or 'scene'}: no region reaches a cell of the {grid.pitch_m * 1e3:g} mm grid: nothing to build")
+    numbers = np.flatnonzero(wanted)
+    points_m = grid.points()[numbers]
+    header = Header(
+        creator=creator(),
+        board_digest=board.digest(),
+        grid=grid,
+        bit_clock_hz=board.waveform.bit_clock_hz,
+        samples=board.waveform.samples,
+        entries=len(numbers),
+        parameters={
+            "board": board.name,
+            "pitch_mm": grid.pitch_m * 1e3,
+            "highest_hz": highest_hz,
+            "precision": "float32",
+            "scene": scene,
+            "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
+        },
+    )
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BankError(f"{path}: its folder cannot be made ({error.strerror})") from error
+    response_seconds = 0.0
+    with BankWriter(path, header, wanted) as writer:  # a folder or disk that cannot take it is refused before the work
+        model = ResponseModel(board, highest_hz)
+        model_seconds = time.perf_counter() - started
+        block = np.empty((min(CELLS_PER_BLOCK, len(numbers)), header.samples, CHANNELS), np.float32)
+        for first in range(0, len(numbers), CELLS_PER_BLOCK):
+            some = slice(first, first + CELLS_PER_BLOCK)
+            responses = block[: len(numbers[some])]
+            before = time.perf_counter()
+            model.drive_order_responses(points_m[some], out=responses)
+            response_seconds += time.perf_counter() - before
+            for cell, response in zip(numbers[some].tolist(), responses, strict=True):
+                writer.add(cell, drive_words(response, board.idle_word), *quantise(response))
+            if progress:
+                progress(first + len(responses), len(numbers))
+    seconds = time.perf_counter() - started
+    flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS
+    rate = best_sgemm_rate() if measure_sgemm else None
+    return BuildReport(
+        path=str(path),
+        bytes=header.file_bytes,
+        cells=len(numbers),
+        modes=model.modes,
+        seconds=seconds,
+        model_seconds=model_seconds,
+        response_seconds=response_seconds,
+        sgemm_gflops=rate and rate / 1e9,
+        gemm_fraction=rate and flops / (rate * response_seconds),
+        peak_memory_mb=peak_memory_mb(),
+    )
+
+
+def creator() -> str:
+    """Program and version, as the header of a bank names it."""
+    return f"haptic-panel {importlib.metadata.version('haptic-panel')}"
+
+
+def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:
+    """Best rate of float32 matrix multiplication over several shapes, in flop/s, on the threads in use."""
+    best = 0.0
+    for rows, inner, columns in shapes:
+        a, b = np.ones((rows, inner), np.float32), np.ones((inner, columns), np.float32)
+        product = np.empty((rows, columns), np.float32)
+        for _ in range(repeats):
+            before = time.perf_counter()
+            np.matmul(a, b, out=product)
+            best = max(best, 2.0 * rows * inner * columns / (time.perf_counter() - before))
+    return best
+
+
+def peak_memory_mb() -> float:
+    """Largest resident memory of this process so far, in MB of 10^6 bytes."""
+    try:
+        status = Path("/proc/self/status").read_text(encoding="ascii")  # ru_maxrss also counts what exec replaced
+        return float(status.partition("VmHWM:")[2].split()[0]) * 1024e-6
+    except (OSError, IndexError):
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024e-6
