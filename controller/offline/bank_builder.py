@@ -7,11 +7,11 @@ import hashlib
 import importlib.metadata
 import resource
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from tqdm import tqdm
 
 from controller.bank.file_format import Header
 from controller.bank.grid import Grid
@@ -54,7 +54,7 @@ def build_bank(
     cells: NDArray[np.bool_] | None = None,
     *,
     scene: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: bool = False,
     measure_sgemm: bool = True,
     highest_hz: float = HIGHEST_HZ,
 ) -> BuildReport:
@@ -71,8 +71,8 @@ def build_bank(
         Cells to build; all by default.
     scene : str, optional
         What `cells` came from, noted in the build parameters.
-    progress : callable, optional
-        Called with cells done and cells in all after every block.
+    progress : bool
+        Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
         Measure the best rate of matrix multiplication for `gemm_fraction`: about a second.
     highest_hz : float
@@ -115,7 +115,10 @@ def build_bank(
     except OSError as error:
         raise BankError(f"{path}: its folder cannot be made ({error.strerror})") from error
     response_seconds = 0.0
-    with BankWriter(path, header, wanted) as writer:  # a folder or disk that cannot take it is refused before the work
+    with (
+        BankWriter(path, header, wanted) as writer,  # a folder or disk that cannot take it is refused before the work
+        tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
+    ):
         model = ResponseModel(board, highest_hz)
         model_seconds = time.perf_counter() - started
         block = np.empty((min(CELLS_PER_BLOCK, len(numbers)), header.samples, CHANNELS), np.float32)
@@ -127,8 +130,7 @@ def build_bank(
             response_seconds += time.perf_counter() - before
             for cell, response in zip(numbers[some].tolist(), responses, strict=True):
                 writer.add(cell, drive_words(response, board.idle_word), *quantise(response))
-            if progress:
-                progress(first + len(responses), len(numbers))
+            bar.update(len(responses))
     seconds = time.perf_counter() - started
     flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS
     rate = best_sgemm_rate() if measure_sgemm else None
