@@ -20,8 +20,8 @@ from controller.errors import FaultError
 from controller.fpga.session import HostSilent, Session
 from controller.latency import Counters
 from controller.playback import ENDLESS, NEVER, Playback
-from controller.scene import Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
-from controller.touch.source import Source
+from controller.scene import OUTSIDE, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
+from controller.touch.source import TouchSource
 
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
 
@@ -77,7 +77,7 @@ class EventLoop:
     """
 
     def __init__(
-        self, clock: Clock, session: Session, source: Source, scene: Scene, playback: Playback, counters: Counters
+        self, clock: Clock, session: Session, source: TouchSource, scene: Scene, playback: Playback, counters: Counters
     ) -> None:
         self._clock = clock
         self._session = session
@@ -187,7 +187,7 @@ class EventLoop:
             self._fingers[sample.finger] = state
             if emissions:
                 self._add(emissions)
-            elif state.region is None:
+            elif state.region == OUTSIDE:
                 self._counters.skipped.outside_region += 1
             else:
                 self._counters.skipped.between_emissions += 1

@@ -94,6 +94,8 @@ class Playback:
         self._played = played
         self._slots = slots
         self._slot_of: OrderedDict[Key | str, int] = OrderedDict()  # least recently played first
+        self._prepared: _Prepared | None = None
+        self._running: Played | None = None  # an endless repetition
         self.forget_slots()
 
     @property
@@ -193,8 +195,8 @@ class Playback:
         """Take it that the FPGA holds and plays nothing: at the start, and after a fault."""
         self._slot_of.clear()
         self._slot_of.update((_empty(slot), slot) for slot in range(self._slots))
-        self._prepared: _Prepared | None = None
-        self._running: Played | None = None  # an endless repetition
+        self._prepared = None
+        self._running = None
 
 
 def _empty(slot: int) -> str:

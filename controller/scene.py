@@ -193,10 +193,15 @@ def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArra
 
 
 def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Along one axis, from where to where a point takes a cell: a pitch either way, without end at the rim."""
+    """Along one axis, from where to where a point takes a cell: a pitch either way.
+
+    For the two outermost rows it goes on without end: a point beyond the outermost is taken to lie on
+    it, and there the inner one still has its part (of weight 0).
+    """
     far_m = 1e3
-    low = np.where(at < at.min(initial=np.inf) + pitch_m / 2, at - far_m, at - half_m)
-    high = np.where(at > at.max(initial=-np.inf) - pitch_m / 2, at + far_m, at + half_m)
+    rim_m = 1.5 * pitch_m
+    low = np.where(at < at.min(initial=np.inf) + rim_m, at - far_m, at - half_m)
+    high = np.where(at > at.max(initial=-np.inf) - rim_m, at + far_m, at + half_m)
     return low, high
 
 

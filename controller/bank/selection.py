@@ -37,6 +37,11 @@ class Selection:
         self._idle_word = idle_word
         self._composer: Composer | None = None
 
+    @property
+    def composes(self) -> bool:
+        """Whether anything had to be composed so far, and the response section with it mapped."""
+        return self._composer is not None
+
     def key(self, points: Sequence[Point]) -> Key:
         """Name of the waveform for these points; equal keys have equal words."""
         if len(points) == 1:

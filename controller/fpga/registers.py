@@ -23,7 +23,7 @@ CHUNK_WORDS: Final = 125
 WAVEFORM_WORDS: Final = 1000
 CHANNELS: Final = 32
 
-BIT_TICKS_MIN: Final = 2
+BIT_TICKS_MIN: Final = 4
 BIT_TICKS_MAX: Final = 65535
 RAMP_SAMPLES_MAX: Final = 262143
 RAMP_SAMPLES_RESET: Final = 5000
@@ -79,7 +79,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.GEOMETRY: Description("RO", "slots | words per slot << 8 | channels << 24"),
     Register.CONTROL: Description("WO", "1 ARM (version, build hash), 2 DISARM, 3 CLEAR faults, 4 STOP"),
     Register.IDLE_WORD: Description("RW", "level of each channel while armed and not playing; 0 after reset"),
-    Register.BIT_TICKS: Description("RW", "clocks one drive word is held, 2 to 65535; 500 kHz after reset"),
+    Register.BIT_TICKS: Description("RW", "clocks one drive word is held, 4 to 65535; 500 kHz after reset"),
     Register.RAMP_SAMPLES: Description("RW", "drive words in the glide between 0 and idle, 1 to 262143; 5000 after reset"),
     Register.HEARTBEAT_TICKS: Description(
         "RW", "clocks without a good frame until HOST_SILENT; at most, and after reset, the limit built in"

@@ -185,7 +185,7 @@ class Session:
             end = frames.pack_store(self._sent, end, sequence, slot, length)
             sequence += 1
         period_ticks = round(period_s * self._board.link.clock_hz)
-        end = frames.pack_play(self._sent, end, sequence, slot, count, period_ticks)
+        end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
 
     def _control(self, command: Control) -> None:

@@ -22,6 +22,7 @@ from controller.touch.tracks import Track
 Event = tuple[int, int, int, float]  # type, code, value, time in s from the first event
 
 INT32_MIN, INT32_MAX = -(1 << 31), (1 << 31) - 1
+NEWEST_VERSION = (1, 3)
 LONGEST_NUMBER = 20  # digits; Python refuses to read numbers of thousands
 
 VERSION = re.compile(r"#\s*EVEMU\s+(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
@@ -124,7 +125,8 @@ class Recording:
                 if declared.minimum < declared.maximum:
                     self._declared[int(axis[1], 16)] = declared
             elif version := VERSION.fullmatch(line):
-                self.warnings["unknown_version"] += (int(version[1]), int(version[2])) > (1, 3)
+                if (int(version[1]), int(version[2])) > NEWEST_VERSION:
+                    self.warnings["unknown_version"] += 1
             elif line and not line.startswith("#") and not OTHER.fullmatch(line):
                 self.warnings["garbage_lines"] += 1
         times = rebased([event[3] for event in found], self.warnings)

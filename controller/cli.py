@@ -1,0 +1,257 @@
+"""The command line: arguments, exit codes, printing. Every subcommand is one call into a room."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from controller import __version__
+from controller.bank.grid import Grid
+from controller.bank.inspection import bank_info, is_current, verify_bank
+from controller.bank.location import bank_path
+from controller.bank.reader import Bank
+from controller.board import Board, find_board, load_board
+from controller.errors import ConfigError, ControllerError
+from controller.hardware import recording_path
+from controller.scene import Scene, load_scene, reach
+from controller.scene_file import find_scene
+from controller.touch.recording import Recording
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from controller.offline.bank_builder import BuildReport
+    from controller.offline.simulated_run import Judged
+
+OFFLINE_HINT = "this command needs the offline tools: pip install 'haptic-panel[offline]'"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; its exit code (0, or 2 usage, 78 configuration, 69 device missing, 1 otherwise)."""
+    options = _parser().parse_args(arguments)
+    command: Callable[[argparse.Namespace], int] = options.command
+    try:
+        return command(options)
+    except ControllerError as error:
+        print(f"haptic-panel: {error}", file=sys.stderr)
+        return error.exit_code
+    except ModuleNotFoundError as error:
+        if error.name in {"scipy", "matplotlib", "tqdm", "threadpoolctl"}:
+            print(f"haptic-panel: {OFFLINE_HINT} ({error.name} is missing)", file=sys.stderr)
+            return 69
+        raise
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 1
+    except KeyboardInterrupt:
+        print("haptic-panel: interrupted", file=sys.stderr)
+        return 130
+
+
+def run(options: argparse.Namespace) -> int:
+    """Replay a recording on the simulated panel and print what its fingers would have felt."""
+    from controller.offline import report_text, simulated_run  # noqa: PLC0415
+
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene or board.scene)
+    scene = load_scene(scene_file, board)
+    recording = Recording.open(recording_path(board, options.replay))
+    with _open_bank(options, board, scene, scene_file) as bank:
+        done = simulated_run.play(board, scene, bank, recording, real_time=options.speed != "max")
+    judged = simulated_run.judge(done, _progress("plate"))
+    figures = simulated_run.report(done, judged.foci)
+    for warning in figures["warnings"]:
+        print(f"haptic-panel: {recording.name}: {warning}", file=sys.stderr)
+    if options.plot:
+        _plot_run(Path(options.plot), board, judged, recording.name)
+    _show(options, figures, report_text.run_table)
+    return 0
+
+
+def bank_build(options: argparse.Namespace) -> int:
+    """Build a bank for a board: of the whole plate, or of the cells that a scene can reach."""
+    from controller.offline.report_text import plain_table  # noqa: PLC0415
+
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene) if options.scene else None
+    scene = load_scene(scene_file, board) if scene_file else None
+    path = Path(options.out) if options.out else bank_path(board.name, scene_file.stem if scene_file else "plate")
+    pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
+    name = scene_file.name if scene_file else None
+    _show(options, asdict(_build(board, path, pitch_m, scene, name)), plain_table)
+    return 0
+
+
+def bank_tell(options: argparse.Namespace) -> int:
+    """Say what a bank holds and what it was computed from."""
+    from controller.offline.report_text import plain_table  # noqa: PLC0415
+
+    _show(options, bank_info(_bank_file(options)), plain_table)
+    return 0
+
+
+def bank_check(options: argparse.Namespace) -> int:
+    """Check every bit of a bank."""
+    from controller.offline.report_text import plain_table  # noqa: PLC0415
+
+    _show(options, verify_bank(_bank_file(options)), plain_table)
+    return 0
+
+
+def _bank_file(options: argparse.Namespace) -> Path:
+    """The file given, else the bank of the board's default scene."""
+    if options.file:
+        return Path(options.file)
+    board = load_board(find_board(options.board))
+    return bank_path(board.name, find_scene(board, board.scene).stem)
+
+
+def focus(options: argparse.Namespace) -> int:
+    """Focus on points of the plate and say how good the focus is; or measure the figures of the README."""
+    from controller.offline.report_text import plain_table  # noqa: PLC0415
+    from controller.offline.work_precision import figures, focus_on  # noqa: PLC0415
+
+    board = load_board(find_board(options.board))
+    if options.figures:
+        _show(options, figures(board, options.seed), plain_table)
+        return 0
+    if not options.at:
+        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures")
+    points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
+    field, rows = focus_on(board, points_m)
+    if options.plot:
+        from controller.offline.plot import plot_focus  # noqa: PLC0415
+
+        plot_focus(Path(options.plot), board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
+    _show(options, {"board": board.name, "foci": rows}, lambda shown: "\n\n".join(map(plain_table, shown["foci"])))
+    return 0
+
+
+def _on_plate(position_mm: float, extent_mm: float) -> float:
+    """Position in m of a focus.
+
+    Raises
+    ------
+    ConfigError
+        If nothing can move there.
+    """
+    if not 0 < position_mm < extent_mm:  # NaN too
+        raise ConfigError(f"--at {position_mm:g}: not inside the plate (0 to {extent_mm:g} mm)")
+    return position_mm * 1e-3
+
+
+def _open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path) -> Bank:
+    """Bank asked for, or the board's own, which is built again when it is missing, damaged, or of another board or scene."""
+    if options.bank:
+        return Bank.open(Path(options.bank), board)
+    path = bank_path(board.name, scene_file.stem)
+    pitch_m = board.bank.pitch_mm * 1e-3
+    if not is_current(path, board, pitch_m, _cells(board, pitch_m, scene)):
+        print(f"haptic-panel: building the bank {path}", file=sys.stderr)
+        _build(board, path, pitch_m, scene, scene_file.name)
+    return Bank.open(path, board)
+
+
+def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
+    return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m)
+
+
+def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None) -> BuildReport:
+    from controller.offline.bank_builder import build_bank  # noqa: PLC0415
+
+    cells = None if scene is None else _cells(board, pitch_m, scene)
+    return build_bank(board, path, pitch_m, cells, scene=name, progress=_progress("bank"))
+
+
+def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
+    from controller.offline.plot import plot_focus  # noqa: PLC0415
+
+    if judged.field is None:
+        print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)
+        return
+    foci = sorted(judged.shown, key=lambda focus: -focus.metrics.amplitude_m)
+    fingers = sum(focus.emission.finger is not None for focus in foci)
+    title = f"{recording}, t = {foci[0].time_s:.3f} s: {fingers} finger{'s' * (fingers != 1)} at once"
+    plot_focus(path, board, judged.field, [(focus.x_m, focus.y_m) for focus in foci], title)
+
+
+def _progress(what: str) -> Callable[[int, int], None]:
+    """A progress bar on stderr for work over 2 s, told of what is done and the total; silent when stderr is no terminal."""
+    from tqdm import tqdm  # noqa: PLC0415
+
+    bar = tqdm(desc=what, disable=None, delay=2, leave=False)
+
+    def progress(done: int, total: int) -> None:
+        bar.total = total
+        bar.update(done - bar.n)
+        if done >= total:
+            bar.close()
+
+    return progress
+
+
+def _show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[dict[str, Any]], str]) -> None:
+    print(json.dumps(figures, allow_nan=False) if options.json else table(figures))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="haptic-panel",
+        description="Controller of a glass panel that pushes back under each finger.",
+        epilog="exit codes: 0 done, 2 usage, 69 device missing, 78 configuration or bank, 1 otherwise",
+    )
+    parser.add_argument("--version", action="version", version=f"haptic-panel {__version__}")
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
+    common.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    play = commands.add_parser(
+        "run",
+        parents=[common],
+        help="replay a touch recording on the simulated panel",
+        description="Replay a touch recording through the event loop, the frame protocol and the gateware model, let a simulated "
+        "plate feel every emission, and print what the fingers felt. Builds the board's bank when it is missing or stale.",
+    )
+    play.add_argument("--replay", metavar="FILE", help="evemu recording (default: the board's own)")
+    play.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
+    play.add_argument(
+        "--bank", metavar="FILE", help="play from this bank; it is refused, not rebuilt, if it does not fit the board"
+    )
+    play.add_argument("--speed", choices=["1", "max"], default="1", help="1: real time (default); max: as fast as the machine goes")
+    play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
+    play.set_defaults(command=run)
+
+    bank = commands.add_parser("bank", help="build, look at and check banks of precomputed waveforms")
+    actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
+    build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
+    build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
+    build.add_argument("--pitch-mm", type=float, metavar="P", help="distance of the cells (default: the board's bank.pitch_mm)")
+    build.add_argument("--out", metavar="F", help="file to write (default: in the state or cache folder)")
+    build.set_defaults(command=bank_build)
+    for name, action, text in (
+        ("info", bank_tell, "say what a bank holds and what it was computed from"),
+        ("verify", bank_check, "check every bit of a bank"),
+    ):
+        command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
+        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the bank of the board's own scene)")
+        command.set_defaults(command=action)
+
+    point = commands.add_parser(
+        "focus",
+        parents=[common],
+        help="focus on given points of the model plate, and judge the focus",
+        description="Compute the waveform for one or several points without a bank and judge the focus on the plate model.",
+    )
+    point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
+    point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
+    point.add_argument("--seed", type=int, default=1, help="of the random points (default: 1)")
+    point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
+    point.set_defaults(command=focus)
+    return parser

@@ -1,0 +1,69 @@
+"""Figures as tables for people; machines ask for `--json`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+LABELS = {
+    "relative_amplitude": "relative amplitude",
+    "amplitude_um": "amplitude (µm)",
+    "contrast": "contrast (outside 10 mm)",
+    "contrast_all": "contrast (all points)",
+    "spot_mm": "spot (mm)",
+    "distance_mm": "crest to finger (mm)",
+}
+
+
+def run_table(figures: dict[str, Any]) -> str:
+    """Table of one run."""
+    recording = figures["recording"]
+    lines = [
+        f"board {figures['board']}, recording {recording['file']}: {recording['reports']} reports with a contact, "
+        f"{recording['contacts']} contacts, at most {recording['max_fingers']} at once",
+        f"{figures['emissions']} emissions from {figures['triggers']} triggers ({figures['uploads']} uploads, "
+        f"{figures['resident']} resident), {figures['bytes_sent']:,} bytes sent, {figures['heartbeats']} heartbeats",
+        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        "",
+        f"{'latency (µs)':<26}{'count':>8}{'p50':>11}{'p99':>11}{'p99.9':>11}{'worst':>11}",
+    ]
+    for stage, kinds in figures["latency_us"].items():
+        lines += [_latency_line(f"{stage}, {kind}", summary) for kind, summary in kinds.items()]
+    reference = figures["reference_us"]["copy_and_crc32_of_one_waveform"]
+    lines.append(_latency_line("copy + crc32 alone", reference))
+    for title, key in (("focus at the finger", "focus"), ("untracked spots", "untracked_spots")):
+        values = figures[key]
+        if values["count"]:
+            heading = f"{title} ({values['count']})"
+            lines += ["", f"{heading:<30}{'median':>10}{'worst':>10}"]
+            lines += [f"{LABELS[name]:<30}{_number(v['median']):>10}{_number(v['worst']):>10}" for name, v in _measured(values)]
+    return "\n".join(lines)
+
+
+def plain_table(figures: dict[str, Any]) -> str:
+    """One line for each figure, nested ones with dots."""
+    flat = _flat(figures, "")
+    width = max((len(name) for name, _ in flat), default=0)
+    return "\n".join(f"{name:<{width}}  {_number(value)}" for name, value in flat)
+
+
+def _flat(value: Any, name: str) -> list[tuple[str, Any]]:
+    if isinstance(value, dict):
+        return [row for key, inner in value.items() for row in _flat(inner, f"{name}.{key}" if name else str(key))]
+    return [(name, value)]
+
+
+def _measured(values: dict[str, Any]) -> list[tuple[str, dict[str, float | None]]]:
+    return [(name, value) for name, value in values.items() if isinstance(value, dict)]
+
+
+def _latency_line(title: str, summary: dict[str, Any]) -> str:
+    shown = "".join(f"{_number(summary[name]):>11}" for name in ("p50", "p99", "p999", "worst"))
+    return f"{title:<26}{summary['count']:>8}{shown}"
+
+
+def _number(value: Any) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1000 else f"{value:,.0f}"
+    return str(value)

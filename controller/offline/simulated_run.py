@@ -1,0 +1,238 @@
+"""A whole run on a simulated panel: recording, event loop, gateware model, plate, and what came of it.
+
+The loop runs first, against the gateware model. Only then the plate twin looks at the captured
+channel pins, so that its computing cannot disturb any latency. What was meant (which finger, which
+point) comes from the loop's own account; where the finger really was at T, from the recording.
+"""
+
+from __future__ import annotations
+
+import time
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from controller.bank.reader import Bank
+from controller.bank.selection import Selection
+from controller.board import Board, data_folder
+from controller.event_loop import EventLoop, MonotonicClock, VirtualClock
+from controller.fpga.build_hash import build_hash
+from controller.fpga.capture import Capture
+from controller.fpga.session import Session
+from controller.fpga.simulated_link import SimulatedLink
+from controller.latency import Counters, LatencyHistogram
+from controller.offline.field import Field, FocusMetrics
+from controller.offline.plate_twin import PlateTwin
+from controller.playback import Playback, Played
+from controller.scene import Emission, Scene
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+from controller.touch.tracks import Track
+from controller.touch.warnings import in_words
+
+SETTLE_S = 50e-3  # between arming and the first event of the recording
+REFERENCE_ROUNDS = 2000
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Focus:
+    """One focus of one emission, as the finger under it would have met it."""
+
+    time_s: float  # T, in the recording's time
+    emission: Emission
+    x_m: float  # the finger at T; an untracked spot itself
+    y_m: float
+    relative_amplitude: float
+    metrics: FocusMetrics
+    distance_m: float  # from there to the crest of the spot
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Every focus of a run, and the field and foci of the one moment most worth a picture."""
+
+    foci: list[Focus]
+    field: Field | None
+    shown: list[Focus]
+
+
+@dataclass(frozen=True)
+class Run:
+    """What the loop did; `capture` is all that the plate gets to see."""
+
+    board: Board
+    recording: Recording
+    source: RecordingSource
+    tracks: dict[int, Track]
+    counters: Counters
+    capture: Capture
+    played: list[Played]
+    link: SimulatedLink
+    start_s: float
+    response_mapped: bool
+    reference: LatencyHistogram
+
+
+def play(board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_time: bool) -> Run:
+    """Replay a recording through the event loop into the gateware model.
+
+    Raises
+    ------
+    FaultError, LinkError
+        As the event loop does.
+    """
+    clock = MonotonicClock() if real_time else VirtualClock()
+    gateware = build_hash(data_folder("fpga_rtl"))
+    link = SimulatedLink(board.link, clock.now_s, gateware)
+    session = Session(link, board, gateware, clock.now_s)
+    selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
+    counters = Counters()
+    played: list[Played] = []
+    playback = Playback(
+        session,
+        selection,
+        slots=board.link.slots,
+        duration_s=board.waveform.duration_s,
+        max_duty=board.limits.max_duty,
+        counters=counters,
+        played=played.append,
+    )
+    start_s = max(clock.now_s(), link.ready_s()) + board.limits.ramp_ms * 1e-3 + SETTLE_S
+    axes = recording.axes(board)
+    source = RecordingSource(recording, axes, start_s)
+    EventLoop(clock, session, source, scene, playback, counters).run()
+    link.close()
+    return Run(
+        board=board,
+        recording=recording,
+        source=source,
+        tracks=recording.tracks(axes),
+        counters=counters,
+        capture=link.take_capture(),
+        played=played,
+        link=link,
+        start_s=start_s,
+        response_mapped=selection.composes,
+        reference=copy_and_checksum(board.waveform.samples * 4),
+    )
+
+
+def copy_and_checksum(size: int) -> LatencyHistogram:
+    """Time of what an upload cannot do without: one copy of its bytes and one CRC pass over them."""
+    histogram = LatencyHistogram()
+    source = memoryview(bytes(np.random.default_rng(0).bytes(size)))
+    target = memoryview(bytearray(size))
+    for _ in range(REFERENCE_ROUNDS):
+        started = time.perf_counter_ns()
+        target[:] = source
+        zlib.crc32(target)
+        histogram.record(time.perf_counter_ns() - started)
+    return histogram
+
+
+def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judged:
+    """Let the plate twin play the captured pins, and judge every focus where its finger was at T.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Told of emissions judged and emissions in all.
+    """
+    twin = PlateTwin(run.board)
+    triggers_s = [played.trigger_s for played in run.played]
+    times_s = [run.link.time_s(int(tick)) for tick in run.capture.focus_ticks]
+    judged = Judged([], None, [])
+    for done, (time_s, field) in enumerate(zip(times_s, twin.fields(run.capture, run.link.clock_hz), strict=True), 1):
+        emissions = run.played[bisect_right(triggers_s, time_s - 0.99 * run.board.waveform.duration_s) - 1].emissions
+        recording_s = time_s - run.start_s
+        places = [_place(run.tracks, emission, recording_s) for emission in emissions]
+        together = []
+        for emission, (x_m, y_m) in zip(emissions, places, strict=True):
+            metrics = field.focus_metrics(x_m, y_m, places)
+            crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
+            reference_m = twin.reference_amplitude(x_m, y_m)
+            relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
+            distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
+            together.append(Focus(recording_s, emission, x_m, y_m, relative, metrics, distance_m))
+        judged.foci.extend(together)
+        if _worth_showing(together) > _worth_showing(judged.shown):
+            judged = Judged(judged.foci, field, together)
+        if progress:
+            progress(done, len(times_s))
+    return judged
+
+
+def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
+    """Most fingers at once, then the largest of the weakest focus."""
+    fingers = [focus for focus in foci if focus.emission.finger is not None]
+    return len(fingers), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
+
+
+def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:
+    """Where the finger was at T; an untracked spot is where it is."""
+    if emission.finger is None:
+        return emission.x_m, emission.y_m
+    return tracks[emission.finger].position(time_s)
+
+
+def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
+    """All figures of a run, ready for JSON; units are in the names."""
+    counts = run.source.counts
+    counters = run.counters
+    latency = {
+        stage: {
+            "uploads": getattr(counters.upload_latency, stage).summary_us(),
+            "resident": getattr(counters.resident_latency, stage).summary_us(),
+        }
+        for stage in ("host", "wait", "wire", "total")
+    }
+    tracked = [focus for focus in foci if focus.emission.finger is not None]
+    return {
+        "board": run.board.name,
+        "recording": {
+            "file": run.recording.name,
+            "reports": counts.reports,
+            "contacts": counts.contacts,
+            "max_fingers": counts.max_fingers,
+        },
+        "warnings": in_words(run.source.warnings),
+        "emissions": int(run.capture.focus_ticks.size),
+        "triggers": counters.emissions,
+        "uploads": counters.uploads,
+        "resident": counters.resident,
+        "heartbeats": counters.heartbeats,
+        "host_silent": counters.host_silent,
+        "bytes_sent": run.link.bytes_sent,
+        "skipped": asdict(counters.skipped),
+        "response_section_mapped": run.response_mapped,
+        "latency_us": latency,
+        "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
+        "focus": _figures(tracked),
+        "untracked_spots": _figures([focus for focus in foci if focus.emission.finger is None]),
+    }
+
+
+def _figures(foci: list[Focus]) -> dict[str, Any]:
+    """Median and worst of every figure; None without any focus."""
+    columns: dict[str, tuple[list[float], Callable[[list[float]], float]]] = {
+        "relative_amplitude": ([f.relative_amplitude for f in foci], min),
+        "amplitude_um": ([f.metrics.amplitude_m * 1e6 for f in foci], min),
+        "contrast": ([f.metrics.contrast for f in foci], min),
+        "contrast_all": ([f.metrics.contrast_all for f in foci], min),
+        "spot_mm": ([f.metrics.spot_m * 1e3 for f in foci], max),
+        "distance_mm": ([f.distance_m * 1e3 for f in foci], max),
+    }
+    figures: dict[str, Any] = {"count": len(foci)}
+    for name, (all_values, worst) in columns.items():
+        values = [value for value in all_values if np.isfinite(value)]  # on the plate's very rim nothing can move
+        known = bool(values)
+        figures[name] = {
+            "median": round(float(np.median(values)), 4) if known else None,
+            "worst": round(worst(values), 4) if known else None,
+        }
+    return figures
