@@ -84,7 +84,7 @@
 `define FAULT_HOST_SILENT 1
 
 // Limits of settings, and what they are after reset
-`define BIT_TICKS_MIN 32'd2
+`define BIT_TICKS_MIN 32'd4
 `define BIT_TICKS_MAX 32'd65535
 `define RAMP_SAMPLES_MAX 32'd262143
 `define RAMP_SAMPLES_RESET 32'd5000

@@ -1,0 +1,130 @@
+// Frames from bytes: a frame counts only when it ends with the right sync word, length and CRC.
+// Words of a LOAD leave for the landing buffer as they come in; whoever takes them lets them count only with accept_o.
+`default_nettype none
+`include "registers.vh"
+
+module frame_decoder (
+    input  wire        clk_i,
+    input  wire        rst_i,
+    input  wire        select_i,        // pulse: a frame begins
+    input  wire        release_i,       // pulse: it has ended
+    input  wire        partial_i,       // with release_i: the last byte is not whole
+    input  wire        byte_valid_i,
+    input  wire [7:0]  byte_i,
+    input  wire        landing_busy_i,
+    output wire        accept_o,        // pulse; the fields below hold until the next frame begins
+    output wire        refuse_o,        // pulse, with refusal_o
+    output wire [7:0]  refusal_o,
+    output wire [7:0]  type_o,
+    output wire [7:0]  sequence_o,
+    output wire [15:0] argument_o,
+    output wire [31:0] word0_o,
+    output wire [31:0] word1_o,
+    output wire [31:0] word2_o,
+    output wire        landing_busy_o,  // as it was when the frame began
+    output wire [6:0]  payload_words_o,
+    output wire        write_o,         // pulse: a word for the landing buffer
+    output wire [2:0]  write_chunk_o,
+    output wire [6:0]  write_word_o,    // within the chunk
+    output wire [31:0] write_data_o
+);
+    reg        accept_q, refuse_q;
+    reg [7:0]  refusal_q;
+    reg        sync_good_q;
+    reg [7:0]  type_q, sequence_q;
+    reg [15:0] length_q, argument_q;
+    reg [31:0] word_q [0:2];
+    reg        landing_busy_q;
+    reg [9:0]  count_q;                 // bytes so far, held at its highest: no frame is that long
+    reg [31:0] recent_q;                // last four bytes
+    reg        word_valid_q;            // recent_q is a word behind the header
+    reg [7:0]  word_number_q;
+
+    wire is_load = type_q == `TYPE_LOAD;
+    wire length_good = is_load
+        ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
+        : length_q == `SHORT_PAYLOAD_BYTES;
+    wire whole = length_good && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
+
+    wire [31:0] crc;
+    crc32 crc32_frame (
+        .clk_i(clk_i), .rst_i(rst_i), .clear_i(select_i), .valid_i(byte_valid_i), .byte_i(byte_i), .crc_o(crc)
+    );
+
+    always @(posedge clk_i) begin
+        word_valid_q  <= byte_valid_i && count_q[9:3] != 7'd0 && count_q[1:0] == 2'd3;
+        word_number_q <= count_q[9:2] - 8'd2;
+        if (byte_valid_i) begin
+            recent_q <= {byte_i, recent_q[31:8]};
+            if (count_q != 10'h3FF) count_q <= count_q + 10'd1;
+            case (count_q)
+                10'd0: sync_good_q      <= byte_i == 8'h5A;
+                10'd1: sync_good_q      <= sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC;
+                10'd2: type_q           <= byte_i;
+                10'd3: sequence_q       <= byte_i;
+                10'd4: length_q[7:0]    <= byte_i;
+                10'd5: length_q[15:8]   <= byte_i;
+                10'd6: argument_q[7:0]  <= byte_i;
+                10'd7: argument_q[15:8] <= byte_i;
+                default: ;
+            endcase
+        end
+        if (word_valid_q && word_number_q < 8'd3) word_q[word_number_q[1:0]] <= recent_q;
+
+        accept_q <= 1'b0;
+        refuse_q <= 1'b0;
+        if (release_i) begin
+            accept_q <= sync_good_q && whole && crc == `CRC_RESIDUE;
+            refuse_q <= !(sync_good_q && whole && crc == `CRC_RESIDUE);
+            if (!sync_good_q) refusal_q <= `RESULT_BAD_SYNC;
+            else if (!whole)  refusal_q <= `RESULT_BAD_LENGTH;
+            else              refusal_q <= `RESULT_BAD_CRC;
+        end
+
+        if (select_i) begin
+            sync_good_q    <= 1'b0;
+            length_q       <= 16'd0;
+            type_q         <= `TYPE_NOP;
+            count_q        <= 10'd0;
+            landing_busy_q <= landing_busy_i;
+        end
+
+        if (rst_i) begin
+            accept_q       <= 1'b0;
+            refuse_q       <= 1'b0;
+            refusal_q      <= `RESULT_OK;
+            sync_good_q    <= 1'b0;
+            type_q         <= `TYPE_NOP;
+            sequence_q     <= 8'd0;
+            length_q       <= 16'd0;
+            argument_q     <= 16'd0;
+            word_q[0]      <= 32'd0;
+            word_q[1]      <= 32'd0;
+            word_q[2]      <= 32'd0;
+            landing_busy_q <= 1'b0;
+            count_q        <= 10'd0;
+            recent_q       <= 32'd0;
+            word_valid_q   <= 1'b0;
+            word_number_q  <= 8'd0;
+        end
+    end
+
+    assign accept_o        = accept_q;
+    assign refuse_o        = refuse_q;
+    assign refusal_o       = refusal_q;
+    assign type_o          = type_q;
+    assign sequence_o      = sequence_q;
+    assign argument_o      = argument_q;
+    assign word0_o         = word_q[0];
+    assign word1_o         = word_q[1];
+    assign word2_o         = word_q[2];
+    assign landing_busy_o  = landing_busy_q;
+    assign payload_words_o = length_q[8:2];
+    assign write_o         = word_valid_q && is_load && sync_good_q && length_good && !landing_busy_q
+                             && argument_q < {12'd0, `CHUNKS} && word_number_q < {1'b0, length_q[8:2]};
+    assign write_chunk_o   = argument_q[2:0];
+    assign write_word_o    = word_number_q[6:0];
+    assign write_data_o    = recent_q;
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,63 @@
+// The answer to every frame: a snapshot taken at the fall of chip select, its CRC, then zeros.
+`default_nettype none
+`include "registers.vh"
+
+module status_encoder (
+    input  wire        clk_i,
+    input  wire        rst_i,
+    input  wire        select_i,     // pulse: take the snapshot
+    input  wire        take_i,       // pulse: byte_o was taken
+    output wire [7:0]  byte_o,
+    input  wire [7:0]  result_i,
+    input  wire [7:0]  sequence_i,
+    input  wire [15:0] state_i,
+    input  wire [15:0] fault_i,
+    input  wire [31:0] data_i,
+    input  wire [31:0] triggers_i,
+    input  wire [63:0] timestamp_i,
+    input  wire [31:0] emissions_i
+);
+    localparam BYTES = 28;           // before the CRC
+
+    reg [8*BYTES-1:0] left_q;        // bytes to come, next one lowest
+    reg [5:0]         count_q;       // bytes taken, held at 32
+
+    wire in_snapshot = count_q < BYTES[5:0];
+    wire [31:0] crc;
+    reg  [7:0]  next;
+
+    crc32 crc32_status (
+        .clk_i(clk_i), .rst_i(rst_i), .clear_i(select_i),
+        .valid_i(take_i && in_snapshot), .byte_i(next), .crc_o(crc)
+    );
+
+    always @* begin
+        case (count_q)
+            6'd28:   next = ~crc[7:0];
+            6'd29:   next = ~crc[15:8];
+            6'd30:   next = ~crc[23:16];
+            6'd31:   next = ~crc[31:24];
+            default: next = in_snapshot ? left_q[7:0] : 8'd0;
+        endcase
+    end
+
+    always @(posedge clk_i) begin
+        if (take_i && !count_q[5]) begin
+            count_q <= count_q + 6'd1;
+            left_q  <= {8'd0, left_q[8*BYTES-1:8]};
+        end
+        if (select_i) begin
+            count_q <= 6'd0;
+            left_q  <= {emissions_i, timestamp_i, triggers_i, data_i, fault_i, state_i,
+                        sequence_i, result_i, `STATUS_SYNC};
+        end
+        if (rst_i) begin
+            count_q <= 6'd0;
+            left_q  <= {8*BYTES{1'b0}};
+        end
+    end
+
+    assign byte_o = next;
+endmodule
+
+`default_nettype wire
