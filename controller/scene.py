@@ -30,6 +30,7 @@ __all__ = ["Emission", "FingerState", "Scene", "Spot", "find_scene", "load_scene
 
 OUTSIDE = -1
 ROUNDING_M = ROUNDING_S = 1e-9  # so that a spacing reached exactly is reached, and a train of 3 beats has 3
+SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
 
 
 class Emission(NamedTuple):
@@ -172,7 +173,7 @@ def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArra
     Parameters
     ----------
     points_m : (cell, 2) array
-        Cells of a regular grid, in any order.
+        Cells of a whole regular grid, in any order.
     pitch_m : float
         Distance of neighbouring cells.
 
@@ -180,7 +181,7 @@ def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArra
     -------
     (cell,) bool array
     """
-    half_m = pitch_m * (1 + 1e-9) + ROUNDING_M
+    half_m = pitch_m + SLACK_M
     x, y = points_m[:, 0], points_m[:, 1]
     boxes = Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
     reached = np.zeros(len(points_m), bool)

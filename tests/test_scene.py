@@ -1,0 +1,392 @@
+import math
+
+import msgspec
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from controller.bank.grid import Grid
+from controller.bank.selection import LATTICE_M
+from controller.board import data_folder, load_board
+from controller.errors import ConfigError
+from controller.scene import Area, FingerState, Scene, Spot, find_scene, load_scene, next_time_s, on_time, on_touch, reach
+from controller.shapes import Boxes, Circle, Polygon, Rectangle
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+from controller.touch.samples import TouchSample
+
+BOARD = load_board(data_folder("boards") / "simulated")
+
+
+@pytest.fixture
+def scene_of(tmp_path):
+    """Loads a scene from the lines of its regions; `square` is a rectangle from (50, 50) to (90, 90) mm."""
+
+    def load(*regions):
+        file = tmp_path / "scene.toml"
+        file.write_text("".join(f"[[regions]]\n{region}\n" for region in regions))
+        return load_scene(file, BOARD)
+
+    return load
+
+
+def square(effects, name="square", x_mm=50, size_mm=40):
+    place = f"x_mm = {x_mm}\ny_mm = 50\nwidth_mm = {size_mm}\nheight_mm = {size_mm}"
+    return f'name = "{name}"\nshape = "rectangle"\n{place}\neffects = [{effects}]'
+
+
+CLICK = '{ effect = "click" }'
+TRAIN = '{ effect = "train", rate_hz = 100, duration_ms = 30 }'
+TEXTURE = '{ effect = "texture", spacing_mm = 5 }'
+ALWAYS = '{ effect = "always", rate_hz = 20 }'
+
+
+def at(x_mm, y_mm=70.0, time_s=0.0, contact=True, finger=3):
+    return TouchSample(finger, x_mm * 1e-3, y_mm * 1e-3, time_s, contact)
+
+
+def touch(scene, *samples):
+    """Emissions of each sample of one finger, as (x in mm, region) or None, and its state after them."""
+    state, felt = None, []
+    for sample in samples:
+        state, emissions = on_touch(scene, state, sample)
+        assert len(emissions) <= 1
+        assert all((e.time_s, e.finger, e.y_m, e.weight) == (sample.time_s, 3, sample.y_m, 1.0) for e in emissions)
+        felt.append((round(emissions[0].x_m * 1e3, 6), emissions[0].region) if emissions else None)
+    return felt, state
+
+
+def test_a_click_is_felt_on_press_only(scene_of):
+    scene = scene_of(square(CLICK))
+    assert touch(scene, at(60), at(61), at(61, contact=False), at(60)) == (
+        [(60, "square"), None, None, (60, "square")],
+        FingerState(3, 0.060, 0.070, 0),
+    )
+
+
+def test_sliding_into_a_click_or_train_is_not_felt(scene_of):
+    felt, state = touch(scene_of(square(CLICK + "," + TRAIN)), at(40), at(60), at(70))
+    assert felt == [None, None, None]
+    assert next_time_s(state) is None
+
+
+def test_outside_of_all_regions_nothing_is_felt(scene_of):
+    assert touch(scene_of(square(f"{CLICK}, {TRAIN}, {TEXTURE}")), at(10), at(20), at(30))[0] == [None] * 3
+
+
+def test_the_first_region_that_contains_the_finger_wins(scene_of):
+    small, large = square(CLICK, "small", 60, 10), square(CLICK, "large")
+    quiet = square("", "quiet", 80, 5)
+    assert touch(scene_of(small, large), at(65, 55))[0] == [(65, "small")]
+    assert touch(scene_of(large, small), at(65, 55))[0] == [(65, "large")]
+    assert touch(scene_of(quiet, large), at(82, 52))[0] == [None]
+
+
+def test_a_texture_is_felt_once_every_spacing_and_keeps_the_rest_of_the_way(scene_of):
+    scene = scene_of(square(TEXTURE))
+    way = [52, 56, 58, 61.9, 62, 67.5, 71.9, 72]
+    felt, state = touch(scene, *map(at, way))
+    assert [hit[0] if hit else None for hit in felt] == [None, None, 58, None, 62, 67.5, None, 72]
+    assert state.way_m == pytest.approx(0.0, abs=2e-9)
+
+
+def test_a_spacing_one_percent_off_is_noticed(scene_of):
+    way = [52 + 0.1 * step for step in range(360)]
+    right = touch(scene_of(square(TEXTURE)), *map(at, way))[0]
+    wrong = touch(scene_of(square(TEXTURE.replace("5", "5.05"))), *map(at, way))[0]
+    assert [round(hit[0]) for hit in right if hit] == [57, 62, 67, 72, 77, 82, 87]
+    assert [hit[0] for hit in wrong if hit] != [hit[0] for hit in right if hit]
+
+
+def test_a_jump_over_several_spacings_is_one_emission_and_the_rest_is_kept(scene_of):
+    assert touch(scene_of(square(TEXTURE)), at(52), at(74), at(76.9), at(77))[0] == [None, (74, "square"), None, (77, "square")]
+
+
+def test_a_texture_counts_from_the_first_report_inside_and_forgets_outside(scene_of):
+    felt, _ = touch(scene_of(square(TEXTURE)), at(20), at(54), at(58), at(45), at(51), at(55.9), at(56))
+    assert felt == [None, None, None, None, None, None, (56, "square")]
+
+
+def test_a_train_beats_from_the_press_and_follows_the_finger(scene_of):
+    scene = scene_of(square(TRAIN))
+    state, first = on_touch(scene, None, at(60, time_s=10.0))
+    assert [e.time_s for e in first] == [10.0]
+    assert next_time_s(state) == pytest.approx(10.01)
+    assert on_time(scene, state, 10.0099) == (state, ())
+    state, _ = on_touch(scene, state, at(62, time_s=10.005))
+    state, (second,) = on_time(scene, state, next_time_s(state))
+    assert (second.time_s, second.x_m, second.region, second.finger) == (pytest.approx(10.01), 0.062, "square", 3)
+    state, (third,) = on_time(scene, state, 10.0213)
+    assert third.time_s == pytest.approx(10.02)
+    assert next_time_s(state) is None  # 30 ms at 100 Hz are three
+    assert on_time(scene, state, 99.0) == (state, ())
+
+
+def test_a_late_train_plays_one_and_keeps_its_beat(scene_of):
+    scene = scene_of(square(TRAIN.replace("30", "1000")))
+    state, _ = on_touch(scene, None, at(60, time_s=0.0))
+    state, (late,) = on_time(scene, state, 0.0455)
+    assert late.time_s == pytest.approx(0.04)
+    assert next_time_s(state) == pytest.approx(0.05)
+    state, (last,) = on_time(scene, state, 77.0)
+    assert last.time_s == pytest.approx(0.99)
+    assert next_time_s(state) is None
+
+
+@pytest.mark.parametrize("end", [at(60, contact=False), at(20)])
+def test_a_train_ends_when_the_finger_is_lifted_or_leaves(scene_of, end):
+    _, state = touch(scene_of(square(TRAIN)), at(60), end)
+    assert state is None or next_time_s(state) is None
+
+
+def test_several_effects_of_one_press_are_one_emission(scene_of):
+    scene = scene_of(square(f"{CLICK}, {TRAIN}, {TEXTURE}"))
+    felt, state = touch(scene, at(60), at(65))
+    assert felt == [(60, "square"), (65, "square")]
+    assert next_time_s(state) == pytest.approx(0.01)
+
+
+def test_spots_are_at_the_centre_or_where_told(scene_of):
+    told = '{ effect = "always", rate_hz = 30, x_mm = 20, y_mm = 30 }'
+    circle = f'name = "c"\nshape = "circle"\nx_mm = 150\ny_mm = 70\nradius_mm = 9\neffects = [{ALWAYS}]'
+    corners = "[[10, 10], [40, 10], [40, 40]]"
+    triangle = f'name = "t"\nshape = "polygon"\ncorners_mm = {corners}\neffects = [{ALWAYS}]'
+    plate = f'name = "p"\nshape = "plate"\neffects = [{told}]'
+    spots = scene_of(square(ALWAYS), circle, triangle, plate).spots
+    assert [Spot(round(s.x_m, 9), round(s.y_m, 9), s.rate_hz, s.region) for s in spots] == [
+        Spot(0.070, 0.070, 20, "square"),
+        Spot(0.150, 0.070, 20, "c"),
+        Spot(0.030, 0.020, 20, "t"),
+        Spot(0.020, 0.030, 30, "p"),
+    ]
+
+
+def test_the_functions_change_nothing_they_are_given(scene_of):
+    scene = scene_of(square(f"{TRAIN}, {TEXTURE}"))
+    state, _ = on_touch(scene, None, at(60))
+    kept, before = tuple(state), on_touch(scene, state, at(66))
+    assert on_touch(scene, state, at(66)) == before
+    assert on_time(scene, state, 0.5) == on_time(scene, state, 0.5)
+    assert tuple(state) == kept
+    with pytest.raises(AttributeError):
+        scene.areas[0].name = "other"
+
+
+@pytest.mark.parametrize(
+    ("region", "words"),
+    [
+        ('name = "a"\nshape = "star"\neffects = []', "regions[0].shape = 'star'"),
+        (square('{ effect = "boom" }'), "regions[0].effects[0].effect = 'boom'"),
+        (square('{ effect = "click", loud = 1 }'), "regions[0].effects[0].loud = 1: unknown key"),
+        (square(CLICK) + "\ncolour = 3", "regions[0].colour = 3: unknown key"),
+        (square('{ effect = "train", rate_hz = 100 }'), "duration_ms"),
+        (square('{ effect = "train", rate_hz = "fast", duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 'fast'"),
+        (square('{ effect = "train", rate_hz = 0, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 0"),
+        (square('{ effect = "train", rate_hz = nan, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = nan"),
+        (square('{ effect = "train", rate_hz = 505, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
+        (square('{ effect = "always", rate_hz = 505 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
+        (square('{ effect = "always", rate_hz = 5, x_mm = 210.5 }'), "effects[0].x_mm = 210.5 is off the plate"),
+        (square('{ effect = "always", rate_hz = 5, y_mm = -1 }'), "regions[0].effects[0].y_mm = -1"),
+        (square('{ effect = "texture", spacing_mm = 0 }'), "regions[0].effects[0].spacing_mm = 0"),
+        (square(f"{CLICK}, {CLICK}"), "effect 'click' more than once"),
+        (square(CLICK, "wide", 171), "regions[0] ('wide') reaches 1 mm beyond the plate of 210 × 148 mm"),
+        (square(CLICK, "wide", -1), "regions[0] ('wide') reaches 1 mm beyond the plate"),
+        (square(CLICK, "none", 50, -4), "regions[0].width_mm = -4"),
+        (square(CLICK, ""), "regions[0].name = ''"),
+        (square(CLICK) + "\n[[regions]]\n" + square(CLICK), "regions[1].name = 'square' is taken by regions[0]"),
+        ('name = "a"\nshape = "circle"\nx_mm = 5\ny_mm = 9\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2]]\neffects = []', "regions[0].corners_mm"),
+        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2], [3]]\neffects = []', "regions[0].corners_mm[2]"),
+        (
+            'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1], [1, 9]]\neffects = []',
+            "regions[0]: corners_mm: the edges from [1.0, 1.0] and from [9.0, 1.0] cross or touch",
+        ),
+        ('name = "a"\nshape = "plate"', "effects"),
+        ("", "shape"),
+    ],
+)
+def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_of, tmp_path, region, words):
+    with pytest.raises(ConfigError) as caught:
+        scene_of(region)
+    assert words in str(caught.value)
+    assert str(caught.value).startswith(str(tmp_path / "scene.toml"))
+
+
+@pytest.mark.parametrize("text", ["", "regions = []", "regions = 3", "not toml", "speed = 3"])
+def test_a_file_without_regions_is_refused(tmp_path, text):
+    file = tmp_path / "scene.toml"
+    file.write_text(text)
+    with pytest.raises(ConfigError, match=r"scene\.toml"):
+        load_scene(file, BOARD)
+
+
+def test_the_highest_rate_that_emissions_fit_into_is_accepted(scene_of):
+    assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).areas[0].train.rate_hz == 500
+
+
+def test_a_scene_is_found_by_path_or_name_and_an_unknown_one_lists_those_that_exist(tmp_path):
+    board = msgspec.structs.replace(BOARD, folder=tmp_path)
+    for name in ("board", "scene", "piano"):
+        (tmp_path / f"{name}.toml").write_text("")
+    assert find_scene(board, "piano") == find_scene(board, "piano.toml") == tmp_path / "piano.toml"
+    assert find_scene(BOARD, str(tmp_path / "piano.toml")) == tmp_path / "piano.toml"
+    for unknown in ("organ", "board", str(tmp_path)):
+        with pytest.raises(ConfigError, match=r"'simulated' has: piano, scene \(or a path\)"):
+            find_scene(board, unknown)
+
+
+# Shapes
+
+SHAPES = [
+    Rectangle(0.02, 0.03, 0.09, 0.04),
+    Rectangle(0.0, 0.0, 0.210, 0.148),
+    Circle(0.05, 0.06, 0.0501),
+    Circle(0.2052, 0.0811, 0.0012),
+    Polygon(((0.01, 0.01), (0.2, 0.02), (0.1, 0.04), (0.15, 0.14), (0.02, 0.1), (0.06, 0.05))),
+    Polygon(((0.0, 0.0), (0.0, 0.0011), (0.2, 0.148))),
+]
+fractions = st.floats(0, 1)
+
+
+def point_in(shape, u, v):
+    """A point of the shape, near the given place of its bounds; None if that place is not in it."""
+    low_x, low_y, high_x, high_y = shape.bounds
+    x, y = low_x + u * (high_x - low_x), low_y + v * (high_y - low_y)
+    return (x, y) if shape.contains(x, y) else None
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("pitch_mm", [2.5, 5.0, 13.0])
+@settings(max_examples=60)
+@given(u=fractions, v=fractions)
+def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v):
+    grid = Grid.of(BOARD.plate, pitch_mm * 1e-3)
+    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    point = point_in(shape, u, v)
+    if point:
+        cells, _ = grid.corners(*point)
+        assert all(reached[cell] for cell in cells)
+
+
+def _scene(shape):
+    return Scene((Area("a", shape, True, None, None, None),))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
+    grid = Grid.of(BOARD.plate, 5e-3)
+    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    needed = np.zeros(len(reached), bool)
+    for u in np.linspace(0, 1, 150):
+        for v in np.linspace(0, 1, 150):
+            point = point_in(shape, u, v)
+            if point:
+                needed[list(grid.corners(*point)[0])] = True
+    assert not (needed & ~reached).any()
+    # Cells that only the slack or the second row of the rim reaches are at most two pitches off.
+    points = grid.points()
+    for cell in np.flatnonzero(reached & ~needed):
+        apart = np.abs(points[needed] - points[cell]).max(axis=1) if needed.any() else np.array([0.0])
+        assert apart.min() < 2.1 * grid.pitch_m
+
+
+def test_a_region_within_one_mesh_reaches_its_four_cells_only():
+    grid = Grid.of(BOARD.plate, 5e-3)
+    x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
+    reached = reach(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
+    assert set(np.flatnonzero(reached)) == set(grid.corners(x_m + 1e-3, y_m + 1e-3)[0])
+
+
+@given(u=fractions, v=fractions, dx=st.floats(-1, 1), dy=st.floats(-1, 1), shape=st.sampled_from(SHAPES))
+def test_points_rounded_to_the_bank_lattice_are_reached_too(u, v, dx, dy, shape):
+    grid = Grid.of(BOARD.plate, 5e-3)
+    point = point_in(shape, u, v)
+    if point:
+        rounded = point[0] + dx * LATTICE_M / 2, point[1] + dy * LATTICE_M / 2
+        assert reach(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
+
+
+def test_spots_reach_their_four_cells_and_their_region_none(scene_of):
+    scene = scene_of(square(ALWAYS.replace("20", "20, x_mm = 101, y_mm = 71")))
+    grid = Grid.of(BOARD.plate, 5e-3)
+    reached = reach(scene, grid.points(), grid.pitch_m)
+    assert set(np.flatnonzero(reached)) == set(grid.corners(0.101, 0.071)[0])
+
+
+@given(st.floats(0, 0.2), st.floats(0, 0.14), st.floats(1e-4, 0.05), fractions, fractions, st.sampled_from(SHAPES))
+def test_a_box_that_holds_a_point_of_a_shape_meets_it(x, y, size, u, v, shape):
+    box = Boxes(*(np.array([value]) for value in (x, x + size, y, y + size)))
+    inside = shape.contains(x + u * size, y + v * size)
+    assert shape.meets(box)[0] or not inside
+
+
+def test_a_polygon_contains_what_its_picture_shows():
+    corner = Polygon(((0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)))
+    assert [corner.contains(*p) for p in [(0.5, 3), (3, 0.5), (2, 2), (-1, 0.5), (5, 0.5), (0.5, 0.5)]] == [1, 1, 0, 0, 0, 1]
+    assert corner.centre == pytest.approx((9.5 / 7, 9.5 / 7))
+    assert Polygon(corner.corners[::-1]).centre == pytest.approx(corner.centre)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(0, 0), (2, 2), (2, 0), (0, 2)],  # a bow
+        [(0, 0), (2, 0), (1, 0), (1, 1)],  # folded back
+        [(0, 0), (2, 0), (2, 0), (1, 1)],  # a corner twice
+        [(0, 0), (1, 0), (2, 0)],  # no area
+        [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],  # a corner on an edge
+        [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)],  # two parts that meet in a point
+    ],
+)
+def test_crossing_outlines_are_found(corners):
+    for turn in range(len(corners)):
+        assert Polygon((*corners[turn:], *corners[:turn])).crossing()
+
+
+@given(st.integers(3, 12), st.floats(0.2, 1), st.floats(0, 6.28))
+def test_stars_do_not_cross(count, depth, angle):
+    corners = [
+        (math.cos(angle + math.pi * k / count) * r, math.sin(angle + math.pi * k / count) * r)
+        for k in range(2 * count)
+        for r in [1 if k % 2 else depth]
+    ]
+    star = Polygon(tuple(corners))
+    assert star.crossing() is None
+    assert star.contains(0, 0)
+    assert star.centre == pytest.approx((0, 0), abs=1e-9)
+
+
+# The simulated board's own scene
+
+
+@pytest.mark.parametrize("file", sorted((BOARD.folder.parents[1] / "tests/touch/recordings").glob("*.e*")), ids=lambda f: f.name)
+def test_every_real_recording_is_felt_where_its_fingers_went(file):
+    scene = load_scene(find_scene(BOARD, BOARD.scene), BOARD)
+    recording = Recording.open(file)
+    axes = recording.axes(BOARD)
+    source, tracks = RecordingSource(recording, axes, 0.0), recording.tracks(axes)
+    states, felt = {}, []
+    while (due_s := source.next_time_s()) is not None:
+        for finger, state in states.items():
+            if (beat_s := next_time_s(state)) is not None and beat_s <= due_s:
+                states[finger], emissions = on_time(scene, state, beat_s)
+                felt += emissions
+        for sample in source.read(due_s):
+            state, emissions = on_touch(scene, states.pop(sample.finger, None), sample)
+            felt += emissions
+            if state:
+                states[sample.finger] = state
+    assert {e.finger for e in felt} == set(tracks)
+    assert not states
+    for e in felt:
+        assert math.dist(tracks[e.finger].position(e.time_s), (e.x_m, e.y_m)) < 1.5e-3  # trains between two reports
+
+
+def test_the_demo_shows_every_kind_of_region():
+    scene = load_scene(find_scene(BOARD, BOARD.scene), BOARD)
+    assert {type(area.shape) for area in scene.areas} == {Rectangle, Circle, Polygon}
+    assert scene.areas[-1].shape == Rectangle(0, 0, BOARD.plate.length_m, BOARD.plate.width_m)
+    assert [spot.region for spot in scene.spots] == ["beacon"]
+    grid = Grid.of(BOARD.plate, 5e-3)
+    assert reach(scene, grid.points(), grid.pitch_m).all()

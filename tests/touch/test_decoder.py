@@ -1,0 +1,257 @@
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from controller.board import data_folder, load_board
+from controller.touch.axes import Axes, AxisRange
+from controller.touch.decoder import MAX_PLAYED, Decoder
+from controller.touch.panel import PanelState, Protocol, Slot, protocol_of
+
+BOARD = load_board(data_folder("boards") / "simulated")
+AXES = Axes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each
+
+SYN, KEY, ABS = 0, 1, 3
+SLOT, MAJOR, X, Y, TOOL, ID, DISTANCE, TOUCH = 0x2F, 0x30, 0x35, 0x36, 0x37, 0x39, 0x3B, 0x14A
+REPORT, MT_REPORT, DROPPED = (SYN, 0, 0), (SYN, 2, 0), (SYN, 3, 0)
+
+
+def decoder(protocol=Protocol.B, **settings):
+    return Decoder(AXES, protocol, **settings)
+
+
+def play(decoder, *events):
+    """Feeds (code, value) of EV_ABS or (type, code, value); gives (finger, x in mm, y in mm, contact) of all reports."""
+    samples = []
+    for event in events:
+        kind, code, value = event if len(event) == 3 else (ABS, *event)
+        samples += decoder.feed(kind, code, value, 1.5) or ()
+    assert all(sample.time_s == 1.5 for sample in samples)
+    return [(s.finger, round(s.x_m * 1e3, 6), round(s.y_m * 1e3, 6), s.contact) for s in samples]
+
+
+def counts(decoder):
+    return decoder.counts.reports, decoder.counts.contacts, decoder.counts.max_fingers
+
+
+def test_protocol_b_begins_moves_and_releases():
+    d = decoder()
+    assert play(d, (ID, 7), (X, 100), (Y, 200), REPORT) == [(0, 10, 20, True)]
+    assert play(d, (X, 110), REPORT) == [(0, 11, 20, True)]
+    assert play(d, (ID, -1), REPORT) == [(0, 11, 20, False)]
+    assert counts(d) == (2, 1, 1)
+
+
+def test_a_finger_at_rest_gives_no_samples_but_counts():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (4, 5, 1234), REPORT, (X, 100), REPORT) == []
+    assert counts(d) == (3, 1, 1)
+
+
+def test_a_slot_keeps_its_position_from_one_contact_to_the_next():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT, (ID, -1), REPORT)
+    assert play(d, (ID, 8), (Y, 300), REPORT) == [(1, 10, 30, True)]
+
+
+def test_slots_are_different_fingers_and_the_slot_stays_current_across_reports():
+    d = decoder()
+    assert play(d, (ID, 1), (X, 10), (Y, 10), (SLOT, 1), (ID, 2), (X, 20), (Y, 20), REPORT) == [(0, 1, 1, True), (1, 2, 2, True)]
+    assert play(d, (X, 30), REPORT) == [(1, 3, 2, True)]
+    assert play(d, (SLOT, 0), (ID, -1), REPORT) == [(0, 1, 1, False)]
+    assert counts(d) == (3, 2, 2)
+
+
+def test_another_tracking_id_in_the_same_slot_is_another_finger():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (ID, 8), REPORT) == [(0, 10, 20, False), (1, 10, 20, True)]
+    assert play(d, (ID, -1), (ID, 9), (X, 0), REPORT) == [(1, 10, 20, False), (2, 0, 20, True)]
+    assert counts(d) == (3, 3, 1)
+
+
+def test_a_contact_that_comes_and_goes_within_one_report_is_counted_only():
+    d = decoder()
+    assert play(d, (ID, 7), (X, 100), (Y, 200), (ID, -1), REPORT) == []
+    assert counts(d) == (0, 1, 0)
+
+
+def test_protocol_b_that_starts_in_mid_contact_has_a_finger_once_its_place_is_known():
+    d = decoder()
+    assert play(d, (X, 100), REPORT) == []
+    assert play(d, (Y, 200), REPORT) == [(0, 10, 20, True)]
+    assert play(d, (ID, -1), REPORT) == [(0, 10, 20, False)]
+    assert play(d, (X, 300), REPORT) == []  # nobody is there any more
+    assert counts(d) == (2, 0, 1)
+
+
+def test_the_slot_current_at_the_start_can_be_given():
+    d = decoder(slot=2)
+    assert play(d, (ID, 7), (X, 1), (Y, 1), REPORT, (SLOT, 2), (X, 2), REPORT) == [(0, 0.1, 0.1, True), (0, 0.2, 0.1, True)]
+
+
+def test_a_contact_without_position_waits_for_it():
+    d = decoder()
+    assert play(d, (ID, 7), REPORT, (X, 5), REPORT) == []
+    assert play(d, (Y, 5), REPORT) == [(0, 0.5, 0.5, True)]
+    assert counts(d) == (3, 1, 1)
+
+
+@pytest.mark.parametrize("hover", [(DISTANCE, 1), (KEY, TOUCH, 0)])
+def test_hovering_is_no_contact(hover):
+    touch = (DISTANCE, 0) if hover[0] == DISTANCE else (KEY, TOUCH, 1)
+    d = decoder()
+    assert play(d, hover, (ID, 7), (X, 100), (Y, 200), REPORT, (X, 120), REPORT) == []
+    assert counts(d) == (0, 0, 0)
+    assert play(d, touch, REPORT) == [(0, 12, 20, True)]
+    assert play(d, hover, REPORT) == [(0, 12, 20, False)]
+    assert play(d, touch, REPORT) == [(1, 12, 20, True)]  # felt as a new press, counted as the same contact
+    assert counts(d) == (2, 1, 1)
+
+
+def test_a_palm_is_counted_but_not_played():
+    d = decoder()
+    assert play(d, (ID, 7), (TOOL, 2), (X, 100), (Y, 200), REPORT) == []
+    assert play(d, (SLOT, 1), (ID, 8), (TOOL, 0), (X, 1), (Y, 1), REPORT) == [(0, 0.1, 0.1, True)]
+    assert play(d, (TOOL, 2), REPORT) == [(0, 0.1, 0.1, False)]
+    assert counts(d) == (3, 2, 2)
+
+
+def test_ten_fingers_are_played_and_all_are_counted():
+    d = decoder(last_slot=11)
+    begin = [event for slot in range(12) for event in ((SLOT, slot), (ID, slot), (X, slot), (Y, 0))]
+    assert [finger for finger, *_ in play(d, *begin, REPORT)] == list(range(MAX_PLAYED))
+    assert counts(d) == (1, 12, 12)
+    assert d.warnings == {"more_than_played": 2}
+    assert play(d, (SLOT, 0), (ID, -1), (SLOT, 11), (X, 50), REPORT) == [(0, 0, 0, False)]  # no press in mid-touch
+    assert play(d, (SLOT, 0), (ID, 20), REPORT) == [(10, 0, 0, True)]
+
+
+def test_slots_beyond_the_declared_range_are_decoded_with_a_warning_and_impossible_ones_skipped():
+    d = decoder(last_slot=4)
+    assert play(d, (SLOT, 7), (ID, 1), (X, 10), (Y, 10), REPORT, (X, 20), REPORT) == [(0, 1, 1, True), (0, 2, 1, True)]
+    assert play(d, (SLOT, -1), (ID, 2), (X, 10), (Y, 10), REPORT, (SLOT, 1 << 30), (ID, 3), (X, 10), REPORT) == []
+    assert d.warnings == {"slot_beyond_range": 1, "slot_absurd": 2}
+
+
+def test_positions_outside_the_axes_are_clamped_and_counted():
+    d = decoder()
+    assert play(d, (ID, 1), (X, -5), (Y, 5000), REPORT, (X, 9999), REPORT) == [(0, 0, 148, True), (0, 210, 148, True)]
+    assert d.warnings == {"outside_axes": 2}
+
+
+def test_extra_axes_change_nothing():
+    extra = [(MAJOR, 0), (0x34, 3), (0x3A, 200), (0x18, 40), (0, 77), (1, 78), (4, 5, 999), (KEY, 0x145, 1), (2, 0, 5)]
+    d = decoder()
+    assert play(d, *extra, REPORT) == []
+    assert play(d, (ID, 1), *extra, (X, 10), (Y, 10), *extra, REPORT, *extra, REPORT) == [(0, 1, 1, True)]
+
+
+def test_protocol_a_with_tracking_ids():
+    d = decoder(Protocol.A)
+    both = [(ID, 4), (X, 100), (Y, 100), MT_REPORT, (ID, 9), (X, 200), (Y, 200), MT_REPORT, REPORT]
+    assert play(d, *both) == [(0, 10, 10, True), (1, 20, 20, True)]
+    assert play(d, *both) == []
+    assert play(d, (ID, 9), (X, 210), (Y, 200), MT_REPORT, REPORT) == [(0, 10, 10, False), (1, 21, 20, True)]
+    assert play(d, MT_REPORT, REPORT) == [(1, 21, 20, False)]
+    assert counts(d) == (3, 2, 2)
+
+
+def test_protocol_a_without_tracking_ids_goes_by_distance():
+    d = decoder(Protocol.A)
+    one, two = [(X, 100), (Y, 100), MT_REPORT], [(X, 1000), (Y, 1000), MT_REPORT]
+    assert play(d, *one, *two, REPORT) == [(0, 10, 10, True), (1, 100, 100, True)]
+    swapped = [(X, 1010), (Y, 1000), MT_REPORT, (X, 110), (Y, 100), MT_REPORT]
+    assert sorted(play(d, *swapped, REPORT)) == [(0, 11, 10, True), (1, 101, 100, True)]
+    far = [(X, 1010), (Y, 1000), MT_REPORT, (X, 1800), (Y, 100), MT_REPORT]
+    assert play(d, *far, REPORT) == [(0, 11, 10, False), (2, 180, 10, True)]
+    assert counts(d) == (3, 3, 2)
+
+
+@pytest.mark.parametrize("lift", [[(MAJOR, 0), (X, 100), (Y, 100), MT_REPORT], [MT_REPORT], [(KEY, TOUCH, 0)]])
+def test_protocol_a_lifts(lift):
+    d = decoder(Protocol.A)
+    assert play(d, (KEY, TOUCH, 1), (MAJOR, 5), (X, 100), (Y, 100), MT_REPORT, REPORT) == [(0, 10, 10, True)]
+    assert play(d, (KEY, 0x66, 1), REPORT) == []  # a report about something else
+    assert play(d, *lift, REPORT) == [(0, 10, 10, False)]
+
+
+def test_single_touch():
+    d = decoder(Protocol.SINGLE)
+    assert play(d, (0, 100), (1, 200), REPORT) == []  # hovering
+    assert play(d, (KEY, TOUCH, 1), REPORT) == [(0, 10, 20, True)]
+    assert play(d, (0, 110), REPORT, (KEY, TOUCH, 2), REPORT) == [(0, 11, 20, True)]
+    assert play(d, (KEY, TOUCH, 0), REPORT) == [(0, 11, 20, False)]
+    assert play(d, (KEY, TOUCH, 1), (0, 0), REPORT) == [(1, 0, 20, True)]
+    assert counts(d) == (4, 2, 1)
+
+
+def test_after_lost_events_a_recording_releases_all_fingers_and_a_finger_that_moves_on_begins_anew():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (X, 110), DROPPED, (X, 500), (ID, -1), (ID, 9), DROPPED) == []
+    assert play(d, REPORT) == [(0, 10, 20, False)]
+    assert play(d, REPORT) == []
+    assert play(d, (X, 120), (Y, 210), REPORT) == [(1, 12, 21, True)]
+    assert d.warnings == {"dropped": 1}
+    assert counts(d) == (2, 1, 1)
+
+
+@pytest.mark.parametrize("protocol", [Protocol.A, Protocol.SINGLE])
+def test_after_lost_events_no_finger_is_stuck(protocol):
+    d = decoder(protocol)
+    x, y = ((0, 5), (1, 5)) if protocol is Protocol.SINGLE else ((X, 5), (Y, 5))
+    assert play(d, (KEY, TOUCH, 1), x, y, MT_REPORT, REPORT) == [(0, 0.5, 0.5, True)]
+    assert play(d, DROPPED, (KEY, TOUCH, 0), MT_REPORT, REPORT) == [(0, 0.5, 0.5, False)]
+    assert play(d, (KEY, TOUCH, 1), x, y, MT_REPORT, REPORT) == [(1, 0.5, 0.5, True)]
+
+
+def test_after_lost_events_a_device_is_read_again():
+    state = PanelState(1, True, (Slot(0, 7, 150, 200), Slot(1, -1, 0, 0), Slot(2, 9, 10, 20)))
+    d = decoder(read_state=lambda: state)
+    play(d, (ID, 7), (X, 100), (Y, 200), (SLOT, 1), (ID, 8), (X, 5), (Y, 5), REPORT)
+    assert play(d, DROPPED, (X, 9), REPORT) == [(1, 0.5, 0.5, False), (0, 15, 20, True), (2, 1, 2, True)]
+    assert play(d, (ID, 10), (X, 30), (Y, 30), REPORT) == [(3, 3, 3, True)]  # slot 1 is current
+
+
+def test_the_protocol_shows_itself():
+    assert protocol_of({0, 1, SLOT, X, Y}, ()) is Protocol.B
+    assert protocol_of((), {(ABS, X), (ABS, Y), (SYN, 2)}) is Protocol.A
+    assert protocol_of((), {(ABS, X), (ABS, ID)}) is Protocol.B
+    assert protocol_of({0, 1}, {(ABS, 0), (KEY, TOUCH)}) is Protocol.SINGLE
+    assert protocol_of((), ()) is Protocol.SINGLE
+
+
+codes = st.sampled_from([SLOT, ID, X, Y, 0, 1, DISTANCE, TOOL, MAJOR, 0x3A])
+values = st.one_of(st.integers(-2, 12), st.integers(-(1 << 31), (1 << 31) - 1))
+events = st.one_of(
+    st.tuples(st.just(ABS), codes, values),
+    st.tuples(st.just(KEY), st.just(TOUCH), st.integers(0, 2)),
+    st.sampled_from([REPORT, REPORT, REPORT, MT_REPORT, DROPPED]),
+    st.tuples(st.integers(0, 31), st.integers(0, 0x2FF), values),
+)
+
+
+@settings(max_examples=300)
+@given(st.sampled_from(Protocol), st.lists(events, max_size=120))
+def test_any_stream_gives_fingers_that_begin_move_and_end(protocol, stream):
+    d = decoder(protocol, last_slot=4)
+    down, ended = set(), set()
+    for kind, code, value in stream:
+        samples = d.feed(kind, code, value, 0.0)
+        assert (samples is None) == ((kind, code) != (SYN, 0))
+        for finger, x_m, y_m, _, contact in samples or ():
+            assert 0 <= x_m <= BOARD.plate.length_m
+            assert 0 <= y_m <= BOARD.plate.width_m
+            assert finger not in ended
+            if contact:
+                down.add(finger)
+            else:
+                down.remove(finger)
+                ended.add(finger)
+        assert len({s.finger for s in samples or ()}) == len(samples or ())
+        if samples is not None:
+            assert {finger for finger, _, _ in d.fingers()} == down
+            assert len(down) <= min(MAX_PLAYED, d.counts.max_fingers)
+    assert {s.finger for s in d.release(1.0) if not s.contact} == down
+    assert d.fingers() == []
