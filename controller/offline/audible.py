@@ -18,7 +18,7 @@ from controller.offline.step_response import channel_forces
 
 AUDIBLE_HZ = 16e3
 HIGHEST_HZ = 100e3
-STEP_HZ = 40.0  # a mode's resonance is 1 / (pi tau) = 318 Hz wide at half power
+STEP_HZ = 80.0  # a mode's resonance is 1 / (pi tau) = 318 Hz wide at half power
 
 
 def surface_energy(

@@ -1,7 +1,7 @@
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
@@ -20,6 +20,7 @@ def circuit_step(driver, time_s):
     return expm(matrix * time_s)[0, 2]
 
 
+@settings(max_examples=30, deadline=None)
 @given(st.floats(50.0, 20e3))
 def test_the_step_is_that_of_the_circuit_whatever_its_damping(resistance_ohm):
     driver = msgspec.structs.replace(PAPER, resistance_ohm=resistance_ohm)

@@ -22,6 +22,12 @@ def test_every_single_focus_is_within_range(measured, figure, least, most):
     assert measured["single"][figure]["max"] <= most
 
 
+def test_each_of_four_foci_has_its_share(measured):
+    share = measured["four_foci"]["share"]
+    assert 0.36 <= share["min"] <= share["max"] <= 0.54
+    assert measured["four_foci_near_edges"]["share"]["min"] >= 0.36
+
+
 def test_two_methods_agree_on_the_amplitude(measured):
     for idling in ("single", "single_all_idle_low"):
         assert measured[idling]["relative_amplitude"]["min"] == pytest.approx(1, abs=1e-9)

@@ -187,8 +187,9 @@ def test_a_focus_is_where_it_was_aimed_at_and_judged_as_defined():
     assert judged.contrast_all == pytest.approx(judged.amplitude_m / np.sqrt(np.sum(field.modal**2) / 4), rel=1e-9)
     other = (0.16, 0.10)
     assert field.focus_metrics(*point, [point, other]).contrast != pytest.approx(judged.contrast, rel=1e-4)
-    reversed_field = next(twin.fields(capture_of_words(words ^ 0xFFFFFFFF, BIT, IDLE ^ 0xFFFFFFFF, LONG_AGO), CLOCK_HZ))
-    assert reversed_field.focus_metrics(*point).spot_m == pytest.approx(judged.spot_m, rel=0.2)
+    pushed = next(twin.fields(capture_of_words(focus(response, [-1.0], IDLE), BIT, IDLE, LONG_AGO), CLOCK_HZ)).focus_metrics(*point)
+    assert pushed.amplitude_m == pytest.approx(-judged.amplitude_m, rel=0.1)  # the other way, with another start and end
+    assert (pushed.spot_m, pushed.contrast) == pytest.approx((judged.spot_m, judged.contrast), rel=0.1)
 
 
 @pytest.mark.parametrize("width_mm", [4.0, 5.2])
@@ -200,15 +201,15 @@ def test_half_width_of_a_bell_is_its_own(width_mm):
 
 def test_audible_energy_adds_up_to_the_energy_over_time():
     # a plate with few modes and an emission of five words, so that time can be sampled finely
-    plate = msgspec.structs.replace(BOARD.plate, thickness_mm=22.0)
+    plate = msgspec.structs.replace(BOARD.plate, thickness_mm=40.0)
     board = msgspec.structs.replace(BOARD, plate=plate)
     modes = PlateModes.of(plate, 100e3)
-    assert modes.count < 60
+    assert 10 < modes.count < 40
     step = StepResponse.of(modes, DriverResponse.of(board.driver))
     forces = PlateTwin(board).forces
     words = random_words(8, 5)
     step_s = 0.25e-6
-    times = np.arange(60_000) * step_s
+    times = np.arange(40_000) * step_s
     levels = channel_bits(np.concatenate([[IDLE], words, [IDLE]]).astype("<u4")).astype(float)
     velocity = np.zeros((modes.count, len(times)))
     for edge, volts in enumerate(np.diff(levels, axis=0) * board.driver.supply_v):
