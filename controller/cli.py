@@ -166,7 +166,7 @@ def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: 
     from controller.offline.bank_builder import build_bank  # noqa: PLC0415
 
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    return build_bank(board, path, pitch_m, cells, scene=name, progress=_progress("bank"))
+    return build_bank(board, path, pitch_m, cells, scene=name, progress=True)
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:

@@ -23,6 +23,7 @@ from controller.playback import ENDLESS, NEVER, Playback
 from controller.scene import OUTSIDE, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
 from controller.touch.source import TouchSource
 
+SPOT_LEAD_S = 0.5e-3  # a spot's play command goes out this early, so that its beat does not wait for the wire
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
 
 
@@ -173,7 +174,7 @@ class EventLoop:
         if trigger_at_s is not None and trigger_at_s <= now_s:
             self._playback.trigger(started_ns)
             self._stalls = 0
-        elif trigger_at_s is None and self._due:
+        elif trigger_at_s is None and self._due and self._session.ready_s() <= now_s:
             self._play(now_s, started_ns)
         return self._next_s(now_s)
 
@@ -202,16 +203,20 @@ class EventLoop:
         if self._playback.repeating:
             return
         for spot, due_s in self._spot_due_s.items():
-            if due_s <= now_s:
-                self._add((Emission(now_s, spot.x_m, spot.y_m, None, spot.region),))
-                self._spot_due_s[spot] = due_s + math.ceil((now_s - due_s) * spot.rate_hz + 1e-9) / spot.rate_hz
+            if due_s <= now_s + SPOT_LEAD_S:
+                self._add((Emission(due_s, spot.x_m, spot.y_m, None, spot.region),))
+                missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
+                self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz
 
     def _play(self, now_s: float, started_ns: int) -> None:
         """Prepare all that is due as one emission; spots alone are left to the FPGA to repeat."""
         emissions = list(self._due.values())
         self._due.clear()
-        if self._common_period_s is not None and all(e.finger is None for e in emissions):
-            self._playback.prepare(emissions, started_ns, count=ENDLESS, period_s=self._common_period_s)
+        if all(emission.finger is None for emission in emissions):
+            endless = self._common_period_s is not None
+            due_s = max(emission.time_s for emission in emissions)
+            count, period_s = (ENDLESS, self._common_period_s or 0.0) if endless else (1, 0.0)
+            self._playback.prepare(emissions, started_ns, count=count, period_s=period_s, not_before_s=due_s)
             return
         if self._playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
             next_s = self._playback.next_repetition_s(now_s)
@@ -224,14 +229,14 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         trigger_at_s = self._playback.trigger_at_s
         if self._due and trigger_at_s is None:
-            return now_s
+            return max(now_s, self._session.ready_s())
         read_s = self._source.next_time_s()
         times = [at_s for at_s in map(next_time_s, self._fingers.values()) if at_s is not None]
         times += [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
         if not times and self._source.fileno() is None:  # a replay that has ended: let the last emission sound
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating:
-            times += self._spot_due_s.values()
+            times += [due_s - SPOT_LEAD_S for due_s in self._spot_due_s.values()]
         return min(times, default=NEVER)
 
 

@@ -112,7 +112,9 @@ class Playback:
         """When the endless repetition next starts an emission, after a time; never without one."""
         return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s
 
-    def prepare(self, emissions: Sequence[Emission], started_ns: int, *, count: int = 1, period_s: float = 0.0) -> bool:
+    def prepare(
+        self, emissions: Sequence[Emission], started_ns: int, *, count: int = 1, period_s: float = 0.0, not_before_s: float = -NEVER
+    ) -> bool:
         """Bring one emission, of one or several foci, to an accepted play command; False if it had to be left out.
 
         Parameters
@@ -123,6 +125,8 @@ class Playback:
             When the work for it began (perf_counter_ns).
         count, period_s
             Repetitions by the FPGA, start to start; count 0 repeats until replaced.
+        not_before_s
+            Earliest time of the trigger.
         """
         away_ns, wire_ns = self._session.away_ns, self._session.wire_ns
         key = self._selection.key([(e.x_m, e.y_m, e.weight) for e in emissions])
@@ -145,7 +149,7 @@ class Playback:
             self.free_s = max(self.free_s, running.last_start_s(ready_s) + self._busy_s)
             self._running = None
         host_ns = time.perf_counter_ns() - started_ns - (self._session.away_ns - away_ns)
-        trigger_at_s = max(ready_s, self.free_s + MARGIN_S)
+        trigger_at_s = max(ready_s, self.free_s + MARGIN_S, not_before_s)
         self._prepared = _Prepared(
             tuple(emissions), count, period_s, resident, ready_s, trigger_at_s, host_ns, self._session.wire_ns - wire_ns
         )

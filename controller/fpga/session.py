@@ -143,7 +143,11 @@ class Session:
         Refused
             If the FPGA cannot play it.
         """
-        self._exchange_short(self._pack_commands(0, self._sequence, slot, None, count, period_s, stop))
+
+        def send(again: bool) -> None:
+            self._exchange_short(self._pack_commands(0, self._sequence, slot, None, count, period_s, stop or again))
+
+        self._insist(send)
 
     def upload_and_play(self, slot: int, words: memoryview, count: int, period_s: float, *, stop: bool) -> None:
         """Send drive words, make them the slot's waveform and have it accepted for the next trigger.
@@ -154,21 +158,22 @@ class Session:
         ------
         Refused
             If the FPGA cannot take or play it.
+        LinkError
+            If the link damages whatever is tried; nothing is left to play then.
         """
-        length = words.nbytes // 4
-        for attempt in range(ATTEMPTS):
+
+        def send(again: bool) -> None:
             sequence = self._sequence
             end = frames.pack_upload(self._sent, 0, sequence, words)
-            chunks = len(self._upload)
-            end = self._pack_commands(end, sequence + chunks, slot, length, count, period_s, stop or attempt > 0)
-            commands = (end - self._upload[-1].stop) // FRAME_BYTES
-            try:
-                self._exchange([*self._upload_lengths, *[FRAME_BYTES] * commands])
-                return
-            except Refused as refused:
-                self._control(Control.STOP)
-                if refused.result not in DAMAGED or attempt == ATTEMPTS - 1:
-                    raise
+            commands = end
+            end = self._pack_commands(end, sequence + len(self._upload), slot, words.nbytes // 4, count, period_s, stop or again)
+            self._exchange([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
+
+        try:
+            self._insist(send)
+        except Refused:  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
+            self._stop()
+            raise
 
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
@@ -187,6 +192,28 @@ class Session:
         period_ticks = round(period_s * self._board.link.clock_hz)
         end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
+
+    def _insist(self, send: Callable[[bool], None]) -> None:
+        """Send again, a STOP first, what was damaged on its way there or back."""
+        for attempt in range(ATTEMPTS):
+            try:
+                send(attempt > 0)
+                return
+            except LinkError as error:
+                hopeless = isinstance(error, Refused) and error.result not in DAMAGED
+                if hopeless or attempt == ATTEMPTS - 1:
+                    if not hopeless:
+                        self._stop()
+                    raise
+
+    def _stop(self) -> None:
+        """Leave nothing to play; on a link that damages everything, as well as it can be done."""
+        for _ in range(ATTEMPTS):
+            try:
+                self._control(Control.STOP)
+                return
+            except LinkError:
+                continue
 
     def _control(self, command: Control) -> None:
         end = frames.pack_control(self._sent, 0, self._sequence, command)
@@ -232,7 +259,7 @@ class Session:
             found = self._read(register)
             if found != value:
                 raise LinkError(
-                    f"the FPGA's {register.name} is 0x{found:08X}, this host expects 0x{value:08X}: load the gateware that belongs to it"
+                    f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
                 )
         geometry = self._read(Register.GEOMETRY)
         slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24

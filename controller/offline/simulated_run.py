@@ -18,14 +18,13 @@ import numpy as np
 
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
-from controller.board import Board, data_folder
+from controller.board import Board
 from controller.event_loop import EventLoop, MonotonicClock, VirtualClock
-from controller.fpga.build_hash import build_hash
 from controller.fpga.capture import Capture
-from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
+from controller.hardware import open_fpga
 from controller.latency import Counters, LatencyHistogram
-from controller.offline.field import Field, FocusMetrics
+from controller.offline.field import OUTSIDE_M, Field, FocusMetrics
 from controller.offline.plate_twin import PlateTwin
 from controller.playback import Playback, Played
 from controller.scene import Emission, Scene
@@ -74,6 +73,7 @@ class Run:
     played: list[Played]
     link: SimulatedLink
     start_s: float
+    lookups: int
     response_mapped: bool
     reference: LatencyHistogram
 
@@ -87,9 +87,7 @@ def play(board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_t
         As the event loop does.
     """
     clock = MonotonicClock() if real_time else VirtualClock()
-    gateware = build_hash(data_folder("fpga_rtl"))
-    link = SimulatedLink(board.link, clock.now_s, gateware)
-    session = Session(link, board, gateware, clock.now_s)
+    link, session = open_fpga(board, clock.now_s)
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
     played: list[Played] = []
@@ -117,6 +115,7 @@ def play(board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_t
         played=played,
         link=link,
         start_s=start_s,
+        lookups=bank.counters.lookups,
         response_mapped=selection.composes,
         reference=copy_and_checksum(board.waveform.samples * 4),
     )
@@ -144,12 +143,10 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
         Told of emissions judged and emissions in all.
     """
     twin = PlateTwin(run.board)
-    triggers_s = [played.trigger_s for played in run.played]
-    times_s = [run.link.time_s(int(tick)) for tick in run.capture.focus_ticks]
+    meant = foci_meant(run)
     judged = Judged([], None, [])
-    for done, (time_s, field) in enumerate(zip(times_s, twin.fields(run.capture, run.link.clock_hz), strict=True), 1):
-        emissions = run.played[bisect_right(triggers_s, time_s - 0.99 * run.board.waveform.duration_s) - 1].emissions
-        recording_s = time_s - run.start_s
+    for done, ((tick, emissions), field) in enumerate(zip(meant, twin.fields(run.capture, run.link.clock_hz), strict=True), 1):
+        recording_s = run.link.time_s(tick) - run.start_s
         places = [_place(run.tracks, emission, recording_s) for emission in emissions]
         together = []
         for emission, (x_m, y_m) in zip(emissions, places, strict=True):
@@ -163,14 +160,28 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
         if _worth_showing(together) > _worth_showing(judged.shown):
             judged = Judged(judged.foci, field, together)
         if progress:
-            progress(done, len(times_s))
+            progress(done, len(meant))
     return judged
 
 
+def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
+    """Every focus tick of the capture with what the loop wanted there: the emissions of the last trigger before it began."""
+    triggers_s = [played.trigger_s for played in run.played]
+    meant = []
+    for tick in run.capture.focus_ticks.tolist():
+        began_s = run.link.time_s(tick) - 0.99 * run.board.waveform.duration_s
+        meant.append((tick, run.played[bisect_right(triggers_s, began_s) - 1].emissions))
+    return meant
+
+
 def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
-    """Most fingers at once, then the largest of the weakest focus."""
-    fingers = [focus for focus in foci if focus.emission.finger is not None]
-    return len(fingers), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
+    """Most fingers that are apart from all others, then the largest of the weakest focus."""
+    apart = [
+        focus.emission.finger is not None
+        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > OUTSIDE_M for other in foci if other is not focus)
+        for focus in foci
+    ]
+    return sum(apart), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
 
 
 def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:

@@ -1,0 +1,64 @@
+"""What the tests share: the simulated board, and one small bank of it."""
+
+import pytest
+
+from controller.bank.reader import Bank
+from controller.board import find_board, load_board
+from controller.offline.bank_builder import build_bank
+from controller.offline.simulated_run import play
+from controller.scene import load_scene
+from controller.touch.recording import Recording
+
+PITCH_M = 10e-3  # 20 x 13 cells: built in a second
+
+
+@pytest.fixture(scope="session")
+def board():
+    return load_board(find_board("simulated"))
+
+
+@pytest.fixture(scope="session")
+def bank_file(board, tmp_path_factory):
+    path = tmp_path_factory.mktemp("bank") / "simulated.bank"
+    build_bank(board, path, PITCH_M, measure_sgemm=False)
+    return path
+
+
+AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
+
+
+def evemu(*reports):
+    """Recording text of `(time_s, {slot: (x_mm, y_mm) or None})` reports; a slot that was away begins a new contact."""
+    lines, down, ids = [AXES], set(), iter(range(1000))
+    for time_s, slots in reports:
+        for slot, place in slots.items():
+            events = [(3, 0x2F, slot)]
+            if place is None:
+                events.append((3, 0x39, -1))
+                down.discard(slot)
+            else:
+                if slot not in down:
+                    events.append((3, 0x39, next(ids)))
+                    down.add(slot)
+                events += [(3, 0x35, round(10 * place[0])), (3, 0x36, round(10 * place[1]))]
+            lines += [f"E: {time_s:.6f} {kind:04x} {code:04x} {value:04d}\n" for kind, code, value in events]
+        lines.append(f"E: {time_s:.6f} 0000 0000 0000\n")
+    return "".join(lines)
+
+
+@pytest.fixture
+def evemu_text():
+    return evemu
+
+
+@pytest.fixture
+def perform(board, bank_file, tmp_path):
+    """Replay scripted touches on a scripted scene in virtual time; everything is the product's own."""
+
+    def play_script(reports, scene_text, *, on=board, bank=None):
+        scene_file = tmp_path / "scripted.toml"
+        scene_file.write_text(scene_text)
+        with Bank.open(bank or bank_file, on) as opened:
+            return play(on, load_scene(scene_file, on), opened, Recording(evemu(*reports)), real_time=False)
+
+    return play_script

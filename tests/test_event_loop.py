@@ -1,0 +1,269 @@
+"""The loop from touch to pins: what it plays, when, what it leaves out, and how it ends.
+
+Recording, scene, bank, session, link and gateware model are the product's own; time is virtual, so
+every run gives the same ticks.
+"""
+
+import msgspec
+import numpy as np
+import pytest
+
+from controller.bank.reader import Bank
+from controller.bank.selection import Selection
+from controller.errors import FaultError
+from controller.event_loop import EventLoop, VirtualClock
+from controller.hardware import open_fpga
+from controller.latency import Counters
+from controller.offline.simulated_run import foci_meant
+from controller.playback import Playback
+from controller.scene import load_scene
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+
+CELL = (105.0, 74.0)  # a cell of the 10 mm grid: its centres lie at 10, 20 … mm and 14, 24 … mm, shifted to the middle
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "click" }]\n'
+TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
+TRAIN = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "train", rate_hz = 50.0, duration_ms = 400.0 }]\n'
+BUTTON = (
+    '[[regions]]\nname = "button"\nshape = "rectangle"\nx_mm = 100.0\ny_mm = 70.0\nwidth_mm = 10.0\nheight_mm = 10.0\n'
+    'effects = [{ effect = "click" }]\n'
+)
+SPOT = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0\neffects = [{ effect = "always", rate_hz = 20.0 }]\n'
+UPLOAD_BYTES = 4096 + 3 * 32
+RESIDENT_BYTES = 2 * 32
+T_S = 2e-3
+
+
+@pytest.fixture
+def cell(bank_file):
+    """A cell in the middle, and its place in mm."""
+    with Bank.open(bank_file) as bank:
+        number, _ = bank.grid.nearest(0.105, 0.074)
+        x_m, y_m = bank.grid.points()[number]
+        return number, (x_m * 1e3, y_m * 1e3)
+
+
+def entry(bank_file, cell):
+    with Bank.open(bank_file) as bank:
+        return np.frombuffer(bytes(bank.words(cell)), "<u4")
+
+
+def words_before(run, focus_tick):
+    """The 1000 words on the pins up to a focus tick."""
+    capture, bit_ticks = run.capture, run.board.bit_ticks
+    sampled = focus_tick - bit_ticks * np.arange(1000, 0, -1)
+    return capture.words[np.searchsorted(capture.ticks.astype(np.int64), sampled, side="right") - 1]
+
+
+def starts_ms(run):
+    return (run.capture.focus_ticks.astype(np.int64) - 1000 * run.board.bit_ticks) / run.board.link.clock_hz * 1e3
+
+
+def test_a_click_on_a_cell_puts_the_banks_entry_on_the_pins_bit_by_bit(perform, bank_file, cell):
+    number, place = cell
+    run = perform([(0.0, {0: place}), (0.1, {0: None})], CLICK)
+    assert run.capture.focus_ticks.size == run.counters.emissions == run.counters.uploads == 1
+    assert np.array_equal(words_before(run, int(run.capture.focus_ticks[0])), entry(bank_file, number))
+    assert run.counters.skipped.compositions == 1
+    assert not run.response_mapped
+
+
+def test_outputs_are_off_at_the_end_and_were_never_on_without_the_high_voltage_enable(perform, cell):
+    run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
+    assert run.capture.hv[-1] == 0
+    assert run.capture.words[-1] == 0
+    assert not run.capture.words[run.capture.hv == 0].any()
+
+
+def test_without_touch_there_is_nothing_but_the_heartbeat(perform):
+    short = perform([(0.0, {}), (1.0, {})], CLICK)
+    long = perform([(0.0, {}), (11.0, {})], CLICK)
+    assert long.capture.focus_ticks.size == 0
+    assert long.link.bytes_sent - short.link.bytes_sent == 32 * (long.counters.heartbeats - short.counters.heartbeats)
+    assert long.counters.heartbeats - short.counters.heartbeats == pytest.approx(10 / (0.1 / 3), abs=1)
+
+
+def test_a_touch_outside_every_region_looks_nothing_up(perform, bank_file, cell):
+    run = perform([(0.0, {0: (20.0, 20.0)}), (0.1, {0: (30.0, 30.0)}), (0.2, {0: None})], BUTTON)
+    assert run.counters.skipped.outside_region == 2
+    assert run.lookups == 0
+    assert run.capture.focus_ticks.size == 0
+
+
+def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perform, cell):
+    run = perform([(0.0, {0: cell[1]}), (0.5, {0: None})], TRAIN)
+    assert run.counters.uploads == 1
+    assert run.counters.resident == run.counters.skipped.uploads == 19
+    silent = perform([(0.0, {}), (0.5, {})], TRAIN)
+    played_bytes = run.link.bytes_sent - 32 * run.counters.heartbeats - (silent.link.bytes_sent - 32 * silent.counters.heartbeats)
+    assert played_bytes == UPLOAD_BYTES + 19 * RESIDENT_BYTES
+    assert np.diff(starts_ms(run))[1:] == pytest.approx(20, abs=1e-3)  # the first one waits for its upload
+
+
+def test_a_train_ends_when_the_finger_is_lifted(perform, cell):
+    assert perform([(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {})], TRAIN).capture.focus_ticks.size == 5
+
+
+def test_two_fingers_due_at_once_are_one_emission_with_two_foci(perform, board, bank_file):
+    run = perform([(0.0, {0: (60.0, 54.0), 1: (150.0, 94.0)}), (0.1, {0: None, 1: None})], CLICK)
+    assert run.capture.focus_ticks.size == 1
+    assert {(round(e.x_m * 1e3), round(e.y_m * 1e3)) for e in run.played[0].emissions} == {(60, 54), (150, 94)}
+    with Bank.open(bank_file, board) as bank:
+        selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
+        words = selection.words(selection.key([(0.06, 0.054, 1.0), (0.15, 0.094, 1.0)]))
+        assert np.array_equal(words_before(run, int(run.capture.focus_ticks[0])), np.frombuffer(words, "<u4"))
+
+
+def test_what_becomes_due_while_the_plate_is_busy_is_composed_when_it_is_free(perform):
+    reports = [
+        (0.0, {0: (60.0, 54.0)}),
+        (0.0005, {1: (150.0, 94.0)}),
+        (0.001, {2: (100.0, 104.0)}),
+        (0.1, {0: None, 1: None, 2: None}),
+    ]
+    run = perform(reports, CLICK)
+    assert [len(played.emissions) for played in run.played] == [1, 2]
+    assert np.diff(starts_ms(run)) >= T_S * 1e3
+
+
+def test_of_one_finger_only_the_newest_emission_waits(perform):
+    reports = [(0.0005 * k, {0: (60.0 + 6 * k, 54.0)}) for k in range(8)]
+    run = perform([*reports, (0.1, {0: None})], TEXTURE)
+    assert run.counters.skipped.merged > 0
+    assert run.counters.emissions + run.counters.skipped.merged == 7
+    assert run.played[-1].emissions[0].x_m == pytest.approx(0.102)
+
+
+def test_emissions_never_overlap_and_keep_the_duty_limit(perform, board):
+    half = msgspec.structs.replace(board, limits=msgspec.structs.replace(board.limits, max_duty=0.5))
+    reports = [(0.001 * k, {0: (20.0 + 5.5 * k, 54.0)}) for k in range(30)]
+    for on, period_ms in ((board, 2.0), (half, 4.0)):
+        run = perform([*reports, (0.1, {0: None})], TEXTURE, on=on)
+        assert run.capture.focus_ticks.size == run.counters.emissions > 3
+        assert np.diff(starts_ms(run)).min() >= period_ms
+
+
+def test_a_spot_is_handed_to_the_fpga_which_repeats_it_without_the_host(perform):
+    short, long = (perform([(0.0, {}), (end_s, {})], SPOT) for end_s in (1.0, 3.0))
+    assert long.counters.emissions == 1
+    assert long.capture.focus_ticks.size - short.capture.focus_ticks.size == 40
+    assert np.unique(np.diff(long.capture.focus_ticks.astype(np.int64))).tolist() == [5_000_000]
+    assert long.link.bytes_sent - short.link.bytes_sent == 32 * (long.counters.heartbeats - short.counters.heartbeats)
+
+
+def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on_in_its_beat(perform):
+    run = perform([(0.0, {}), (0.212, {0: (150.0, 94.0)}), (0.4, {0: None}), (1.0, {})], SPOT + CLICK)
+    spots = [tick for tick, meant in foci_meant(run) if meant[0].finger is None]
+    fingers = [tick for tick, meant in foci_meant(run) if meant[0].finger is not None]
+    assert len(fingers) == 1
+    beat = np.diff(spots)
+    assert beat == pytest.approx(5_000_000, abs=2_000)  # 20 µs: the loop's own turn of the hand-over
+    assert run.counters.uploads == 2
+    assert run.counters.resident == 1
+
+
+def test_a_finger_due_with_a_spot_is_composed_with_it(perform):
+    first = perform([(0.0, {}), (1.0, {})], SPOT)
+    next_start_s = starts_ms(first)[4] * 1e-3 - first.start_s + first.link.time_s(0)
+    run = perform([(0.0, {}), (next_start_s - 0.0005, {0: (150.0, 94.0)}), (0.9, {0: None}), (1.0, {})], SPOT + CLICK)
+    together = [meant for _, meant in foci_meant(run) if len(meant) == 2]
+    assert len(together) == 1
+    assert {emission.region for emission in together[0]} == {"spot", "all"}
+
+
+def test_a_bad_entry_is_left_out_counted_and_the_loop_goes_on(perform, bank_file, cell, tmp_path):
+    number, place = cell
+    damaged = tmp_path / "damaged.bank"
+    content = bytearray(bank_file.read_bytes())
+    at = content.index(entry(bank_file, number).tobytes())
+    content[at + 100] ^= 1
+    damaged.write_bytes(content)
+    other = (place[0] + 20, place[1])
+    reports = [(0.0, {0: place}), (0.1, {0: None}), (0.2, {0: other}), (0.3, {0: None})]
+    run = perform(reports, CLICK, bank=damaged)
+    assert run.counters.skipped.bad_entries == 1
+    assert run.capture.focus_ticks.size == 1
+
+
+def test_a_replay_in_virtual_time_is_the_same_every_time(perform):
+    reports = [(0.004 * k, {0: (20.0 + 3 * k, 54.0), 1: (180.0 - 2 * k, 30.0 + k)}) for k in range(40)]
+    first, second = (perform(reports, SPOT + TEXTURE) for _ in range(2))
+    for field in ("ticks", "words", "hv", "focus_ticks"):
+        assert np.array_equal(getattr(first.capture, field), getattr(second.capture, field))
+
+
+class StallingClock(VirtualClock):
+    """Virtual time in which the process is stopped once for a while, as by SIGSTOP."""
+
+    def __init__(self, stalls):
+        super().__init__()
+        self.stalls = stalls  # (from, for) in s
+
+    def wait(self, selector, until_s):
+        super().wait(selector, until_s)
+        while self.stalls and self._now_s >= self.stalls[0][0]:
+            self._now_s += self.stalls.pop(0)[1]
+
+
+def loop_of(board, bank, tmp_path, clock, reports, evemu_text):
+    (tmp_path / "s.toml").write_text(TRAIN)
+    scene = load_scene(tmp_path / "s.toml", board)
+    link, session = open_fpga(board, clock.now_s)
+    counters = Counters()
+    selection = Selection(bank, 1e-3, board.idle_word)
+    playback = Playback(session, selection, slots=4, duration_s=T_S, max_duty=1.0, counters=counters)
+    recording = Recording(evemu_text(*reports))
+    source = RecordingSource(recording, recording.axes(board), 0.1)
+    return link, counters, EventLoop(clock, session, source, scene, playback, counters)
+
+
+def test_after_a_stall_the_fpga_is_off_and_the_loop_arms_again(board, bank_file, tmp_path, cell, evemu_text):
+    reports = [(0.0, {0: cell[1]}), (0.5, {0: None}), (1.0, {0: cell[1]}), (1.5, {0: None})]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, StallingClock([(0.25, 0.4)]), reports, evemu_text)
+        loop.run()
+        link.close()
+    capture = link.take_capture()
+    off = np.flatnonzero(np.diff(capture.hv.astype(int)) == -1) + 1
+    assert counters.host_silent == 1
+    assert len(off) == 2
+    silent_s = capture.ticks[off[0]] / board.link.clock_hz - 0.25
+    assert 0 < silent_s <= 0.1, "the heartbeat timeout"
+    assert (capture.focus_ticks > 1.1 * board.link.clock_hz).sum() == 20, "the second touch is played in full"
+
+
+def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, evemu_text):
+    stalls = [(0.02 + 0.3 * k, 0.25) for k in range(10)]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), [(0.0, {}), (9.0, {})], evemu_text)
+        with pytest.raises(FaultError, match=r"No good frame came from the host.*in a row"):
+            loop.run()
+        link.close()
+    assert link.take_capture().hv[-1] == 0
+
+
+def test_a_lost_run_permit_ends_the_loop_with_its_cause_and_outputs_off(board, bank_file, tmp_path, cell, evemu_text):
+    class PermitLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                link.model.permit(round(self._now_s * board.link.clock_hz), False)
+
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, PermitLost(), [(0.0, {0: cell[1]}), (0.5, {0: None})], evemu_text)
+        with pytest.raises(FaultError, match="run permit went away"):
+            loop.run()
+        link.close()
+    capture = link.take_capture()
+    assert capture.hv[-1] == 0
+    assert capture.words[-1] == 0
+
+
+def test_spots_of_different_rates_each_keep_their_own_beat(perform):
+    other = SPOT.replace('"spot"', '"slow"').replace("x_mm = 60.0", "x_mm = 150.0").replace("rate_hz = 20.0", "rate_hz = 8.0")
+    run = perform([(0.0, {}), (1.0, {})], SPOT + other)
+    meant = foci_meant(run)
+    for name, period_ticks in (("spot", 5_000_000), ("slow", 12_500_000)):
+        ticks = [tick for tick, emissions in meant if name in {emission.region for emission in emissions}]
+        assert np.diff(ticks)[1:] == pytest.approx(period_ticks, abs=400_000)  # 4 ms: an upload while the other one sounds
+    assert any(len(emissions) == 2 for _, emissions in meant), "due at once, they are composed"

@@ -1,0 +1,51 @@
+"""Latency histograms: percentiles within the width of a bucket, in constant memory."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.latency import P999_SAMPLES, LatencyHistogram, Stages
+
+durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
+
+
+@given(durations, st.sampled_from([0.5, 0.9, 0.99, 1.0]))
+def test_percentiles_are_those_of_the_values_within_a_bucket(values, share):
+    histogram = LatencyHistogram()
+    for value in values:
+        histogram.record(value)
+    exact = float(np.percentile(values, 100 * share, method="inverted_cdf"))
+    assert histogram.percentile_ns(share) == pytest.approx(exact, rel=1 / 128, abs=0.5)
+    assert histogram.worst_ns == max(values)
+    assert histogram.count == len(values)
+
+
+@pytest.mark.parametrize("exact", [100, 12_345, 10**9])
+def test_one_percent_is_noticed(exact):
+    histogram = LatencyHistogram()
+    histogram.record(round(exact * 1.01))
+    histogram.record(round(exact * 1.01))
+    assert histogram.percentile_ns(0.5) != pytest.approx(exact, rel=1 / 256)
+
+
+def test_says_nothing_of_what_it_has_too_few_records_for():
+    histogram = LatencyHistogram()
+    assert histogram.summary_us() == {"count": 0, "p50": None, "p99": None, "p999": None, "worst": None}
+    for _ in range(P999_SAMPLES - 1):
+        histogram.record(1000)
+    assert histogram.summary_us()["p999"] is None
+    histogram.record(1000)
+    assert histogram.summary_us() == {"count": P999_SAMPLES, "p50": 1.0, "p99": 1.0, "p999": 1.0, "worst": 1.0}
+
+
+def test_a_clock_stepped_back_counts_as_no_time():
+    histogram = LatencyHistogram()
+    histogram.record(-5)
+    assert histogram.percentile_ns(1.0) == 0
+
+
+def test_the_total_is_the_sum_of_its_stages():
+    stages = Stages()
+    stages.record(100, 20, 3)
+    assert [h.worst_ns for h in (stages.host, stages.wait, stages.wire, stages.total)] == [100, 20, 3, 123]
