@@ -6,6 +6,7 @@ nothing describes is zero. Tables are covered by a CRC-32 in the header, entries
 
 from __future__ import annotations
 
+import importlib.metadata
 import json
 import math
 import struct
@@ -88,14 +89,14 @@ class Header:
 
     def pack(self, sections: tuple[Section, ...]) -> bytes:
         """Lay out the header, with the sections' checksums in the table."""
-        creator, parameters = self.creator.encode(), self._json()
-        if len(creator) > 64:
+        maker, parameters = self.creator.encode(), self._json()
+        if len(maker) > 64:
             raise ValueError(f"creator {self.creator!r} is longer than 64 bytes")
         if self.header_bytes > MAX_HEADER:
             raise ValueError(f"parameters of {len(parameters)} bytes do not fit a header of {MAX_HEADER} bytes")
         grid = self.grid
         body = FIXED.pack(
-            *(MAGIC, VERSION, self.header_bytes, self.file_bytes, creator, self.board_digest),
+            *(MAGIC, VERSION, self.header_bytes, self.file_bytes, maker, self.board_digest),
             *(grid.pitch_m, grid.x0_m, grid.y0_m, self.bit_clock_hz, grid.nx, grid.ny),
             *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), 0),
         )
@@ -106,6 +107,11 @@ class Header:
 
     def _json(self) -> bytes:
         return json.dumps(self.parameters, sort_keys=True, allow_nan=False).encode()
+
+
+def creator() -> str:
+    """This program and its version, as the header of a bank names them."""
+    return f"haptic-panel {importlib.metadata.version('haptic-panel')}"
 
 
 def up(value: int, step: int) -> int:
@@ -157,7 +163,7 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
     if CRC.unpack(data[-CRC.size :])[0] != zlib.crc32(body):
         raise BankError("is damaged: CRC-32 of the header is wrong")
     fixed = FIXED.unpack_from(body)
-    told_bytes, creator, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
+    told_bytes, maker, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
     parameters_bytes, section_count, zero = fixed[15:]
     if file_bytes != told_bytes:
         raise BankError(f"{'is truncated' if file_bytes < told_bytes else 'has grown'}: {file_bytes} bytes instead of {told_bytes}")
@@ -169,7 +175,7 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
     try:
         parameters = json.loads(body[at : at + parameters_bytes])
         header = Header(
-            creator.rstrip(b"\0").decode(), digest, Grid(pitch_m, nx, ny, x0_m, y0_m), bit_clock_hz, samples, entries, parameters
+            maker.rstrip(b"\0").decode(), digest, Grid(pitch_m, nx, ny, x0_m, y0_m), bit_clock_hz, samples, entries, parameters
         )
     except ValueError as error:
         raise BankError(f"has unreadable build parameters or creator ({error})") from None

@@ -65,7 +65,8 @@ class Grid:
         fx = min(max((x_m - self.x0_m) / self.pitch_m, 0.0), self.nx - 1.0)
         fy = min(max((y_m - self.y0_m) / self.pitch_m, 0.0), self.ny - 1.0)
         ix, iy = min(int(fx), max(self.nx - 2, 0)), min(int(fy), max(self.ny - 2, 0))
-        fx, fy = fx - ix, fy - iy
+        # to a millionth of a pitch: on a cell, rounding must not ask for its neighbours
+        fx, fy = round(fx - ix, 6), round(fy - iy, 6)
         right = 1 if self.nx > 1 else 0
         up = self.nx if self.ny > 1 else 0
         cell = iy * self.nx + ix

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import Section
+from controller.bank.file_format import Section, creator
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.board import Board
@@ -29,7 +29,7 @@ def bank_info(path: Path) -> dict[str, Any]:
         header, grid = bank.header, bank.grid
         return {
             "path": str(path),
-            "bytes": header.file_bytes,
+            "bytes": bank.file_bytes,
             "creator": header.creator,
             "board": header.parameters.get("board"),
             "board_digest": header.board_digest.hex(),
@@ -65,14 +65,16 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
         Naming the place of the first damage.
     """
     with Bank.open(path) as bank:  # checks the header, its padding and the tables
-        end = bank.header.header_bytes
+        end = bank.sections["index"].offset
         for section in bank.sections.values():
             _check_padding(bank, end, section.offset)
             end = section.offset + section.size
             if section.name in {"drive", "response"}:
                 _check_entries(bank, section, progress or (lambda _done, _all: None))
-        _check_padding(bank, end, bank.header.file_bytes)
-        return {"path": str(path), "bytes": bank.header.file_bytes, "cells": bank.header.entries, "good": True}
+        _check_padding(bank, end, bank.file_bytes)
+        if progress:
+            progress(bank.file_bytes, bank.file_bytes)
+        return {"path": str(path), "bytes": bank.file_bytes, "cells": bank.header.entries, "good": True}
 
 
 def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
@@ -85,7 +87,7 @@ def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], 
         if zlib.crc32(row) != checksums[column]:
             raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]})")
         _check_padding(bank, start + section.row_bytes, start + section.stride)
-        progress(start + section.stride, bank.header.file_bytes)
+        progress(start + section.stride, bank.file_bytes)
 
 
 def _check_padding(bank: Bank, start: int, end: int) -> None:
@@ -97,8 +99,8 @@ def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
     return BankError(f"{bank.path}: damaged in bytes {start} to {start + size - 1}: {what}; rebuild it: {bank.rebuild}")
 
 
-def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_] | None, creator: str | None = None) -> bool:
-    """Whether a bank is whole and serves this board, grid and set of cells; else it is to be (re)built.
+def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_] | None) -> bool:
+    """Whether a bank is whole, built by this version for this board, grid and cells; else it is to be built anew.
 
     Parameters
     ----------
@@ -110,14 +112,12 @@ def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_
         Pitch it must have.
     cells : (cells,) bool array or None
         Cells it must hold; all for None. More do no harm.
-    creator : str, optional
-        Program and version that must have built it.
     """
     grid = Grid.of(board.plate, pitch_m)
     try:
         with Bank.open(path, board) as bank:
             needed = np.ones(grid.cells, bool) if cells is None else cells
-            if bank.grid != grid or (needed & ~bank.cells).any() or creator not in {None, bank.header.creator}:
+            if bank.grid != grid or (needed & ~bank.cells).any() or bank.header.creator != creator():
                 return False
         verify_bank(path)
     except BankError:

@@ -44,6 +44,7 @@ class Bank:
         self.sections = sections
         self.grid = header.grid
         self.samples = header.samples
+        self.file_bytes = os.fstat(fd).st_size
         self.counters = Counters()
         self.rebuild = rebuild
         self._fd = fd

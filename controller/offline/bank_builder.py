@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import importlib.metadata
 import resource
 import time
 from pathlib import Path
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from controller.bank.file_format import Header
+from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, drive_words, quantise
 from controller.bank.writer import BankWriter
@@ -146,11 +145,6 @@ def build_bank(
         gemm_fraction=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
     )
-
-
-def creator() -> str:
-    """Program and version, as the header of a bank names it."""
-    return f"haptic-panel {importlib.metadata.version('haptic-panel')}"
 
 
 def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:

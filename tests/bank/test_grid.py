@@ -61,17 +61,17 @@ def test_bilinear_weights_rebuild_the_point_or_its_place_on_the_rim(glass, pitch
     assert min(weights) >= 0
     assert math.fsum(weights) == pytest.approx(1)
     rebuilt = np.array(weights) @ points[list(cells)]
-    assert rebuilt == pytest.approx(np.clip((x_m, y_m), points[0], points[-1]), abs=1e-12)
+    assert rebuilt == pytest.approx(np.clip((x_m, y_m), points[0], points[-1]), abs=1e-8)  # a millionth of a pitch
     heaviest = cells[int(np.argmax(weights))]
     assert grid.nearest(*rebuilt)[1] == pytest.approx(np.hypot(*(points[heaviest] - rebuilt)), abs=1e-9)
 
 
 @given(PLATES, PITCHES_M, st.data())
-def test_on_a_cell_only_that_cell_counts(glass, pitch_m, data):
+def test_on_a_cell_no_other_cell_counts(glass, pitch_m, data):
     grid = Grid.of(glass, pitch_m)
     cell = data.draw(st.integers(0, grid.cells - 1))
     cells, weights = grid.corners(*grid.points()[cell])
-    assert sum(w for c, w in zip(cells, weights, strict=True) if c == cell) == pytest.approx(1)
+    assert {c: w for c, w in zip(cells, weights, strict=True) if w} == {cell: 1}
 
 
 def test_a_single_row_of_cells_has_corners_too():

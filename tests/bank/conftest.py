@@ -1,0 +1,38 @@
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from controller.bank.file_format import Header, creator
+from controller.bank.grid import Grid
+from controller.bank.packing import CHANNELS, drive_words, quantise
+from controller.bank.writer import BankWriter
+from controller.board import Board, find_board, load_board
+
+IDLE_WORD = 0x69969669
+MakeBank = Callable[..., dict[int, np.ndarray]]
+
+
+@pytest.fixture(scope="session")
+def board() -> Board:
+    return load_board(find_board("simulated"))
+
+
+@pytest.fixture(scope="session")
+def make_bank(board: Board) -> MakeBank:
+    """Write a bank of random responses, or of those given; returns the responses by cell."""
+
+    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, digest=None):
+        grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
+        cells = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
+        if responses is None:
+            random = np.random.default_rng(seed)
+            responses = {int(c): 1e-9 * random.standard_normal((samples, CHANNELS)) for c in np.flatnonzero(cells)}
+        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), {"board": "simulated"})
+        with BankWriter(path, header, cells) as writer:
+            for cell, response in responses.items():
+                writer.add(cell, drive_words(response, IDLE_WORD), *quantise(response))
+        return responses
+
+    return make

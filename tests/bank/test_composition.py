@@ -1,0 +1,154 @@
+import numpy as np
+import pytest
+
+from controller.bank.composition import TYPICAL_POINTS, Composer
+from controller.bank.grid import Grid
+from controller.bank.packing import CHANNELS, channel_bits, drive_words
+from controller.bank.reader import Bank
+from controller.errors import BankError
+
+IDLE_WORD = 0x69969669
+SAMPLES = 200
+GRID = Grid(2.5e-3, 7, 6, 5e-3, 6e-3)
+MISSING = 41  # the last cell
+
+
+class Waves:
+    """Plane waves of 10-25 mm in random directions: responses as smooth over the plate as the real ones."""
+
+    def __init__(self, seed: int, modes: int = 60) -> None:
+        random = np.random.default_rng(seed)
+        angle, length_m = random.uniform(0, 2 * np.pi, modes), random.uniform(10e-3, 25e-3, modes)
+        self.wave = 2 * np.pi / length_m * np.array([np.cos(angle), np.sin(angle)])
+        self.phase = random.uniform(0, 2 * np.pi, modes)
+        self.time = np.exp(2j * np.pi * np.outer(random.uniform(0.04, 0.14, modes), np.arange(SAMPLES)))
+        self.coupling = 1e-10 * (random.standard_normal((modes, CHANNELS)) + 1j * random.standard_normal((modes, CHANNELS)))
+
+    def at(self, x_m: float, y_m: float) -> np.ndarray:
+        shape = np.cos(np.array([x_m, y_m]) @ self.wave + self.phase)
+        return np.einsum("m,mn,mq->nq", shape, self.time, self.coupling).real
+
+
+@pytest.fixture(scope="module")
+def waves():
+    return Waves(3)
+
+
+@pytest.fixture(scope="module")
+def bank(tmp_path_factory, make_bank, waves):
+    path = tmp_path_factory.mktemp("bank") / "bank"
+    cells = np.arange(GRID.cells) != MISSING
+    make_bank(path, GRID, cells, SAMPLES, responses={c: waves.at(*GRID.points()[c]) for c in np.flatnonzero(cells).tolist()})
+    with Bank.open(path) as opened:
+        yield opened
+
+
+def reference(bank, points, normalised=True):
+    """The composition in float64, straight from its definition."""
+    total = np.zeros((bank.samples, CHANNELS))
+    for x_m, y_m, weight in points:
+        here = np.zeros_like(total)
+        for cell, share in zip(*bank.grid.corners(x_m, y_m), strict=True):
+            if share:
+                levels, scale = bank.response(cell)
+                here += share * scale * levels.astype(np.float64)
+        total += weight * here / np.abs(here).sum() if normalised else weight * here
+    return total
+
+
+def amplitude(words, response):
+    """What bits do at a point, over the most any bits can do there."""
+    return float(np.sum((channel_bits(np.frombuffer(words, "<u4")) * 2.0 - 1) * response) / np.abs(response).sum())
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, TYPICAL_POINTS + 3])
+def test_composes_what_its_definition_in_float64_gives(bank, count):
+    random = np.random.default_rng(count)
+    composer = Composer(bank, IDLE_WORD)
+    for _ in range(5):
+        points = [(*random.uniform([0, 0], [19e-3, 17e-3]), random.uniform(0.5, 2)) for _ in range(count)]
+        exact = reference(bank, points)
+        bits = channel_bits(np.frombuffer(composer.compose(points), "<u4"))
+        expected = channel_bits(drive_words(exact, IDLE_WORD))
+        # float32 rounds a sum of some 1e-5 by some 1e-7 of it: only a sum next to zero may change its sign
+        assert (np.abs(exact[bits != expected]) < 2e-6 * np.abs(exact).max()).all()
+
+
+def test_on_a_cell_it_plays_the_entry_but_for_bits_too_small_for_8_bits(bank, waves):
+    composer = Composer(bank, IDLE_WORD)
+    for cell in range(0, MISSING - 8, 5):
+        x_m, y_m = GRID.points()[cell]
+        words, entry = composer.compose([(x_m, y_m, 1.0)]), bank.words(cell)
+        differing = np.mean(channel_bits(np.frombuffer(words, "<u4")) != channel_bits(np.frombuffer(entry, "<u4")))
+        assert differing < 0.02  # those below half a level, half of which idle on the right side
+        assert amplitude(entry, waves.at(x_m, y_m)) == 1
+        assert amplitude(words, waves.at(x_m, y_m)) > 0.9995  # those bits matter least
+
+
+def test_between_cells_interpolating_reaches_more_than_the_nearest_entry(bank, waves):
+    composer = Composer(bank, IDLE_WORD)
+    for x_m, y_m in ((7.5e-3 - 1.25e-3, 8.5e-3 + 1.25e-3), (11.2e-3, 9.4e-3), (6.1e-3, 13.3e-3)):
+        exact = waves.at(x_m, y_m)
+        nearest = amplitude(bank.words(bank.grid.nearest(x_m, y_m)[0]), exact)
+        composed = amplitude(composer.compose([(x_m, y_m, 1.0)]), exact)
+        assert composed > max(nearest, 0.97)
+
+
+def test_equal_weights_give_equal_shares_however_unequal_the_responses(tmp_path, make_bank):
+    """A plate that answers ten times stronger at one cell than at the other."""
+    random = np.random.default_rng(5)
+    responses = {0: 1e-8 * random.standard_normal((SAMPLES, CHANNELS)), 5: 1e-9 * random.standard_normal((SAMPLES, CHANNELS))}
+    make_bank(tmp_path / "bank", Grid(5e-3, 3, 2, 5e-3, 6e-3), np.isin(np.arange(6), [0, 5]), SAMPLES, responses=responses)
+    with Bank.open(tmp_path / "bank") as bank:
+        ends = bank.grid.points()[[0, 5]]
+        points = [(x_m, y_m, 1.0) for x_m, y_m in ends]
+        words = Composer(bank, IDLE_WORD).compose(points)
+        strong, weak = amplitude(words, responses[0]), amplitude(words, responses[5])
+        assert strong == pytest.approx(weak, abs=0.03)  # 6,400 random bits: 0.01 expected
+        assert min(strong, weak) > 0.65  # two independent fingers: 1 / sqrt(2)
+        as_they_are = drive_words(reference(bank, points, normalised=False), IDLE_WORD)
+        assert amplitude(as_they_are, responses[5]) < 0.2
+        favoured = Composer(bank, IDLE_WORD).compose([(*ends[0], 0.5), (*ends[1], 1.0)])
+        assert amplitude(favoured, responses[5]) > weak + 0.1
+
+
+def test_a_negative_weight_pulls(bank, waves):
+    point = GRID.points()[10]
+    assert amplitude(Composer(bank, IDLE_WORD).compose([(*point, -1.0)]), waves.at(*point)) < -0.999
+
+
+def test_where_nothing_is_to_be_done_channels_stay_idle(tmp_path, make_bank):
+    nothing = np.zeros((9, CHANNELS))
+    nothing[4, 3] = 1e-9
+    make_bank(tmp_path / "bank", Grid(5e-3, 1, 1, 5e-3, 6e-3), [True], 9, responses={0: nothing})
+    with Bank.open(tmp_path / "bank") as bank:
+        composer = Composer(bank, IDLE_WORD)
+        quiet = [IDLE_WORD] * 9
+        assert np.frombuffer(composer.compose([(0, 0, 0.0)]), "<u4").tolist() == quiet
+        quiet[4] |= 1 << 3
+        assert np.frombuffer(composer.compose([(0, 0, 1.0)]), "<u4").tolist() == quiet
+
+
+def test_only_cells_that_count_are_looked_up(bank):
+    composer = Composer(bank, IDLE_WORD)
+    x_m, y_m = GRID.points()[MISSING]
+    composer.compose([(x_m - GRID.pitch_m, y_m, 1.0)])  # on the cell beside it
+    with pytest.raises(BankError, match=f"no entry for cell {MISSING}"):
+        composer.compose([(x_m - 0.9 * GRID.pitch_m, y_m, 1.0)])
+    with pytest.raises(BankError, match=f"no entry for cell {MISSING}"):
+        composer.compose([(*GRID.points()[0], 1.0), (1.0, 1.0, 1.0)])  # beyond the rim: the corner cell
+
+
+@pytest.mark.parametrize("points", [[], [(np.nan, 0, 1.0)], [(0.01, 0.01, np.nan)], [(0.01, 0.01, 1.0), (0.01, 0.01, np.inf)]])
+def test_refuses_what_cannot_be_composed(bank, points):
+    with pytest.raises(ValueError, match=r"point|finite|NaN"):
+        Composer(bank, IDLE_WORD).compose(points)
+
+
+def test_words_handed_out_do_not_change_with_the_next_composition(bank):
+    composer = Composer(bank, IDLE_WORD)
+    first = composer.compose([(*GRID.points()[0], 1.0)])
+    before = first.tobytes()
+    composer.compose([(*GRID.points()[20], 1.0)])
+    assert first == before
+    assert len(first) == 4 * SAMPLES

@@ -1,0 +1,103 @@
+import os
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from controller.bank.grid import Grid
+from controller.bank.inspection import bank_info, is_current, verify_bank
+from controller.bank.reader import Bank
+from controller.errors import BankError
+
+CELLS = [True, False, True, True, False, False]
+
+
+@pytest.fixture(scope="module")
+def bank_path(tmp_path_factory, make_bank):
+    path = tmp_path_factory.mktemp("bank") / "bank"
+    make_bank(path, cells=CELLS)
+    return path
+
+
+def refusal(path, bit):
+    """What verify says with one bit of the file flipped; the bit is flipped back."""
+    offset, mask = bit >> 3, 1 << (bit & 7)
+    with path.open("r+b") as file:
+        byte = os.pread(file.fileno(), 1, offset)[0]
+        os.pwrite(file.fileno(), bytes([byte ^ mask]), offset)
+        try:
+            verify_bank(path)
+        except BankError as error:
+            return str(error)
+        finally:
+            os.pwrite(file.fileno(), bytes([byte]), offset)
+    return "accepted"
+
+
+def test_verify_accepts_what_was_written(bank_path):
+    seen = []
+    report = verify_bank(bank_path, lambda done, of: seen.append((done, of)))
+    assert report == {"path": str(bank_path), "bytes": bank_path.stat().st_size, "cells": 3, "good": True}
+    assert seen == sorted(seen)
+    assert seen[-1] == (report["bytes"], report["bytes"])
+
+
+def test_verify_refuses_a_flip_of_every_bit_that_carries_something(bank_path):
+    with Bank.open(bank_path) as bank:
+        rows = [
+            (section.offset + number * section.stride, section.row_bytes)
+            for section in bank.sections.values()
+            for number in range(section.rows)
+        ]
+    for start, size in rows:  # test_file_format.py flips every bit of the header
+        assert all(refusal(bank_path, bit) != "accepted" for bit in range(8 * start, 8 * (start + size)))
+
+
+def test_verify_refuses_flips_all_over_the_padding(bank_path):
+    for offset in range(0, bank_path.stat().st_size, 13):  # coprime to the bits of a byte and to every stride
+        assert refusal(bank_path, 8 * offset + offset % 8) != "accepted"
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(data=st.data())
+def test_verify_refuses_a_flip_of_any_bit(bank_path, data):
+    assert refusal(bank_path, data.draw(st.integers(0, 8 * bank_path.stat().st_size - 1))) != "accepted"
+
+
+def test_verify_names_the_place_of_the_first_damage(bank_path):
+    with Bank.open(bank_path) as bank:
+        drive, response = bank.sections["drive"], bank.sections["response"]
+    in_entry_1 = response.offset + response.stride + 5
+    assert f"bytes {response.offset + 320} to {response.offset + 607}: response of entry 1 (cell 2)" in refusal(
+        bank_path, 8 * in_entry_1
+    )
+    gap = drive.offset + drive.stride - 1
+    assert f"bytes {drive.offset + 36} to {gap}: padding" in refusal(bank_path, 8 * gap)
+    assert "haptic-panel bank build --board simulated" in refusal(bank_path, 8 * gap)
+
+
+def test_info_tells_what_a_bank_is_without_reading_its_entries(bank_path, board):
+    info = bank_info(bank_path)
+    assert (info["cells"], info["cells_of_grid"], info["samples"], info["board"]) == (3, 6, 9, "simulated")
+    assert info["board_digest"] == board.digest().hex()
+    assert info["grid"] == {"pitch_mm": 5.0, "nx": 3, "ny": 2, "x0_mm": 5.0, "y0_mm": 6.0}
+    assert info["bytes"] == bank_path.stat().st_size
+
+
+def test_a_cached_bank_is_current_only_for_its_board_grid_and_cells(tmp_path, make_bank, board):
+    path, pitch_m = tmp_path / "bank", 40e-3
+    grid = Grid.of(board.plate, pitch_m)
+    some = np.arange(grid.cells) % 3 == 0
+    assert not is_current(path, board, pitch_m, some)  # there is none
+    make_bank(path, grid, some)
+    assert is_current(path, board, pitch_m, some)
+    assert is_current(path, board, pitch_m, some & (np.arange(grid.cells) > 0))  # more than needed
+    assert not is_current(path, board, pitch_m, None)  # less than needed
+    assert not is_current(path, board, 35e-3, np.zeros(Grid.of(board.plate, 35e-3).cells, bool))
+    with path.open("r+b") as file:
+        file.seek(-1, os.SEEK_END)
+        file.write(b"\x01")
+    assert not is_current(path, board, pitch_m, some)  # damaged, if only in the padding
+    make_bank(path, grid, some, digest=bytes(32))
+    assert not is_current(path, board, pitch_m, some)  # of another board

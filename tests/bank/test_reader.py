@@ -1,0 +1,167 @@
+import os
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from controller.bank.file_format import PAGE
+from controller.bank.packing import drive_words
+from controller.bank.reader import Bank, map_bytes
+from controller.errors import BankError
+
+IDLE_WORD = 0x69969669
+CELLS = [True, False, True, True, False, True]
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "bank"
+
+
+def flip(path, offset, mask=1):
+    with path.open("r+b") as file:
+        byte = os.pread(file.fileno(), 1, offset)[0]
+        os.pwrite(file.fileno(), bytes([byte ^ mask]), offset)
+
+
+def test_hands_out_the_words_and_responses_of_the_cells_it_has(path, make_bank, board):
+    responses = make_bank(path, cells=CELLS)
+    with Bank.open(path, board) as bank:
+        assert [bank.has(cell) for cell in range(-1, 7)] == [False, *CELLS, False]
+        assert bank.cells.tolist() == CELLS
+        for cell, response in responses.items():
+            assert bank.words(cell).tobytes() == drive_words(response, IDLE_WORD).tobytes()
+            levels, scale_m_per_v = bank.response(cell)
+            assert np.abs(levels * np.float64(scale_m_per_v) - response).max() <= 0.501 * scale_m_per_v
+        for missing in (1, 4, -1, 6, -6):
+            with pytest.raises(BankError, match="no entry for cell"):
+                bank.words(missing)
+            with pytest.raises(BankError, match="no entry for cell"):
+                bank.response(missing)
+
+
+def test_words_are_the_mapped_file_itself_and_cannot_be_written(path, make_bank):
+    make_bank(path)
+    with Bank.open(path) as bank:
+        first, again = np.frombuffer(bank.words(2), "<u4"), np.frombuffer(bank.words(2), "<u4")
+        assert np.shares_memory(first, again)  # no copy
+        assert bank.words(2).readonly
+        assert not bank.response(2)[0].flags.writeable
+
+
+def test_sections_that_are_not_needed_are_never_mapped(path, make_bank):
+    make_bank(path)
+    with Bank.open(path) as bank:
+        assert bank.counters.mapped_bytes == {}
+        bank.words(0)
+        assert bank.counters.mapped_bytes == {"drive": 6 * PAGE}
+        assert Path("/proc/self/maps").read_text().count(str(path)) == 1
+        bank.response(0)
+        assert bank.counters.mapped_bytes == {"drive": 6 * PAGE, "response": 6 * 320}
+        assert Path("/proc/self/maps").read_text().count(str(path)) == 2
+
+
+def test_an_entry_s_checksum_is_computed_on_its_first_use_only(path, make_bank):
+    make_bank(path)
+    with Bank.open(path) as bank:
+        for _ in range(3):
+            bank.words(1), bank.words(2), bank.response(1)
+        assert (bank.counters.lookups, bank.counters.drive_checked, bank.counters.response_checked) == (6, 2, 1)
+        assert bank.counters.bad == 0
+
+
+@pytest.mark.parametrize("section", ["drive", "response"])
+def test_a_damaged_entry_is_refused_and_counted_and_the_others_still_serve(path, make_bank, section):
+    make_bank(path)
+    with Bank.open(path) as bank:
+        damaged, sound = bank.sections[section], {"drive": "response", "response": "drive"}[section]
+    flip(path, damaged.offset + 3 * damaged.stride + damaged.row_bytes - 1, 0x80)
+    with Bank.open(path) as bank:
+        use = {"drive": bank.words, "response": bank.response}
+        for count in (1, 2):
+            with pytest.raises(
+                BankError, match=rf"{section} of entry 3 \(cell 3\) is damaged; rebuild it: haptic-panel bank build"
+            ):
+                use[section](3)
+            assert bank.counters.bad == count
+        use[section](2)
+        use[sound](3)
+
+
+def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank, board):
+    make_bank(path, digest=bytes(range(32)))
+    Bank.open(path).close()  # without a board there is nothing to compare
+    with pytest.raises(BankError) as refused:
+        Bank.open(path, board)
+    assert refused.value.exit_code == 78
+    for part in (str(path), "0001020304050607", board.digest().hex()[:16], "haptic-panel bank build --board simulated"):
+        assert part in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("damage", "reason"),
+    [
+        (lambda data: data[:0], "is empty"),
+        (lambda data: b"\x7fELF" + data[4:], "is not a bank"),
+        (lambda data: data[:5], "is truncated"),
+        (lambda data: data[:2000], "is truncated"),
+        (lambda data: data[:4096], "is truncated"),
+        (lambda data: data[:-1], "is truncated"),
+        (lambda data: data + b"\0", "has grown"),
+        (lambda data: data[:8] + b"\x02" + data[9:], "format version 2"),
+        (lambda data: data[:12] + b"\x01" + data[13:], "header of 4097 bytes"),
+        (lambda data: data[:30] + b"!" + data[31:], "CRC-32 of the header"),
+        (lambda data: data[:4096] + b"\x07" + data[4097:], "CRC-32 of section 'index'"),
+        (lambda data: data[:8192] + b"\x07" + data[8193:], "CRC-32 of section 'checksums'"),
+        (lambda data: data[:12288] + b"\x07" + data[12289:], "CRC-32 of section 'scale'"),
+    ],
+)
+def test_refuses_a_damaged_file_with_the_reason_and_how_to_rebuild(path, make_bank, board, damage, reason):
+    make_bank(path)
+    path.write_bytes(damage(path.read_bytes()))
+    open_files = len(list(Path("/proc/self/fd").iterdir()))
+    with pytest.raises(BankError, match=rf"{path}.*{reason}.*haptic-panel bank build --board simulated"):
+        Bank.open(path, board)
+    assert len(list(Path("/proc/self/fd").iterdir())) == open_files
+
+
+def test_an_index_that_names_an_entry_twice_is_refused(path, make_bank):
+    make_bank(path)
+    data = bytearray(path.read_bytes())
+    data[4096 + 4] = 0  # cell 1 -> entry 0; then make both checksums right
+    data[184 + 44 : 184 + 48] = zlib.crc32(data[4096 : 4096 + 24]).to_bytes(4, "little")
+    data[4092:4096] = zlib.crc32(data[:4092]).to_bytes(4, "little")
+    path.write_bytes(data)
+    with pytest.raises(BankError, match="does not name every entry once"):
+        Bank.open(path)
+
+
+def test_a_missing_bank_or_a_folder_is_refused(path, tmp_path):
+    for nothing in (path, tmp_path):
+        with pytest.raises(BankError, match="cannot be read"):
+            Bank.open(nothing)
+
+
+def test_who_has_the_old_bank_open_keeps_it_when_a_new_one_is_written(path, make_bank):
+    old = make_bank(path, seed=1)
+    with Bank.open(path) as bank:
+        make_bank(path, seed=2)
+        assert bank.words(0) == drive_words(old[0], IDLE_WORD).tobytes()
+
+
+def test_words_stay_when_the_bank_is_closed_but_nothing_more_is_mapped(path, make_bank):
+    responses = make_bank(path)
+    with Bank.open(path) as bank:
+        words = bank.words(0)
+    assert words == drive_words(responses[0], IDLE_WORD).tobytes()
+    with pytest.raises(ValueError, match="closed"):
+        bank.response(0)
+
+
+@pytest.mark.parametrize("granularity", [4096, 16384, 65536])
+def test_sections_are_mapped_on_machines_with_larger_pages(path, granularity):
+    data = np.random.default_rng(0).bytes(40 * PAGE)
+    path.write_bytes(data)
+    with path.open("rb") as file:
+        assert map_bytes(file.fileno(), 21 * PAGE, 9 * PAGE, granularity) == data[21 * PAGE : 30 * PAGE]
