@@ -1,0 +1,109 @@
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from controller.bank.grid import Grid
+from controller.bank.inspection import bank_info, is_current, verify_bank
+from controller.bank.packing import channel_bits, drive_words
+from controller.bank.reader import Bank
+from controller.board import find_board, load_board
+from controller.errors import BankError, ConfigError
+from controller.offline.bank_builder import build_bank
+from controller.offline.impulse_response import ResponseModel
+
+PITCH_M = 35e-3  # 5 x 3 cells
+
+
+@pytest.fixture(scope="module")
+def board():
+    return load_board(find_board("simulated"))
+
+
+@pytest.fixture(scope="module")
+def built(board, tmp_path_factory):
+    path = tmp_path_factory.mktemp("banks") / "new folder" / "bank"
+    return build_bank(board, path, PITCH_M, measure_sgemm=False), path
+
+
+def test_the_report_and_the_bank_say_what_was_built(built, board):
+    report, path = built
+    grid = Grid.of(board.plate, PITCH_M)
+    info = bank_info(path)
+    assert report.cells == grid.cells == info["cells"] == 15
+    assert report.bytes == path.stat().st_size == verify_bank(path)["bytes"]
+    assert report.modes == 1900  # all below 100 kHz
+    assert 0 < report.response_seconds < report.seconds
+    assert report.gemm_fraction is None  # not measured
+    assert info["board_digest"] == board.digest().hex()
+    assert info["parameters"]["highest_hz"] == 100e3
+    assert is_current(path, board, PITCH_M, None)
+
+
+def test_float32_differs_from_float64_in_at_most_a_bit_of_a_thousand_and_nothing_in_amplitude(built, board):
+    _, path = built
+    cells = [0, 6, 11]
+    with Bank.open(path, board) as bank:
+        exact = ResponseModel(board).drive_order_responses(bank.grid.points()[cells], dtype=np.float64)
+        for cell, response in zip(cells, exact, strict=True):
+            bits = channel_bits(np.frombuffer(bank.words(cell), "<u4"))
+            expected = channel_bits(drive_words(response, board.idle_word))
+            assert np.mean(bits != expected) <= 0.001
+            assert np.sum((2.0 * bits - 1) * response) / np.abs(response).sum() >= 0.9999
+            levels, scale_m_per_v = bank.response(cell)
+            assert np.abs(levels * np.float64(scale_m_per_v) - response).max() <= 0.51 * scale_m_per_v
+            assert np.abs(levels).max() == 127
+            wrong = bits ^ (np.arange(bits.size).reshape(bits.shape) % 150 == 0)  # under 1 % of the bits
+            assert np.mean(wrong != expected) > 0.001
+            assert np.sum((2.0 * wrong - 1) * response) / np.abs(response).sum() < 0.9999
+
+
+def test_a_cell_has_the_same_entry_whichever_others_are_built(built, board, tmp_path):
+    _, path = built
+    some = np.isin(np.arange(15), [3, 11])
+    report = build_bank(board, tmp_path / "some", PITCH_M, some, scene="two spots", measure_sgemm=False)
+    assert report.cells == 2
+    with Bank.open(path) as every, Bank.open(tmp_path / "some", board) as few:
+        assert few.cells.tolist() == some.tolist()
+        assert few.header.parameters["scene"] == "two spots"
+        for cell in (3, 11):
+            a, b = (channel_bits(np.frombuffer(bank.words(cell), "<u4")) for bank in (every, few))
+            assert np.mean(a != b) <= 0.001  # float32 sums in another order
+
+
+def test_refuses_a_pitch_or_a_scene_that_leaves_no_cell(board, tmp_path):
+    with pytest.raises(ConfigError, match="pitch_mm = 80"):
+        build_bank(board, tmp_path / "bank", 80e-3)
+    with pytest.raises(ConfigError, match=r"corner\.toml: no region reaches a cell"):
+        build_bank(board, tmp_path / "bank", PITCH_M, np.zeros(15, bool), scene="corner.toml")
+    with pytest.raises(ValueError, match="cells are"):
+        build_bank(board, tmp_path / "bank", PITCH_M, np.ones(14, bool))
+    assert not list(tmp_path.iterdir())
+
+
+def test_refuses_a_folder_that_cannot_be(board, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(BankError, match="folder cannot be made"):
+        build_bank(board, tmp_path / "file" / "bank", PITCH_M)
+
+
+BUILD = """
+import dataclasses, json, sys
+from pathlib import Path
+from controller.board import find_board, load_board
+from controller.offline.bank_builder import build_bank
+print(json.dumps(dataclasses.asdict(build_bank(load_board(find_board("simulated")), Path(sys.argv[1]), 5e-3))))
+"""
+
+
+def test_the_whole_plate_at_5_mm_is_built_in_600_mb(tmp_path):
+    done = subprocess.run([sys.executable, "-c", BUILD, tmp_path / "bank"], capture_output=True, check=True)
+    assert done.stderr == b""  # no progress bar unless asked for
+    report = json.loads(done.stdout)
+    assert report["cells"] == 1148
+    assert 30 < report["peak_memory_mb"] <= 600
+    assert report["gemm_fraction"] == pytest.approx(
+        2 * 1148 * report["modes"] * 32_000 / (report["sgemm_gflops"] * 1e9 * report["response_seconds"])
+    )
