@@ -69,6 +69,7 @@ class ResponseModel:
         )
         self.gemm_seconds = 0.0
         self._kernels: dict[tuple[bool, bool, str], NDArray[np.floating[Any]]] = {}
+        self._workspaces: dict[str, tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
     @property
     def modes(self) -> int:
@@ -133,19 +134,26 @@ class ResponseModel:
         if out.shape != shape or out.dtype != kernel.dtype:
             raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
         started = time.perf_counter()
-        block = min(POINTS_PER_GEMM, len(points))
-        forces = np.ascontiguousarray(self.forces.T, kernel.dtype)
-        driven = np.empty((block, CHANNELS, self.modes), kernel.dtype)
-        product = np.empty((self.samples, block * CHANNELS), kernel.dtype)
+        forces, driven, product = self._workspace(kernel.dtype)
         for first in range(0, len(points), POINTS_PER_GEMM):
             some = points[first : first + POINTS_PER_GEMM]
-            shapes = self.plate_modes.mode_shapes(some, kernel.dtype)
-            np.multiply(shapes[:, None, :], forces, out=driven[: len(some)])
             columns = len(some) * CHANNELS
-            np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=product[:, :columns])
-            out[first : first + len(some)] = product[:, :columns].reshape(self.samples, len(some), CHANNELS).swapaxes(0, 1)
+            np.multiply(self.plate_modes.mode_shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
+            result = product[: self.samples * columns].reshape(self.samples, columns)
+            np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
+            out[first : first + len(some)] = result.reshape(self.samples, len(some), CHANNELS).swapaxes(0, 1)
         self.gemm_seconds += time.perf_counter() - started
         return out
+
+    def _workspace(self, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""
+        if dtype.str not in self._workspaces:
+            self._workspaces[dtype.str] = (
+                np.ascontiguousarray(self.forces.T, dtype),
+                np.empty((POINTS_PER_GEMM, CHANNELS, self.modes), dtype),
+                np.empty(self.samples * POINTS_PER_GEMM * CHANNELS, dtype),
+            )
+        return self._workspaces[dtype.str]
 
 
 def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Floats:

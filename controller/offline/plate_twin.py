@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.bank.packing import channel_bits
 from controller.board import CHANNELS, Board
 from controller.fpga.capture import Capture
 from controller.offline.driver import DriverResponse
@@ -98,39 +99,36 @@ class PlateTwin:
             In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
         """
         ticks = capture.ticks.astype(np.int64)
-        bits = _bits(np.where(capture.hv != 0, capture.words, 0).astype(np.uint32))
-        steps = np.diff(bits, axis=0, prepend=np.zeros((1, CHANNELS))) * self.board.driver.supply_v
+        words = np.zeros(len(ticks) + 1, np.uint32)  # words[i] is what step i leaves behind, words[i + 1] what it goes to
+        np.copyto(words[1:], capture.words, where=capture.hv != 0)
         focus_ticks = capture.focus_ticks.astype(np.int64)
         bit_ticks = clock_hz * self.board.waveform.bit_period_s
         cuts = _cuts(ticks, focus_ticks, bit_ticks)
+        idle = self._volts(np.array([self.board.idle_word], np.uint32))[0]
         plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, CHANNELS), np.complex128)
-        idle = _bits(np.array([self.board.idle_word], np.uint32))[0] * self.board.driver.supply_v
         now = 0
         group = 0
-        for focus_tick in focus_ticks:
+        for focus_tick in focus_ticks.tolist():
             end = int(np.searchsorted(ticks, focus_tick, side="left"))
             while group + 1 < len(cuts) and cuts[group + 1] <= end:
-                some = slice(cuts[group], cuts[group + 1])
-                wake = self._wake(ticks[some], steps[some], bit_ticks)
-                passed = (int(ticks[cuts[group + 1] - 1]) - now) / clock_hz
+                first, after = cuts[group], cuts[group + 1]
+                wake = self._wake(ticks[first:after], words[first : after + 1], bit_ticks)
+                passed = (int(ticks[after - 1]) - now) / clock_hz
                 plate = plate * np.exp(self.step.poles * passed) + wake.plate
                 driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + wake.driver
-                now = int(ticks[cuts[group + 1] - 1])
+                now = int(ticks[after - 1])
                 group += 1
-            passed = (int(focus_tick) - now) / clock_hz
-            near = np.arange(
-                np.searchsorted(ticks, focus_tick - NEAR_S * clock_hz), np.searchsorted(ticks, focus_tick + NEAR_S * clock_hz)
-            )
-            volts = bits[end - 1] * self.board.driver.supply_v if end else np.zeros(CHANNELS)
+            passed = (focus_tick - now) / clock_hz
+            settling = driver * np.exp(self.step.driver_poles * passed)[:, None]
+            near, beyond = np.searchsorted(ticks, [focus_tick - NEAR_S * clock_hz, focus_tick + NEAR_S * clock_hz]).tolist()
             yield Field(
                 modes=self.modes,
                 step=self.step,
                 pole_amplitudes=plate * np.exp(self.step.poles * passed),
-                driver_amplitudes=self.step.driver_residues
-                * (self.forces @ (driver * np.exp(self.step.driver_poles * passed)[:, None]).T),
-                level=self.step.static * (self.forces @ (volts - idle)),
-                near_s=(ticks[near] - focus_tick) / clock_hz,
-                near_force=self.forces @ steps[near].T,
+                driver_amplitudes=self.step.driver_residues * (self.forces @ settling.T),
+                level=self.step.static * (self.forces @ (self._volts(words[end : end + 1])[0] - idle)),
+                near_s=(ticks[near:beyond] - focus_tick) / clock_hz,
+                near_force=self.forces @ np.diff(self._volts(words[near : beyond + 1]), axis=0).T,
             )
 
     def reference_amplitude(self, x_m: float, y_m: float) -> float:
@@ -142,19 +140,20 @@ class PlateTwin:
             drive_order = self._responses.drive_order_responses(np.array([key]), dtype=np.float64)
             words = focus(drive_order, [1.0], self.board.idle_word)
             response = self._responses.responses(np.array([key]))[0, ::-1]
-            volts = (_bits(words) - _bits(np.array([self.board.idle_word], np.uint32))) * self.board.driver.supply_v
-            self._references[key] = float(np.vdot(volts, response))
+            above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
+            self._references[key] = float(np.vdot(above_idle, response))
         return self._references[key]
 
-    def _wake(self, ticks: NDArray[np.int64], steps: Floats, bit_ticks: float) -> Wake:
-        key = (ticks - ticks[0]).tobytes() + steps.astype(np.float32).tobytes()
+    def _wake(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> Wake:
+        """What a group leaves; `words` has one more than `ticks`, the one before the first step."""
+        key = (ticks - ticks[0]).tobytes() + words.tobytes()
         known = self._wakes.get(key)
         if known is not None:
             self._wakes.move_to_end(key)
             self.work.groups_reused += 1
             return known
         self.work.groups_computed += 1
-        wake = self._superpose((ticks[-1] - ticks) / bit_ticks, steps)
+        wake = self._superpose((ticks[-1] - ticks) / bit_ticks, np.diff(self._volts(words), axis=0))
         self._wakes[key] = wake
         if len(self._wakes) > self._remembered:
             self._wakes.popitem(last=False)
@@ -176,6 +175,10 @@ class PlateTwin:
         plate = (rung[0] + 1j * rung[1]) * self.step.residues
         return Wake(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
 
+    def _volts(self, words: NDArray[np.uint32]) -> Floats:
+        """Voltage of each channel's stage: (word, 32)."""
+        return channel_bits(words).astype(np.float64) * self.board.driver.supply_v
+
     def _decay_table(self) -> Floats:
         """exp(pole * n bit periods), real parts above imaginary parts: (2 * pole, n)."""
         if self._table is None:
@@ -183,10 +186,6 @@ class PlateTwin:
             decay = np.exp(np.outer(self.step.poles, times))
             self._table = np.concatenate([decay.real, decay.imag])
         return self._table
-
-
-def _bits(words: NDArray[np.uint32]) -> Floats:
-    return ((words[:, None] >> np.arange(CHANNELS, dtype=np.uint32)) & 1).astype(np.float64)
 
 
 def _cuts(ticks: NDArray[np.int64], focus_ticks: NDArray[np.int64], bit_ticks: float) -> list[int]:
