@@ -5,13 +5,14 @@ Every function takes a board and gives plain numbers, so that `haptic-panel ... 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
+from tqdm import tqdm
 
 from controller.bank.packing import channel_bits, drive_words
 from controller.board import Board
@@ -30,7 +31,7 @@ SQUARE_M = 10e-3
 SETTLED = 40  # time constants of the slowest pole (6 ms: mode (1, 1) is overdamped) from the step to the idle word on
 
 
-def figures(board: Board, seed: int = 1, points: int = 20) -> Figures:
+def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = False) -> Figures:
     """All figures of a board at random points at least 10 mm from the edges, each as min, median and max.
 
     Four foci are shown twice: all of them at least 20 mm from the edges, and at least 10 mm.
@@ -41,8 +42,20 @@ def figures(board: Board, seed: int = 1, points: int = 20) -> Figures:
         Of the points.
     points : int
         How many; none is left out.
+    progress : bool
+        Show a bar on stderr if that is a terminal.
     """
-    with threadpool_limits(1, "blas"):  # products this small lose more to a second thread than it gives
+    low = idling_low(board)
+    with (
+        threadpool_limits(1, "blas"),  # products this small lose more to a second thread than it gives
+        tqdm(total=5 * points, unit="point", desc="figures", disable=None if progress else True) as bar,
+    ):
+
+        def counted(places: Floats) -> Iterator[Floats]:
+            for place in places:
+                yield place
+                bar.update()
+
         model = ResponseModel(board)
         places = random_points(board, seed, points)
         inner = random_points(board, seed, points, INNER_M + SQUARE_M / 2)
@@ -52,11 +65,11 @@ def figures(board: Board, seed: int = 1, points: int = 20) -> Figures:
             "points": points,
             "modes": model.modes,
             "moment_n_per_v": board.driver.moment_n_per_v,
-            "single": single_foci(board, model, places),
-            "single_all_idle_low": single_foci(idling_low(board), model, places),
-            "four_foci": four_foci(board, model, inner),
-            "four_foci_near_edges": four_foci(board, model, outer),
-            "float32": float32_against_float64(board, model, places),
+            "single": single_foci(board, model, counted(places)),
+            "single_all_idle_low": single_foci(low, model, counted(places)),
+            "four_foci": four_foci(board, model, counted(inner)),
+            "four_foci_near_edges": four_foci(board, model, counted(outer)),
+            "float32": float32_against_float64(board, model, counted(places)),
         }
 
 
@@ -78,7 +91,7 @@ def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
     return next(twin.fields(capture_of_words(words, board.bit_ticks, board.idle_word, settled), board.link.clock_hz))
 
 
-def single_foci(board: Board, model: ResponseModel, points_m: Floats) -> Figures:
+def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:
     """Foci one at a time: amplitude, contrast, spot, time of the peak, and sound.
 
     `audible_fraction_db` is `surface_energy` below 16 kHz over that of all frequencies to 100 kHz,
@@ -86,7 +99,8 @@ def single_foci(board: Board, model: ResponseModel, points_m: Floats) -> Figures
     """
     twin = PlateTwin(board)
     rows = []
-    for x_m, y_m in points_m.tolist():
+    for point in points_m:
+        x_m, y_m = map(float, point)
         words = focus(model.drive_order_responses([(x_m, y_m)], dtype=np.float64), [1.0], board.idle_word)
         judged = emit(twin, words).focus_metrics(x_m, y_m)
         audible = surface_energy(board, words, board.idle_word)
@@ -106,7 +120,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Floats) -> Figures
     return {key: spread([row[key] for row in rows]) for key in rows[0]}
 
 
-def four_foci(board: Board, model: ResponseModel, centres_m: Floats) -> Figures:
+def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -> Figures:
     """Four foci at the corners of squares of 10 mm, summed with equal weights, then the sign.
 
     `share` is the amplitude of each corner over that of a single focus at the same point.
@@ -126,7 +140,7 @@ def four_foci(board: Board, model: ResponseModel, centres_m: Floats) -> Figures:
     return {"share": spread(share), "contrast": spread(contrast), "spot_mm": spread(spot)}
 
 
-def float32_against_float64(board: Board, model: ResponseModel, points_m: Floats) -> Figures:
+def float32_against_float64(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:
     """Bits that differ between responses computed in float32 and float64, and what they cost in amplitude."""
     differing, ratio = [], []
     for point in points_m:
