@@ -62,8 +62,17 @@ def run(options: argparse.Namespace) -> int:
     scene_file = find_scene(board, options.scene or board.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
+    real_time = options.speed != "max"
+
+    def ready() -> None:
+        if real_time:
+            print(
+                f"haptic-panel: playing {recording.name} in real time, {recording.duration_s:.0f} s (Ctrl-C ends it)",
+                file=sys.stderr,
+            )
+
     with _open_bank(options, board, scene, scene_file) as bank:
-        done = simulated_run.play(board, scene, bank, recording, real_time=options.speed != "max")
+        done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready)
     judged = simulated_run.judge(done, _progress("plate"))
     figures = simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
@@ -84,7 +93,7 @@ def bank_build(options: argparse.Namespace) -> int:
     path = Path(options.out) if options.out else bank_path(board.name, scene_file.stem if scene_file else "plate")
     pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
     name = scene_file.name if scene_file else None
-    _show(options, asdict(_build(board, path, pitch_m, scene, name)), plain_table)
+    _show(options, asdict(_build(board, path, pitch_m, scene, name, measure=True)), plain_table)
     return 0
 
 
@@ -154,7 +163,7 @@ def _open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fi
     pitch_m = board.bank.pitch_mm * 1e-3
     if not is_current(path, board, pitch_m, _cells(board, pitch_m, scene)):
         print(f"haptic-panel: building the bank {path}", file=sys.stderr)
-        _build(board, path, pitch_m, scene, scene_file.name)
+        _build(board, path, pitch_m, scene, scene_file.name, measure=False)
     return Bank.open(path, board)
 
 
@@ -162,11 +171,11 @@ def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
     return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m)
 
 
-def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None) -> BuildReport:
+def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None, *, measure: bool) -> BuildReport:
     from controller.offline.bank_builder import build_bank  # noqa: PLC0415
 
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    return build_bank(board, path, pitch_m, cells, scene=name, progress=True)
+    return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:

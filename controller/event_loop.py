@@ -98,8 +98,13 @@ class EventLoop:
         """End after this turn: outputs off, `run` returns."""
         self._stopped = True
 
-    def run(self) -> None:
+    def run(self, ready: Callable[[], None] = lambda: None) -> None:
         """Arm, play until the source ends or `stop`, disarm; outputs are off when this returns or raises.
+
+        Parameters
+        ----------
+        ready : callable
+            Called once the panel is armed for the first time.
 
         Raises
         ------
@@ -114,6 +119,7 @@ class EventLoop:
                 selector.register(fileno, selectors.EVENT_READ)
             try:
                 self._arm(selector)
+                ready()
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
                     try:

@@ -45,7 +45,9 @@ def test_half_of_each_discs_quadrants_idle_high_as_a_checkerboard():
 
 def test_no_two_discs_are_mirror_images():
     board = load_board(find_board("simulated"))
-    discs = [tuple(sum(getattr(a, axis) for a in board.actuators[4 * d : 4 * d + 4]) / 4 for axis in ("x_mm", "y_mm")) for d in range(8)]
+    discs = [
+        tuple(sum(getattr(a, axis) for a in board.actuators[4 * d : 4 * d + 4]) / 4 for axis in ("x_mm", "y_mm")) for d in range(8)
+    ]
     for x, y in discs:
         for image in ((210 - x, y), (x, 148 - y), (210 - x, 148 - y)):
             assert all(abs(image[0] - u) + abs(image[1] - v) > 2 for u, v in discs)
@@ -101,7 +103,7 @@ def test_an_absent_file_is_named(tmp_path):
 
 
 def test_an_unknown_board_lists_those_that_exist():
-    with pytest.raises(ConfigError, match="'nothing' not found; there are: .*simulated"):
+    with pytest.raises(ConfigError, match=r"'nothing' not found; there are: .*simulated"):
         find_board("nothing")
 
 

@@ -20,15 +20,17 @@ from controller.scene import load_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
-CELL = (105.0, 74.0)  # a cell of the 10 mm grid: its centres lie at 10, 20 … mm and 14, 24 … mm, shifted to the middle
-CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "click" }]\n'
-TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
-TRAIN = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "train", rate_hz = 50.0, duration_ms = 400.0 }]\n'
-BUTTON = (
-    '[[regions]]\nname = "button"\nshape = "rectangle"\nx_mm = 100.0\ny_mm = 70.0\nwidth_mm = 10.0\nheight_mm = 10.0\n'
-    'effects = [{ effect = "click" }]\n'
-)
-SPOT = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0\neffects = [{ effect = "always", rate_hz = 20.0 }]\n'
+
+def region(name, shape, effect):
+    return f'[[regions]]\nname = "{name}"\n{shape}\neffects = [{{ {effect} }}]\n'
+
+
+PLATE = 'shape = "plate"'
+CLICK = region("all", PLATE, 'effect = "click"')
+TEXTURE = region("all", PLATE, 'effect = "texture", spacing_mm = 5.0')
+TRAIN = region("all", PLATE, 'effect = "train", rate_hz = 50.0, duration_ms = 400.0')
+BUTTON = region("button", 'shape = "rectangle"\nx_mm = 100.0\ny_mm = 70.0\nwidth_mm = 10.0\nheight_mm = 10.0', 'effect = "click"')
+SPOT = region("spot", 'shape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0', 'effect = "always", rate_hz = 20.0')
 UPLOAD_BYTES = 4096 + 3 * 32
 RESIDENT_BYTES = 2 * 32
 T_S = 2e-3
@@ -235,7 +237,7 @@ def test_after_a_stall_the_fpga_is_off_and_the_loop_arms_again(board, bank_file,
 def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, evemu_text):
     stalls = [(0.02 + 0.3 * k, 0.25) for k in range(10)]
     with Bank.open(bank_file, board) as bank:
-        link, counters, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), [(0.0, {}), (9.0, {})], evemu_text)
+        link, _, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), [(0.0, {}), (9.0, {})], evemu_text)
         with pytest.raises(FaultError, match=r"No good frame came from the host.*in a row"):
             loop.run()
         link.close()

@@ -78,8 +78,17 @@ class Run:
     reference: LatencyHistogram
 
 
-def play(board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_time: bool) -> Run:
+def play(
+    board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_time: bool, ready: Callable[[], None] = lambda: None
+) -> Run:
     """Replay a recording through the event loop into the gateware model.
+
+    Parameters
+    ----------
+    real_time : bool
+        Else in virtual time, as fast as the machine goes and the same every time.
+    ready : callable
+        Called when the simulated panel is armed.
 
     Raises
     ------
@@ -103,7 +112,7 @@ def play(board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_t
     start_s = max(clock.now_s(), link.ready_s()) + board.limits.ramp_ms * 1e-3 + SETTLE_S
     axes = recording.axes(board)
     source = RecordingSource(recording, axes, start_s)
-    EventLoop(clock, session, source, scene, playback, counters).run()
+    EventLoop(clock, session, source, scene, playback, counters).run(ready)
     link.close()
     return Run(
         board=board,
@@ -218,6 +227,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "resident": counters.resident,
         "heartbeats": counters.heartbeats,
         "host_silent": counters.host_silent,
+        "outputs_off": not (run.capture.hv[-1:].any() or run.capture.words[-1:].any()),
         "bytes_sent": run.link.bytes_sent,
         "skipped": asdict(counters.skipped),
         "response_section_mapped": run.response_mapped,

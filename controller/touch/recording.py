@@ -90,6 +90,11 @@ class Recording:
         recording.warnings["not_utf8"] = sum("\ufffd" in line for line in text.split("\n"))
         return recording
 
+    @property
+    def duration_s(self) -> float:
+        """Time from the first event to the last."""
+        return self.events[-1][3] if self.events else 0.0
+
     def axes(self, board: Board) -> Axes:
         """The recording's axes on a board's plate."""
         return Axes(board, self.x, self.y)

@@ -17,8 +17,10 @@ WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.
 class NoisyLink(SimulatedLink):
     """A link that flips one bit of what passes: `noise` maps the number of a frame to (direction, byte)."""
 
-    noise: dict[int, tuple[str, int]] = {}
-    frames = 0
+    def __init__(self, *args):
+        super().__init__(*args)
+        self.noise = {}
+        self.frames = 0
 
     def exchange(self, sent, lengths, received):
         start = 0
@@ -91,7 +93,7 @@ def test_refuses_an_fpga_that_somebody_else_has_armed(board, clock, link, armed)
 
 def test_a_silent_link_is_explained(board, clock):
     class Silent(SimulatedLink):
-        def exchange(self, sent, lengths, received):
+        def exchange(self, _sent, _lengths, received):
             received[:] = bytes(len(received))
 
     with pytest.raises(LinkError, match="is MISO wired"):

@@ -1,0 +1,251 @@
+"""The command line as a user meets it: what it prints, what it refuses, and how it ends."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.bank.location import bank_path
+from controller.board import find_board
+from controller.cli import main
+from controller.offline.bank_builder import build_bank
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+
+RECORDINGS = Path(__file__).parent / "touch" / "recordings"
+DEMO = find_board("simulated") / "demo.evemu"
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory, monkeypatch):
+    """Banks of these tests lie apart from the user's; one folder for all, so that the board's bank is built once."""
+    folder = tmp_path_factory.getbasetemp() / "state"
+    folder.mkdir(exist_ok=True)
+    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
+    return folder
+
+
+@pytest.fixture
+def small_board(tmp_path):
+    """The simulated board with a coarse bank, a scene of one button and one click on it."""
+    folder = tmp_path / "small"
+    folder.mkdir()
+    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "pitch_mm = 10.0")
+    (folder / "board.toml").write_text(text.replace('name = "simulated"', 'name = "small"'))
+    (folder / "scene.toml").write_text(
+        '[[regions]]\nname = "button"\nshape = "circle"\nx_mm = 110.0\ny_mm = 74.0\nradius_mm = 15.0\n'
+        'effects = [{ effect = "click" }]\n'
+    )
+    (folder / "demo.evemu").write_text(
+        "A: 00 0 210 0 0 0\nA: 01 0 148 0 0 0\n"
+        "E: 0.0 0003 0000 0109\nE: 0.0 0003 0001 0073\nE: 0.0 0001 014a 0001\nE: 0.0 0000 0000 0000\n"
+        "E: 0.1 0001 014a 0000\nE: 0.1 0000 0000 0000\n"
+    )
+    return folder
+
+
+def printed(capsys, *arguments, code=0):
+    assert main([str(argument) for argument in arguments]) == code
+    return capsys.readouterr()
+
+
+def told_off(capsys, *arguments, code=78):
+    """The one line on stderr with which a command refuses."""
+    out, err = printed(capsys, *arguments, code=code)
+    assert out == ""
+    assert err.startswith("haptic-panel: ")
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    return err
+
+
+def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
+    out, _ = printed(capsys, "run", "--board", small_board, "--speed", "max", "--json")
+    figures = json.loads(out)
+    assert figures["recording"] == {"file": "demo.evemu", "reports": 1, "contacts": 1, "max_fingers": 1}
+    assert figures["emissions"] == figures["uploads"] == 1
+    assert figures["bytes_sent"] > 4096
+    assert figures["skipped"]["outside_region"] == 0
+    for stage in ("host", "wire", "total"):
+        for kind, count in (("uploads", 1), ("resident", 0)):
+            summary = figures["latency_us"][stage][kind]
+            assert list(summary) == ["count", "p50", "p99", "p999", "worst"]
+            assert summary["count"] == count
+            assert summary["p999"] is None
+    wire = figures["latency_us"]["wire"]["uploads"]["p50"]
+    assert wire == pytest.approx(8 * (4096 + 96) / 16, rel=0.01), "µs at 16 MHz; 1 % for the pauses between frames"
+    for name in ("relative_amplitude", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
+        assert set(figures["focus"][name]) == {"median", "worst"}
+    assert figures["focus"]["relative_amplitude"]["median"] > 0.7, "a click within 1.5 mm of a cell of the 10 mm grid"
+
+
+@pytest.mark.parametrize("file", sorted(file.name for file in RECORDINGS.iterdir() if file.name != "LICENSE"))
+def test_every_real_recording_is_felt_where_its_fingers_went(capsys, file):
+    out, _ = printed(capsys, "run", "--replay", RECORDINGS / file, "--speed", "max", "--json")
+    figures = json.loads(out)
+    assert figures["recording"]["file"] == file
+    assert figures["focus"]["count"] > 0
+    assert figures["focus"]["distance_mm"]["median"] < 2.0, "half a spot; the finger moves on during the 4 ms until T"
+    assert figures["focus"]["relative_amplitude"]["median"] > 0.6, "two fingers share an emission in one of them"
+    assert figures["skipped"]["bad_entries"] == figures["skipped"]["refused"] == figures["host_silent"] == 0
+
+
+def test_the_demo_has_several_fingers_and_lasts_about_ten_seconds(board):
+    recording = Recording.open(DEMO)
+    source = RecordingSource(recording, recording.axes(board), 0.0)
+    while source.next_time_s() is not None:
+        source.read(1e9)
+    assert source.counts.max_fingers == 5
+    assert 8 < recording.duration_s < 14
+
+
+def test_a_recording_without_any_touch_plays_nothing_and_is_fine(capsys, small_board, tmp_path):
+    for content in (b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"E: 0.0 0000 0000 0\nE: 1.0 0000 0000 0\n"):
+        (tmp_path / "still.evemu").write_bytes(content)
+        replay = ("run", "--board", small_board, "--replay", tmp_path / "still.evemu", "--speed", "max")
+        figures = json.loads(printed(capsys, *replay, "--json").out)
+        assert figures["emissions"] == 0
+        assert figures["recording"]["contacts"] == 0
+        out, err = printed(capsys, *replay, "--plot", tmp_path / "none.png")
+        assert "0 emissions" in out
+        assert "nothing to draw" in err
+
+
+def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
+    printed(capsys, "run", "--board", small_board, "--speed", "max", "--plot", tmp_path / "plate.png")
+    content = (tmp_path / "plate.png").read_bytes()
+    assert content.startswith(b"\x89PNG")
+    assert len(content) > 20_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: simulated"),
+        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: scene"),
+        (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
+        (("run", "--replay", "/"), 69, "the recording cannot be read"),
+        (("run", "--bank", "/nothing.bank"), 78, "/nothing.bank: cannot be read"),
+        (("bank", "info", "/nothing.bank"), 78, "haptic-panel bank build"),
+        (("bank", "verify", "/dev/null"), 78, "/dev/null"),
+        (("bank", "build", "--pitch-mm", "500"), 78, "pitch_mm = 500"),
+        (("bank", "build", "--pitch-mm", "nan"), 78, "pitch_mm = nan"),
+        (("bank", "build", "--pitch-mm", "-1"), 78, "pitch_mm = -1"),
+        (("focus",), 78, "--at X_MM Y_MM"),
+        (("focus", "--at", "300", "20"), 78, "--at 300"),
+        (("focus", "--at", "nan", "20"), 78, "--at nan"),
+    ],
+)
+def test_a_mistake_is_told_in_one_line_with_the_right_exit_code(capsys, arguments, code, said):
+    assert said in told_off(capsys, *arguments, code=code)
+
+
+@pytest.mark.parametrize("arguments", [(), ("nothing",), ("run", "--speed", "fast"), ("bank",), ("focus", "--at", "1")])
+def test_wrong_usage_ends_with_2(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert "usage: haptic-panel" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "arguments", [(), ("run",), ("bank",), ("bank", "build"), ("bank", "info"), ("bank", "verify"), ("focus",)]
+)
+def test_every_command_explains_itself(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        main([*arguments, "--help"])
+    assert end.value.code == 0
+    assert len(capsys.readouterr().out) > 200
+
+
+def test_a_bank_that_is_given_and_does_not_fit_is_refused_not_rebuilt(capsys, small_board, bank_file, tmp_path):
+    text = (small_board / "board.toml").read_text().replace("thickness_mm = 0.5", "thickness_mm = 0.6")
+    (small_board / "board.toml").write_text(text)
+    before = bank_file.read_bytes()
+    said = told_off(capsys, "run", "--board", small_board, "--bank", bank_file, "--speed", "max")
+    assert "built for another board" in said
+    assert "haptic-panel bank build --board" in said
+    assert bank_file.read_bytes() == before
+
+
+@pytest.mark.parametrize("how", ["truncated", "flipped", "foreign", "empty", "other board", "other pitch", "other cells"])
+def test_the_boards_own_bank_is_simply_built_again(capsys, small_board, board, how):
+    run = ("run", "--board", small_board, "--speed", "max", "--json")
+    first = json.loads(printed(capsys, *run).out)
+    path = bank_path("small", "scene")
+    good = path.read_bytes()
+    match how:
+        case "truncated":
+            path.write_bytes(good[:-1])
+        case "flipped":
+            path.write_bytes(good[:-100] + bytes([good[-100] ^ 1]) + good[-99:])
+        case "foreign":
+            path.write_bytes(b"SQLite format 3\0" * 1000)
+        case "empty":
+            path.write_bytes(b"")
+        case "other board":
+            file = small_board / "board.toml"
+            file.write_text(file.read_text().replace("density_kg_m3 = 2510.0", "density_kg_m3 = 2500.0"))
+        case "other pitch":
+            build_bank(board, path, 20e-3, measure_sgemm=False)
+        case "other cells":
+            scene = small_board / "scene.toml"
+            scene.write_text(
+                scene.read_text().replace("x_mm = 110.0", "x_mm = 60.0").replace("radius_mm = 15.0", "radius_mm = 50.0")
+            )
+    out, err = printed(capsys, *run)
+    assert "building the bank" in err
+    assert json.loads(out)["emissions"] == first["emissions"] == 1
+    _, err = printed(capsys, *run)
+    assert err == "", "and then it stays"
+
+
+def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path):
+    file = tmp_path / "small.bank"
+    report = json.loads(printed(capsys, "bank", "build", "--board", small_board, "--out", file, "--json").out)
+    assert report["cells"] == 20 * 13
+    assert {"cells", "modes", "seconds", "response_seconds", "gemm_fraction", "peak_memory_mb"} <= set(report)
+    scene = json.loads(printed(capsys, "bank", "build", "--board", small_board, "--scene", "scene", "--out", file, "--json").out)
+    assert 4 <= scene["cells"] < 60
+    info = json.loads(printed(capsys, "bank", "info", file, "--json").out)
+    assert info["cells"] == scene["cells"]
+    assert info["board"] == "small"
+    assert json.loads(printed(capsys, "bank", "verify", file, "--json").out)["good"] is True
+    content = bytearray(file.read_bytes())
+    content[-2000] ^= 16
+    file.write_bytes(content)
+    assert "damaged" in told_off(capsys, "bank", "verify", file)
+
+
+def test_a_folder_that_cannot_be_written_is_named(capsys, small_board):
+    assert "/proc/nothing" in told_off(capsys, "bank", "build", "--board", small_board, "--out", "/proc/nothing/small.bank")
+    assert "/proc/nothing" in told_off(capsys, "focus", "--at", "100", "70", "--plot", "/proc/nothing/plate.png")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_cache, number):
+    """In real time, as a process of its own; the recording would last a minute."""
+    with (small_board / "demo.evemu").open("a") as recording:
+        recording.write("E: 60.0 0000 0000 0000\n")
+    main(["run", "--board", str(small_board), "--speed", "max", "--json"])  # so that its bank is there
+    command = [
+        sys.executable,
+        "-u",
+        "-c",
+        "import sys; from controller.cli import main; sys.exit(main())",
+        "run",
+        "--board",
+        str(small_board),
+    ]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
+    assert process.stderr is not None
+    assert "playing" in process.stderr.readline(), "the loop runs from here on"
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 0, err
+    assert "emissions" in out
+    assert "outputs off" in out
