@@ -138,6 +138,18 @@ def test_a_header_with_a_good_checksum_but_impossible_contents_is_refused(offset
         parse(resealed(header, offset, replacement), header.file_bytes)
 
 
+def test_a_page_that_no_section_owns_is_refused():
+    header = small_header()
+    data = bytearray(header.pack(header.sections()))
+    for line in range(1, 5):  # every section but the first one page on
+        at = TABLE + 48 * line + 16
+        data[at : at + 8] = struct.pack("<Q", struct.unpack_from("<Q", data, at)[0] + 4096)
+    data[16:24] = struct.pack("<Q", header.file_bytes + 4096)
+    sealed = bytes(data[:-4]) + struct.pack("<I", zlib.crc32(data[:-4]))
+    with pytest.raises(BankError, match="out of order, apart or overlapping"):
+        parse(sealed, header.file_bytes + 4096)
+
+
 def test_refuses_to_write_what_the_header_cannot_hold():
     for header in (small_header(creator="x" * 65), small_header(parameters={"x": "y" * (1 << 20)})):
         with pytest.raises(ValueError, match=r"creator|parameters"):

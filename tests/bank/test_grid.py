@@ -34,6 +34,11 @@ def test_the_paper_s_plate_at_5_mm_has_41_by_28_cells():
     assert (grid.x0_m, grid.y0_m) == pytest.approx((5e-3, 6.5e-3))
 
 
+def test_a_pitch_that_divides_the_plate_loses_no_cell_to_rounding():
+    for parts in range(3, 200):
+        assert Grid.of(plate(210, 210), 0.21 / parts).cells == (parts - 1) ** 2
+
+
 @given(PLATES, PITCHES_M)
 def test_cells_keep_one_pitch_from_every_side_and_no_row_more_would_fit(glass, pitch_m):
     grid = Grid.of(glass, pitch_m)

@@ -205,23 +205,23 @@ with BankWriter(Path(sys.argv[1]), Header("test", bytes(32), Grid(5e-3, 3, 2, 5e
 
 
 def test_a_killed_writer_leaves_the_old_bank_and_the_next_build_clears_up(tmp_path, make_bank):
-    path = tmp_path / "bank"
+    path = tmp_path / "bank [1]"
     make_bank(path, seed=1)
     before = path.read_bytes()
     with subprocess.Popen(
         [sys.executable, "-c", WRITER_THAT_STOPS, path], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as process:
         assert process.stdout.readline() == b"half way\n"
-        (building,) = tmp_path.glob(".bank.*.building")
+        (building,) = tmp_path.glob(".bank*.building")
         make_bank(path, seed=1)  # another build meanwhile: the living writer's file is left alone
         assert building.exists()
         process.send_signal(signal.SIGKILL)
         process.wait()
     assert building.exists()
     assert path.read_bytes() == before
-    (tmp_path / ".banknote.12345678.building").touch()  # of another bank
+    (tmp_path / ".bank [1]note.12345678.building").touch()  # of another bank
     make_bank(path, seed=1)
-    assert sorted(file.name for file in tmp_path.iterdir()) == [".banknote.12345678.building", "bank"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == [".bank [1]note.12345678.building", "bank [1]"]
     assert path.read_bytes() == before
 
 
