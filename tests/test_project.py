@@ -1,0 +1,109 @@
+"""The project as a whole: style, types, layers, layout, what the wheel carries, and documentation that runs."""
+
+import ast
+import re
+import shlex
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from controller.cli import main
+
+ROOT = Path(__file__).parent.parent
+TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "tests", "README.md", "LICENSE"}
+TOOLS = Path(sys.executable).parent
+READMES = sorted(path for path in ROOT.rglob("README.md") if not any(part.startswith(".") for part in path.relative_to(ROOT).parts))
+
+
+def tracked():
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
+    return [Path(line) for line in listed.stdout.splitlines()]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["ruff", "check", "--no-cache"], ["ruff", "format", "--check", "--no-cache"], ["mypy"], ["lint-imports", "--no-cache"]],
+)
+def test_style_types_and_layers(command):
+    done = subprocess.run([TOOLS / command[0], *command[1:]], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_top_level_is_the_customers():
+    if not (ROOT / ".git").exists():
+        pytest.skip("not a git checkout")
+    names = {path.parts[0] for path in tracked()}
+    assert {name for name in names if not name.startswith(".")} == TOP_LEVEL
+
+
+def test_device_code_needs_nothing_of_the_offline_extra():
+    """Imported in a process in which the packages of the extra cannot be found."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]["offline"]
+    banned = sorted(re.match(r"\w+", requirement)[0] for requirement in extras)
+    assert "scipy" in banned
+    modules = [
+        ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        for path in sorted((ROOT / "controller").rglob("*.py"))
+        if "offline" not in path.parts and path.name != "__init__.py"
+    ]
+    code = (
+        f"import sys, importlib\nfor name in {banned}: sys.modules[name] = None\n"
+        f"for name in {modules}: importlib.import_module(name)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_every_public_name_says_what_it_is():
+    """What ruff's D1 does not see: module docstrings are more than a word."""
+    for path in (ROOT / "controller").rglob("*.py"):
+        docstring = ast.get_docstring(ast.parse(path.read_text()))
+        assert docstring, path
+        assert len(docstring.split()) > 3, path
+
+
+def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
+    from hatchling.builders.wheel import WheelBuilder  # noqa: PLC0415  (a build tool: imported only here)
+
+    wheel = Path(next(iter(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))))
+    names = zipfile.ZipFile(wheel).namelist()
+    data = f"{wheel.name.split('-py3')[0]}.data/data/share/haptic-panel"
+    for wanted in ("boards/simulated/board.toml", "boards/simulated/demo.evemu", "fpga_rtl/haptic_core.v", "fpga_rtl/registers.vh"):
+        assert f"{data}/{wanted}" in names
+    assert any(name.startswith(f"{data}/systemd/") for name in names)
+    assert "controller/cli.py" in names
+    assert not any(name.startswith("tests/") for name in names)
+
+
+def commands_of(readme):
+    """Lines of a README's sh blocks that call haptic-panel and nothing else."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", readme.read_text(), re.MULTILINE | re.DOTALL)
+    lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
+    return [line for line in lines if re.match(r"(\.venv/bin/)?haptic-panel ", line)]
+
+
+def test_every_command_of_every_readme_works(capsys, tmp_path_factory, tmp_path, monkeypatch):
+    state = tmp_path_factory.getbasetemp() / "state"  # shared with the tests of the command line
+    state.mkdir(exist_ok=True)
+    monkeypatch.setenv("STATE_DIRECTORY", str(state))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    (tmp_path / "boards").symlink_to(ROOT / "boards")
+    commands = list(dict.fromkeys(command for readme in READMES for command in commands_of(readme)))
+    assert any(command.split()[1] == "run" for command in commands)
+    for command in commands:
+        print(command)
+        assert main(shlex.split(command)[1:]) == 0, (command, capsys.readouterr().err)
+
+
+def test_the_two_lines_of_the_readme_are_whole():
+    text = (ROOT / "README.md").read_text()
+    lines = [line for line in text.splitlines() if "python3 -m venv .venv" in line]
+    assert len(lines) == 2
+    assert all("apt-get" in line and "build-essential" in line for line in lines)
+    assert lines[0].endswith(".venv/bin/haptic-panel run")
+    assert lines[1].endswith(".venv/bin/pytest")
