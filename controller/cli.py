@@ -56,6 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Replay a recording on the simulated panel and print what its fingers would have felt."""
+    from threadpoolctl import threadpool_limits  # noqa: PLC0415
+
     from controller.offline import report_text, simulated_run  # noqa: PLC0415
 
     board = load_board(find_board(options.board))
@@ -71,9 +73,10 @@ def run(options: argparse.Namespace) -> int:
                 file=sys.stderr,
             )
 
-    with _open_bank(options, board, scene, scene_file) as bank:
+    # the loop's and the twin's products are small: a second BLAS thread costs more to wake than it saves
+    with _open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
         done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready)
-    judged = simulated_run.judge(done, _progress("plate"))
+        judged = simulated_run.judge(done, _progress("plate"))
     figures = simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {recording.name}: {warning}", file=sys.stderr)

@@ -180,7 +180,7 @@ class EventLoop:
         if trigger_at_s is not None and trigger_at_s <= now_s:
             self._playback.trigger(started_ns)
             self._stalls = 0
-        elif trigger_at_s is None and self._due and self._session.ready_s() <= now_s:
+        elif trigger_at_s is None and self._due and self._session.free_s() <= now_s:
             self._play(now_s, started_ns)
         return self._next_s(now_s)
 
@@ -235,7 +235,7 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         trigger_at_s = self._playback.trigger_at_s
         if self._due and trigger_at_s is None:
-            return max(now_s, self._session.ready_s())
+            return max(now_s, self._session.free_s())
         read_s = self._source.next_time_s()
         times = [at_s for at_s in map(next_time_s, self._fingers.values()) if at_s is not None]
         times += [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]

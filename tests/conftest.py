@@ -53,12 +53,12 @@ def evemu_text():
 
 @pytest.fixture
 def perform(board, bank_file, tmp_path):
-    """Replay scripted touches on a scripted scene in virtual time; everything is the product's own."""
+    """Replay scripted touches on a scripted scene, in virtual time unless asked; everything is the product's own."""
 
-    def play_script(reports, scene_text, *, on=board, bank=None):
+    def play_script(reports, scene_text, *, on=board, bank=None, real_time=False):
         scene_file = tmp_path / "scripted.toml"
         scene_file.write_text(scene_text)
         with Bank.open(bank or bank_file, on) as opened:
-            return play(on, load_scene(scene_file, on), opened, Recording(evemu(*reports)), real_time=False)
+            return play(on, load_scene(scene_file, on), opened, Recording(evemu(*reports)), real_time=real_time)
 
     return play_script

@@ -70,6 +70,20 @@ def test_a_click_on_a_cell_puts_the_banks_entry_on_the_pins_bit_by_bit(perform, 
     assert not run.response_mapped
 
 
+def test_real_time_plays_the_same_as_virtual_time(perform, cell):
+    reports = [
+        (0.0, {0: cell[1]}),
+        (0.02, {1: (150.0, 94.0)}),
+        (0.04, {0: None, 1: None}),
+        (0.06, {0: (60.0, 54.0)}),
+        (0.08, {0: None}),
+    ]
+    real, virtual = (perform(reports, CLICK, real_time=real_time) for real_time in (True, False))
+    assert real.counters.uploads == virtual.counters.uploads == 3
+    for one, other in zip(real.capture.focus_ticks.tolist(), virtual.capture.focus_ticks.tolist(), strict=True):
+        assert np.array_equal(words_before(real, one), words_before(virtual, other))
+
+
 def test_outputs_are_off_at_the_end_and_were_never_on_without_the_high_voltage_enable(perform, cell):
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.capture.hv[-1] == 0

@@ -39,8 +39,8 @@ class Link(Protocol):
     def trigger(self) -> float:
         """Pulse the trigger pin; the time of its edge in s on the loop's clock."""
 
-    def ready_s(self) -> float:
-        """Earliest time on the loop's clock at which a trigger given now would rise."""
+    def free_s(self) -> float:
+        """Since or until when, on the loop's clock, the wire is free: what is sent or triggered before waits until then."""
 
     def close(self) -> None:
         """Let go of the device."""

@@ -81,9 +81,13 @@ class Session:
         """Time the bytes sent took on the wire."""
         return self._link.wire_ns
 
+    def free_s(self) -> float:
+        """Since or until when the wire is free."""
+        return self._link.free_s()
+
     def ready_s(self) -> float:
         """Earliest time at which a trigger given now would rise."""
-        return self._link.ready_s()
+        return max(self._now_s(), self._link.free_s())
 
     def arm(self) -> float:
         """Have the outputs glide to their idle levels; the time at which they have arrived."""
@@ -293,7 +297,7 @@ class Session:
 
     def _ramp_end_s(self) -> float:
         samples = self._ramp_samples + 2
-        return max(self._link.ready_s(), self._now_s()) + samples * self._board.waveform.bit_period_s
+        return self.ready_s() + samples * self._board.waveform.bit_period_s
 
     def _state_in_words(self) -> str:
         state = self.status.state if self.status is not None else State(0)

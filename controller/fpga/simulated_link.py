@@ -64,15 +64,15 @@ class SimulatedLink:
     def trigger(self) -> float:
         """Pulse the model's trigger pin, now or when the frames before it have gone."""
         started_ns = time.perf_counter_ns()
-        tick = self._trigger_tick()
+        tick = max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
         self.model.trigger(tick)
         self._free_tick = max(self._free_tick, tick)
         self.away_ns += time.perf_counter_ns() - started_ns
         return self.time_s(tick)
 
-    def ready_s(self) -> float:
-        """When a trigger given now would rise."""
-        return self.time_s(self._trigger_tick())
+    def free_s(self) -> float:
+        """When the frames sent so far have gone and been judged."""
+        return self.time_s(self._free_tick + TRIGGER_AFTER_TICKS)
 
     def time_s(self, tick: int) -> float:
         """A tick of the model on the loop's clock."""
@@ -85,9 +85,6 @@ class SimulatedLink:
     def take_capture(self) -> Capture:
         """What the pins did since the last call."""
         return self.model.take_capture()
-
-    def _trigger_tick(self) -> int:
-        return max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
 
     def _tick_now(self) -> int:
         return round((self._now_s() - self._start_s) * self.clock_hz)

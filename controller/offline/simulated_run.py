@@ -109,7 +109,7 @@ def play(
         counters=counters,
         played=played.append,
     )
-    start_s = max(clock.now_s(), link.ready_s()) + board.limits.ramp_ms * 1e-3 + SETTLE_S
+    start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + SETTLE_S
     axes = recording.axes(board)
     source = RecordingSource(recording, axes, start_s)
     EventLoop(clock, session, source, scene, playback, counters).run(ready)

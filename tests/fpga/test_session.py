@@ -55,7 +55,7 @@ def armed(board, clock, link):
 
 
 def wait(clock, link, seconds):
-    clock._now_s = max(clock.now_s(), link.ready_s()) + seconds
+    clock._now_s = max(clock.now_s(), link.free_s()) + seconds
 
 
 def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock, link, armed):
