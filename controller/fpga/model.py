@@ -13,29 +13,17 @@ from enum import Enum
 from functools import partial
 from typing import NamedTuple
 
-import numpy as np
-
 from controller.fpga.capture import Capture
 from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status
 from controller.fpga.model_decoder import Frame, judge
-from controller.fpga.model_pins import Pins, Words, ramp_bits, turned_ramp_bits
+from controller.fpga.model_gate import PIN_TICKS, Gate, OutputGate
 from controller.fpga.model_player import Buffers, Play, Player
 from controller.fpga.model_registers import RegisterFile
-from controller.fpga.registers import CHUNKS, PROTOCOL_VERSION, Control, Fault, FrameType, Register, Result, State
+from controller.fpga.registers import CHUNKS, PROTOCOL_VERSION, Control, FrameType, Register, Result, State
 
 INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
 JUDGE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
-PIN_TICKS = 3  # from the state of player and ramp to the pins: memory, selection, gate
 SELECT_HIGH_TICKS = 4  # chip select stays high at least this long between frames
-
-
-class Gate(Enum):
-    """Where the outputs stand."""
-
-    OFF = 0
-    RAMP_UP = 1
-    ON = 2
-    RAMP_DOWN = 3
 
 
 class _Kind(Enum):
@@ -65,17 +53,11 @@ class GatewareModel:
 
     def __init__(self, clock_hz: int, slots: int, build_hash: int, heartbeat_ticks_max: int) -> None:
         self._registers = RegisterFile(clock_hz, slots, build_hash, heartbeat_ticks_max)
-        self._pins = Pins()
+        self._gate = OutputGate(self._registers)
         self._buffers = Buffers(slots)
         self._player = Player()
         self._now = 0
         self._events: list[_Event] = []
-        self._gate = Gate.OFF
-        self._ramp_start = 0
-        self._ramp_end = 0
-        self._permit = False
-        self._silent_from = 0
-        self._faults = Fault(0)
         self._result = Result.OK
         self._sequence = 0
         self._data = 0
@@ -98,11 +80,8 @@ class GatewareModel:
 
     def next_change(self) -> int | None:
         """The next tick in which something happens without further input; None if nothing will."""
-        ticks = [self._player.next_change(), self._events[0].tick if self._events else None]
-        if self._gate is not Gate.OFF:
-            ticks.append(self._silent_from if self._permit else self._now)
-        if self._gate in (Gate.RAMP_UP, Gate.RAMP_DOWN):
-            ticks.append(self._ramp_end - 1)
+        event = self._events[0].tick if self._events else None
+        ticks = (event, self._player.next_change(), self._gate.next_change(self._now))
         return min((tick for tick in ticks if tick is not None), default=None)
 
     def permit(self, tick: int, level: bool) -> None:
@@ -138,7 +117,7 @@ class GatewareModel:
 
     def take_capture(self) -> Capture:
         """Everything that happened on the pins since the last capture, up to now."""
-        return self._pins.take(self._now)
+        return self._gate.pins.take(self._now)
 
     def _expect(self, event: _Event) -> None:
         if event.tick < self._now:
@@ -149,22 +128,22 @@ class GatewareModel:
         """What a frame whose chip select fell two ticks ago would be answered."""
         gate, player = self._gate, self._player
         bits = (
-            (State.ARMED, gate is Gate.ON),
-            (State.RAMPING, gate in (Gate.RAMP_UP, Gate.RAMP_DOWN)),
+            (State.ARMED, gate.state is Gate.ON),
+            (State.RAMPING, gate.ramping),
             (State.PLAYING, player.playing),
             (State.REPEATING, player.repeating),
             (State.PENDING, player.pending is not None),
             (State.LANDING_BUSY, player.uses(self._buffers.landing)),
-            (State.RUN_PERMIT, self._permit),
-            (State.HEARTBEAT, self._now < self._silent_from),
-            (State.HV_ENABLE, self._pins.hv_at(self._now)),
+            (State.RUN_PERMIT, gate.permit),
+            (State.HEARTBEAT, self._now < gate.silent_from),
+            (State.HV_ENABLE, gate.pins.hv_at(self._now)),
         )
         state = State(sum(bit for bit, holds in bits if holds))
         return Status(
             self._result,
             self._sequence,
             state,
-            self._faults,
+            gate.faults,
             self._data,
             self._triggers & 0xFFFFFFFF,
             self._now,
@@ -173,9 +152,9 @@ class GatewareModel:
 
     def _step(self, tick: int) -> None:
         """All that happens in one tick; what comes later here wins, as in the Verilog."""
-        cause = self._cause(tick)
+        cause = self._gate.cause(tick)
         effect: Effect | None = None
-        permit = self._permit
+        permit = self._gate.permit
         trigger = False
         ended = False
         while self._events and self._events[0].tick == tick:
@@ -189,22 +168,16 @@ class GatewareModel:
                 ended |= event.kind is _Kind.ENDED
         if ended and not cause:
             self._emissions += 1
-            self._pins.focus(tick + 1, self._registers.bit_ticks)
+            self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
         self._move_player(tick, trigger)
-        if self._gate in (Gate.RAMP_UP, Gate.RAMP_DOWN) and tick == self._ramp_end - 1:
-            self._end_ramp()
+        self._gate.end_ramp(tick)
         if effect:
             effect(tick)
         if cause:
-            self._shut(tick, cause)
-        self._permit = permit
-
-    def _cause(self, tick: int) -> Fault:
-        """Why the outputs have to go off in this tick."""
-        if self._gate is Gate.OFF:
-            return Fault(0)
-        cause = Fault(0) if self._permit else Fault.NO_PERMIT
-        return cause | Fault.HOST_SILENT if tick >= self._silent_from else cause
+            self._gate.shut(tick, cause)
+            self._player.drop()
+            self._events = [event for event in self._events if event.kind is not _Kind.ENDED]
+        self._gate.permit = permit
 
     def _judged(self, tick: int, event: _Event) -> Effect | None:
         """Result of a frame from the state as it was; its effect comes after everything else of the tick."""
@@ -215,13 +188,13 @@ class GatewareModel:
             self._frame_errors += 1
             return None
         self._sequence = frame.sequence
-        self._silent_from = tick + 1 + self._registers.heartbeat_ticks
+        self._gate.hear(tick)
         if frame.kind == FrameType.READ:
             self._result = self._read(frame.argument)
         elif frame.kind == FrameType.WRITE and frame.argument == Register.CONTROL:
             self._result, effect = self._control(frame.words)
         elif frame.kind == FrameType.WRITE:
-            disarmed = self._gate is Gate.OFF
+            disarmed = self._gate.state is Gate.OFF
             self._result = self._registers.write(frame.argument, frame.words[0], disarmed=disarmed)
         elif frame.kind == FrameType.LOAD:
             self._result = self._load(event)
@@ -236,7 +209,7 @@ class GatewareModel:
     def _read(self, address: int) -> Result:
         counters = {
             Register.CONTROL: 0,
-            Register.FAULT: self._faults,
+            Register.FAULT: self._gate.faults,
             Register.TRIGGERS_IGNORED: self._ignored,
             Register.EMISSIONS: self._emissions,
             Register.FRAME_ERRORS: self._frame_errors,
@@ -253,14 +226,14 @@ class GatewareModel:
         if command == Control.ARM:
             if (version, build_hash) != (PROTOCOL_VERSION, self._registers.build_hash):
                 return Result.BAD_KEY, None
-            if self._gate is not Gate.OFF:
+            if self._gate.state is not Gate.OFF:
                 return Result.ARMED, None
-            if self._faults:
+            if self._gate.faults:
                 return Result.FAULTED, None
-            return (Result.OK, self._arm) if self._permit else (Result.NO_PERMIT, None)
+            return (Result.OK, self._gate.arm) if self._gate.permit else (Result.NO_PERMIT, None)
         effects: dict[int, Effect] = {
             Control.DISARM: self._disarm,
-            Control.CLEAR: self._clear,
+            Control.CLEAR: lambda _: self._gate.clear(),
             Control.STOP: lambda _: self._player.stop(),
         }
         effect = effects.get(command)
@@ -278,9 +251,9 @@ class GatewareModel:
         slot, (count, period_ticks) = frame.argument, frame.words[:2]
         if slot >= len(self._buffers.slot_buffer):
             return Result.BAD_SLOT, None
-        if self._faults:
+        if self._gate.faults:
             return Result.FAULTED, None
-        if self._gate is not Gate.ON:
+        if self._gate.state is not Gate.ON:
             return Result.NOT_ARMED, None
         length_words = self._buffers.slot_words[slot]
         if not length_words:
@@ -303,7 +276,7 @@ class GatewareModel:
         if last:
             player.end()
             self._expect(_Event(tick + PIN_TICKS, _Kind.ENDED))
-            self._pins.put(tick + 1 + PIN_TICKS, self._word(self._registers.idle_word), 1, 1)
+            self._gate.idle(tick + 1)
         if trigger:
             self._triggers += 1
             self._ignored += ready is None
@@ -311,48 +284,9 @@ class GatewareModel:
         if ready:
             player.pending = None
         if play:
-            bit_ticks = self._registers.bit_ticks
-            player.start(play, tick, bit_ticks, again=ready is None)
-            words = self._buffers.waveform(play.buffer, play.length_words) & np.uint32(self._registers.channel_mask)
-            self._pins.put(tick + 1 + PIN_TICKS, words, bit_ticks, 1)
-
-    def _arm(self, tick: int) -> None:
-        self._ramp(tick + 1, Gate.RAMP_UP, ramp_bits(self._registers.ramp_samples, up=True))
+            player.start(play, tick, self._registers.bit_ticks, again=ready is None)
+            self._gate.play(tick + 1, self._buffers.waveform(play.buffer, play.length_words))
 
     def _disarm(self, tick: int) -> None:
         self._player.drop()
-        samples = self._registers.ramp_samples
-        if self._gate is Gate.ON:
-            self._ramp(tick + 1, Gate.RAMP_DOWN, ramp_bits(samples, up=False))
-        elif self._gate is Gate.RAMP_UP:  # back from where it is, at the next drive word
-            reached = (tick - self._ramp_start) // self._registers.bit_ticks + 1
-            turn = self._ramp_start + reached * self._registers.bit_ticks
-            self._ramp(turn, Gate.RAMP_DOWN, turned_ramp_bits(samples, reached))
-
-    def _ramp(self, tick: int, gate: Gate, bits: np.typing.NDArray[np.bool_]) -> None:
-        bit_ticks = self._registers.bit_ticks
-        self._gate = gate
-        self._ramp_start = tick
-        self._ramp_end = tick + len(bits) * bit_ticks
-        self._pins.put(tick + PIN_TICKS, bits * np.uint32(self._registers.idle_word), bit_ticks, 1)
-
-    def _end_ramp(self) -> None:
-        up = self._gate is Gate.RAMP_UP
-        self._gate = Gate.ON if up else Gate.OFF
-        self._pins.put(self._ramp_end + PIN_TICKS, self._word(self._registers.idle_word if up else 0), 1, int(up))
-
-    def _clear(self, _tick: int) -> None:
-        self._faults = Fault(0)
-
-    def _shut(self, tick: int, cause: Fault) -> None:
-        """Outputs low with the next tick, whatever is still on its way to them."""
-        self._faults |= cause
-        self._gate = Gate.OFF
-        self._player.drop()
-        self._events = [event for event in self._events if event.kind is not _Kind.ENDED]
-        self._pins.put(tick + 1, self._word(0), 1, 0)
-        self._pins.cut_focus()
-
-    @staticmethod
-    def _word(word: int) -> Words:
-        return np.array([word], np.uint32)
+        self._gate.disarm(tick)
