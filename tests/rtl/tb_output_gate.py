@@ -97,6 +97,15 @@ async def does_not_reopen_for_a_moment_when_a_fault_is_cleared_at_once(dut):
 
 
 @cocotb.test(timeout_time=10, timeout_unit="us")
+async def a_fault_in_the_very_clock_of_a_clear_is_kept(dut):
+    await armed(dut)
+    dut.run_permit_i.value = 0
+    await pulse(dut, dut.clear_i)
+    assert dut.fault_o.value == NO_PERMIT
+    assert is_shut(dut)
+
+
+@cocotb.test(timeout_time=10, timeout_unit="us")
 async def stays_open_through_the_ramp_down_and_no_longer(dut):
     await armed(dut)
     await pulse(dut, dut.disarm_i)

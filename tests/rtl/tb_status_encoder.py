@@ -28,7 +28,7 @@ async def sends_a_snapshot_its_crc_and_then_zeros(dut):
         for name in names:
             getattr(dut, name).value = 0  # what changes afterwards is of no account
         answer = b""
-        for _ in range(80):
+        for _ in range(130):
             answer += bytes([int(dut.byte_o.value)])
             await pulse(dut, dut.take_i)
             await clocks(dut, random.randrange(1, 4))

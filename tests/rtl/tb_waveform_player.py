@@ -102,6 +102,11 @@ async def a_pending_play_starts_in_a_pause_but_never_cuts_an_emission(dut):
     await pulse(dut, dut.trigger_i)
     assert dut.pending_o.value == 1
     await clocks(dut, 20)
+    dut.landing_i.value = 1
+    await clocks(dut)
+    assert dut.playing_o.value == 0
+    assert dut.landing_busy_o.value == 1, "it will sound again after its pause"
+    dut.landing_i.value = 2
     await pulse(dut, dut.trigger_i)
     assert await player.drive(100) == [IDLE] * (SOUND - 2) + emission(2, 2) + [IDLE] * 91
     assert int(dut.ignored_o.value) == 1
