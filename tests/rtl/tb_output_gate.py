@@ -124,6 +124,19 @@ async def stays_open_through_the_ramp_down_and_no_longer(dut):
 
 
 @cocotb.test(timeout_time=10, timeout_unit="us")
+async def turns_back_even_in_the_clock_in_which_the_ramp_up_ends(dut):
+    await armed(dut)
+    await pulse(dut, dut.disarm_i)
+    await pulse(dut, dut.ramp_done_i)
+    await feed(dut)
+    await pulse(dut, dut.arm_i)
+    dut.disarm_i.value = 1
+    await pulse(dut, dut.ramp_done_i)
+    dut.disarm_i.value = 0
+    assert dut.ramp_down_o.value == 1
+
+
+@cocotb.test(timeout_time=10, timeout_unit="us")
 async def lets_only_masked_in_channels_through(dut):
     await armed(dut)
     dut.channel_mask_i.value = 0x0F0F00FF
