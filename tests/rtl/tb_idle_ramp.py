@@ -48,6 +48,14 @@ async def turns_back_from_where_it_is(dut):
 
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")
+async def turned_back_at_the_very_top_it_comes_down_as_from_rest(dut):
+    samples, bit_ticks = 103, 4
+    await after_reset(dut, samples_i=samples, bit_ticks_i=bit_ticks)
+    await bits_while(dut, dut.up_i, bit_ticks)
+    assert await bits_while(dut, dut.down_i, bit_ticks) == (ramp_bits(samples, up=False).tolist(), True)
+
+
+@cocotb.test(timeout_time=2, timeout_unit="ms")
 async def begins_anew_after_being_shut(dut):
     await after_reset(dut, samples_i=300, bit_ticks_i=4)
     await bits_while(dut, dut.up_i, 4, most=555)
