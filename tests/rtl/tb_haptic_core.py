@@ -139,7 +139,8 @@ async def loading_and_storing_never_disturb_what_plays_or_waits(dut):
     assert await panel.result_of(frames.pack_load, 0, memoryview(bytes(500))) is Result.BUSY
     await panel.send(frames.pack_play, 0)
     await panel.control(Control.STOP)
-    await panel.wait(125 * BIT_TICKS + 20)
+    load = (frames.pack_load, 0, memoryview(bytes(500)))
+    assert await panel.result_of(*load) is Result.BUSY, "it was when the frame began, if not when it ended"
     assert State.LANDING_BUSY not in (await panel.status()).state
     assert await panel.result_of(frames.pack_load, 0, memoryview(bytes(500))) is Result.OK
     assert {word for tick, word in panel.words if tick > panel.focus_ticks[0]} <= {*old.tolist(), IDLE_WORD}
@@ -156,7 +157,12 @@ async def shuts_within_the_timeout_when_the_host_falls_silent_and_keeps_the_caus
     await panel.trigger()
     await panel.status()
     heard = panel.tick
-    await panel.wait(heartbeat_ticks + 10)
+    damaged = bytearray(32)
+    frames.pack_nop(damaged, 0, 1)
+    damaged[20] ^= 1
+    for _ in range(3):
+        await panel.exchange(bytes(damaged))  # no sign of life
+    await panel.wait(heard + heartbeat_ticks + 10 - panel.tick)
     assert panel.levels[-1][1] == 0
     assert panel.words[-1][1] == 0
     assert heard - 10 <= panel.levels[-1][0] - heartbeat_ticks <= heard + 2
@@ -246,6 +252,23 @@ async def arms_only_with_the_right_key_and_permit_and_glides_both_ways(dut):
 
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
+async def disarming_drops_what_plays_and_what_waits(dut):
+    panel = await Panel.after_reset(dut)
+    await panel.arm()
+    await panel.upload(0, random_words(SHORT))
+    await panel.send(frames.pack_play, 0, count=0, period_ticks=100)
+    await panel.trigger()
+    await panel.send(frames.pack_play, 0)
+    await panel.control(Control.DISARM)
+    assert not (await panel.status()).state & (State.PLAYING | State.REPEATING | State.PENDING)
+    await panel.arm_again()
+    await panel.trigger()
+    await panel.wait(300)
+    assert (await panel.status()).state == State.ARMED | State.HV_ENABLE | State.RUN_PERMIT | State.HEARTBEAT
+    panel.check_against_model()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
 async def gives_signs_of_life_at_10_khz_while_the_outputs_are_on(dut):
     panel = await Panel.after_reset(dut)
     await panel.arm()
@@ -292,7 +315,8 @@ async def a_reset_in_the_middle_of_everything_leaves_nothing_behind(dut):
     frame = cocotb.start_soon(panel.status())
     await panel.wait(700)
     dut.rst_i.value = 1
-    await ClockCycles(dut.clk_i, 2)
+    dut.trigger_i.value = 1  # no edge: it was high before anything was seen
+    await ClockCycles(dut.clk_i, 4)
     await FallingEdge(dut.clk_i)
     assert dut.channel_o.value == 0
     assert dut.hv_enable_o.value == 0
