@@ -21,7 +21,7 @@ def test_packing_an_upload_allocates_nothing_of_the_payloads_size():
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert peak - before < 500, "less than one chunk: the only copy is the one into the frames"
+    assert peak - before < 1000, "a few memoryviews (0.7 kB); a hidden copy of one chunk would be 0.5 kB more"
 
 
 def test_packing_an_upload_is_one_crc_pass(monkeypatch):
