@@ -381,6 +381,8 @@ async def does_what_the_model_does_through_random_sequences(dut):
         await act_at_random(panel)
         if number % 20 == 19:  # back to work, whatever the state
             await panel.control(Control.CLEAR)
+            await panel.write(Register.BIT_TICKS, BIT_TICKS)
+            await panel.write(Register.HEARTBEAT_TICKS, HEARTBEAT_TICKS_MAX)
             await panel.send(frames.pack_arm, BUILD_HASH)
             await panel.wait(RAMP_SAMPLES * BIT_TICKS + 10)
     capture = panel.check_against_model()
