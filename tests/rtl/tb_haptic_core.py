@@ -352,7 +352,7 @@ async def act_at_random(panel):
     elif action == "read":
         await panel.send(frames.pack_read, random.randrange(18))
     elif action == "write":
-        await panel.write(random.choice([0, 6, 7, 9, 16]), random.choice([0, 1, 3, 4, 6, 0xFFFF, 0x10000, IDLE_WORD]))
+        await panel.write(random.choice([0, 6, 7, 9, 16]), random.choice([0, 1, 3, 4, 6, 0x10000, IDLE_WORD]))
     elif action == "permit":
         panel.permit(False)
         await panel.wait(random.randrange(1, 6))
