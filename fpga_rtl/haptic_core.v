@@ -5,7 +5,7 @@
 `include "registers.vh"
 
 module haptic_core #(
-    parameter [31:0] CLOCK_HZ            = 32'd100_000_000,
+    parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
     parameter        SLOTS               = 4,              // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,
     parameter [31:0] HEARTBEAT_TICKS_MAX = CLOCK_HZ / 4    // 250 ms

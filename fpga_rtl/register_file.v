@@ -3,10 +3,10 @@
 `include "registers.vh"
 
 module register_file #(
-    parameter [31:0] CLOCK_HZ            = 32'd100_000_000,
+    parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
     parameter [31:0] SLOTS               = 32'd4,
     parameter [31:0] BUILD_HASH          = 32'd0,
-    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd25_000_000
+    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd20_000_000
 ) (
     input  wire        clk_i,
     input  wire        rst_i,

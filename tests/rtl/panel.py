@@ -5,7 +5,9 @@ an output of tick t is on its pin after the edge that begins it. Inputs move hal
 clock edge, so at every ratio of SCK to the clock it is plain which edge samples them.
 """
 
+import os
 import random
+from pathlib import Path
 
 import cocotb
 import numpy as np
@@ -13,6 +15,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, FallingEdge, RisingEdge, Timer, ValueChange
 from cocotb.utils import get_sim_time
 
+from controller.bank.reader import Bank
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.model import GatewareModel
@@ -40,8 +43,10 @@ BIT_TICKS = 4
 
 
 def bank_entry_words():
-    """(1000,) drive words as a bank entry holds them."""
-    return np.random.default_rng(2015).integers(0, 2**32, 1000, dtype=np.uint32)
+    """(1000,) drive words of the entry of a real bank that test_rtl.py has built."""
+    with Bank.open(Path(os.environ["HAPTIC_PANEL_TEST_BANK"])) as bank:
+        (cell,) = np.flatnonzero(bank.cells).tolist()
+        return np.frombuffer(bytes(bank.words(cell)), "<u4")
 
 
 class Panel:

@@ -2,9 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import panel
 import pytest
 from cocotb_tools.runner import get_runner
+
+from controller.bank.grid import Grid
+from controller.offline.bank_builder import build_bank
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
 BENCHES = {
@@ -19,11 +23,23 @@ BENCHES = {
     "waveform_player": {},
     "output_gate": {"ALIVE_HALF_TICKS": 7},
 }
+PITCH_M = 5e-3
 SEED = 2015  # of the random numbers in benches and of the initial state
 
 
+@pytest.fixture(scope="session")
+def one_entry_bank(board, tmp_path_factory):
+    """A bank of the simulated board with one cell, whose entry the end-to-end bench plays."""
+    cells = np.zeros(Grid.of(board.plate, PITCH_M).cells, bool)
+    cells[len(cells) // 3] = True
+    path = tmp_path_factory.mktemp("bank") / "one.bank"
+    build_bank(board, path, PITCH_M, cells, measure_sgemm=False)
+    return path
+
+
 @pytest.mark.parametrize("module", BENCHES)
-def test_bench(module, simulator, tmp_path):
+def test_bench(module, simulator, one_entry_bank, tmp_path, monkeypatch):
+    monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
     runner.build(
