@@ -21,7 +21,7 @@ from controller.errors import BankError, ConfigError
 from controller.offline.impulse_response import ResponseModel
 
 HIGHEST_HZ = 100e3
-CELLS_PER_BLOCK = 64  # 8 MB of responses at 1000 samples
+CELLS_PER_BLOCK = 512  # some rows of the grid; 66 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
 

@@ -1,5 +1,7 @@
 """Impulse responses h[point, sample, channel]: every mode stepped exactly, many points as one GEMM.
 
+Points of a grid go by rows (`row_responses`), any others by the sum over all modes.
+
 A drive word is held for one bit period, so the response of a mode to a pulse of 1 V of that length
 is the difference of two step responses, taken at the ends of the bit periods: exact, without a
 time step. Sample j is the displacement (j + 1) bit periods after the start of the pulse.
@@ -22,6 +24,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from controller.board import CHANNELS, Board
 from controller.offline.driver import DriverResponse
 from controller.offline.plate import PlateModes
+from controller.offline.row_responses import in_rows, responses_in_rows
 from controller.offline.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -134,6 +137,15 @@ class ResponseModel:
         if out.shape != shape or out.dtype != kernel.dtype:
             raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
         started = time.perf_counter()
+        if in_rows(points) and out.flags.c_contiguous:
+            responses_in_rows(self.plate_modes, self.forces, kernel, points, out)
+        else:
+            self._responses_anywhere(points, kernel, out)
+        self.gemm_seconds += time.perf_counter() - started
+        return out
+
+    def _responses_anywhere(self, points: Floats, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]]) -> None:
+        """Fill `out` with the sum over all modes at each point: one GEMM for 16 points."""
         forces, driven, product = self._workspace(kernel.dtype)
         for first in range(0, len(points), POINTS_PER_GEMM):
             some = points[first : first + POINTS_PER_GEMM]
@@ -142,8 +154,6 @@ class ResponseModel:
             result = product[: self.samples * columns].reshape(self.samples, columns)
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
             out[first : first + len(some)] = result.reshape(self.samples, len(some), CHANNELS).swapaxes(0, 1)
-        self.gemm_seconds += time.perf_counter() - started
-        return out
 
     def _workspace(self, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""
