@@ -76,7 +76,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.PROTOCOL: Description("RO", "version of these frames and registers"),
     Register.BUILD_HASH: Description("RO", "CRC-32 of the Verilog it was built from"),
     Register.CLOCK_HZ: Description("RO", "clocks per second: what a tick is"),
-    Register.GEOMETRY: Description("RO", "slots | words per slot << 8 | channels << 24"),
+    Register.GEOMETRY: Description("RO", "slots, words per slot (from bit 8), channels (from bit 24)"),
     Register.CONTROL: Description("WO", "1 ARM (version, build hash), 2 DISARM, 3 CLEAR faults, 4 STOP"),
     Register.IDLE_WORD: Description("RW", "level of each channel while armed and not playing; 0 after reset"),
     Register.BIT_TICKS: Description("RW", "clocks one drive word is held, 4 to 65535; 500 kHz after reset"),
