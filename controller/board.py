@@ -24,6 +24,7 @@ from controller.errors import ConfigError
 T = TypeVar("T")
 
 CHANNELS = 32
+FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
 
 Positive = Annotated[float, Meta(gt=0)]
@@ -224,9 +225,12 @@ def load_board(path: Path) -> Board:
     """
     file = path / "board.toml" if path.is_dir() else path
     board = load_toml(file, Board)
-    if board.bit_ticks * board.waveform.bit_clock_hz != board.link.clock_hz:
-        clock = board.waveform.bit_clock_hz
-        raise ConfigError(f"{file}: waveform.bit_clock_hz = {clock} does not divide link.clock_hz = {board.link.clock_hz}")
+    if board.bit_ticks * board.waveform.bit_clock_hz != board.link.clock_hz or board.bit_ticks < FEWEST_BIT_TICKS:
+        bit_clock_hz, clock_hz = board.waveform.bit_clock_hz, board.link.clock_hz
+        raise ConfigError(
+            f"{file}: waveform.bit_clock_hz = {bit_clock_hz} is not"
+            f" link.clock_hz = {clock_hz} over a whole number >= {FEWEST_BIT_TICKS}"
+        )
     return msgspec.structs.replace(board, folder=file.parent)
 
 

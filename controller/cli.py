@@ -60,6 +60,7 @@ def run(options: argparse.Namespace) -> int:
 
     from controller.offline import report_text, simulated_run  # noqa: PLC0415
 
+    picture = _picture(options)
     board = load_board(find_board(options.board))
     scene_file = find_scene(board, options.scene or board.scene)
     scene = load_scene(scene_file, board)
@@ -79,9 +80,9 @@ def run(options: argparse.Namespace) -> int:
         judged = simulated_run.judge(done, _progress("plate"))
     figures = simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
-        print(f"haptic-panel: {recording.name}: {warning}", file=sys.stderr)
-    if options.plot:
-        _plot_run(Path(options.plot), board, judged, recording.name)
+        print(f"haptic-panel: {warning}", file=sys.stderr)
+    if picture:
+        _plot_run(picture, board, judged, recording.name)
     _show(options, figures, report_text.run_table)
     return 0
 
@@ -129,6 +130,7 @@ def focus(options: argparse.Namespace) -> int:
     from controller.offline.report_text import plain_table  # noqa: PLC0415
     from controller.offline.work_precision import figures, focus_on  # noqa: PLC0415
 
+    picture = _picture(options)
     board = load_board(find_board(options.board))
     if options.figures:
         _show(options, figures(board, options.seed), plain_table)
@@ -137,10 +139,10 @@ def focus(options: argparse.Namespace) -> int:
         raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
-    if options.plot:
+    if picture:
         from controller.offline.plot import plot_focus  # noqa: PLC0415
 
-        plot_focus(Path(options.plot), board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
+        plot_focus(picture, board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
     _show(options, {"board": board.name, "foci": rows}, lambda shown: "\n\n".join(map(plain_table, shown["foci"])))
     return 0
 
@@ -179,6 +181,16 @@ def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: 
 
     cells = None if scene is None else _cells(board, pitch_m, scene)
     return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)
+
+
+def _picture(options: argparse.Namespace) -> Path | None:
+    """File asked for with --plot, refused before any work if it could not be written."""
+    if not options.plot:
+        return None
+    from controller.offline.plot import check_picture  # noqa: PLC0415
+
+    check_picture(Path(options.plot))
+    return Path(options.plot)
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:

@@ -86,6 +86,7 @@ class Counters:
     uploads: int = 0
     resident: int = 0
     heartbeats: int = 0
+    bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # outputs switched off by the FPGA because this process had stalled; armed again
     skipped: Skipped = field(default_factory=Skipped)
     upload_latency: Stages = field(default_factory=Stages)

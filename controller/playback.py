@@ -138,8 +138,9 @@ class Playback:
                 self._slot_of.move_to_end(key)
             else:
                 self._upload(key, count, period_s)
-        except BankError:
+        except BankError as error:
             self._counters.skipped.bad_entries += 1
+            self._counters.bad_entry = self._counters.bad_entry or str(error)
             return False
         except Refused:
             self._counters.skipped.refused += 1

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from controller.bank.inspection import bank_info
 from controller.bank.location import bank_path
 from controller.board import find_board
 from controller.cli import main
@@ -135,6 +136,8 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("bank", "build", "--pitch-mm", "500"), 78, "pitch_mm = 500"),
         (("bank", "build", "--pitch-mm", "nan"), 78, "pitch_mm = nan"),
         (("bank", "build", "--pitch-mm", "-1"), 78, "pitch_mm = -1"),
+        (("run", "--plot", "/proc/nothing/plate.png"), 78, "/proc/nothing/plate.png: the picture cannot be written there"),
+        (("run", "--plot", "plate.txt"), 78, ".png or .svg or .pdf"),
         (("focus",), 78, "--at X_MM Y_MM"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),
         (("focus", "--at", "nan", "20"), 78, "--at nan"),
@@ -224,6 +227,22 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
 def test_a_folder_that_cannot_be_written_is_named(capsys, small_board):
     assert "/proc/nothing" in told_off(capsys, "bank", "build", "--board", small_board, "--out", "/proc/nothing/small.bank")
     assert "/proc/nothing" in told_off(capsys, "focus", "--at", "100", "70", "--plot", "/proc/nothing/plate.png")
+
+
+def test_a_damaged_entry_met_while_running_is_left_out_counted_and_told(capsys, small_board, tmp_path):
+    file = tmp_path / "small.bank"
+    main(["bank", "build", "--board", str(small_board), "--out", str(file)])
+    content = bytearray(file.read_bytes())
+    start = bank_info(file)["sections"]["drive"]["offset"]  # drive words and, behind them, responses
+    content[start + 10 :: 100] = bytes(255 - byte for byte in content[start + 10 :: 100])
+    file.write_bytes(content)
+    capsys.readouterr()
+    out, err = printed(capsys, "run", "--board", small_board, "--bank", file, "--speed", "max", "--json")
+    figures = json.loads(out)
+    assert figures["skipped"]["bad_entries"] == 1
+    assert figures["emissions"] == 0
+    assert "1 × no emission: " in err
+    assert "haptic-panel bank build" in err
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from controller.board import CHANNELS
 
-__all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "quantise"]
+__all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "edges", "quantise"]
 
 WORD = np.dtype("<u4")
 
@@ -67,6 +67,12 @@ def channel_bits(words: NDArray[np.uint32]) -> NDArray[np.uint8]:
     """Unpack drive words into (sample, channel) zeros and ones; inverse of the packing."""
     as_bytes = np.ascontiguousarray(words, WORD).view(np.uint8).reshape(-1, WORD.itemsize)
     return np.unpackbits(as_bytes, axis=1, bitorder="little")
+
+
+def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
+    """Changes of level of each channel from the first word to the last: (32,)."""
+    counts: NDArray[np.intp] = channel_bits(words[1:] ^ words[:-1]).sum(axis=0, dtype=np.intp)
+    return counts
 
 
 def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], float]:

@@ -14,7 +14,7 @@ from tqdm import tqdm
 
 from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
-from controller.bank.packing import CHANNELS, drive_words, quantise
+from controller.bank.packing import CHANNELS, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.board import Board
 from controller.errors import BankError, ConfigError
@@ -31,7 +31,8 @@ class BuildReport:
     """What a build gave and what it cost.
 
     `gemm_fraction` is 2 cells modes samples channels / (best sgemm rate x response_seconds): how near the
-    response step, all of it, comes to what the machine's matrix multiplication can do. None if not measured.
+    response step, all of it, comes to what the machine's matrix multiplication can do; above 1 where the sum by rows
+    saves work. None if not measured. `worst_edge_rate_hz`: edges per second of the busiest channel of all entries.
     """
 
     path: str
@@ -44,6 +45,7 @@ class BuildReport:
     sgemm_gflops: float | None
     gemm_fraction: float | None
     peak_memory_mb: float
+    worst_edge_rate_hz: float
 
 
 def build_bank(
@@ -80,7 +82,7 @@ def build_bank(
     Raises
     ------
     ConfigError
-        If the pitch leaves no cell, or `cells` is empty.
+        If the pitch leaves no cell, `cells` is empty, or an entry would switch a channel more often than the board allows.
     BankError
         If the folder or disk does not take the file; an old bank is untouched.
     """
@@ -114,6 +116,7 @@ def build_bank(
     except OSError as error:
         raise BankError(f"{path}: its folder cannot be made ({error.strerror})") from error
     response_seconds = 0.0
+    worst_edge_rate_hz = 0.0
     with (
         BankWriter(path, header, wanted) as writer,  # a folder or disk that cannot take it is refused before the work
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
@@ -128,7 +131,9 @@ def build_bank(
             model.drive_order_responses(points_m[some], out=responses)
             response_seconds += time.perf_counter() - before
             for cell, response in zip(numbers[some].tolist(), responses, strict=True):
-                writer.add(cell, drive_words(response, board.idle_word), *quantise(response))
+                words = drive_words(response, board.idle_word)
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, words, cell))
+                writer.add(cell, words, *quantise(response))
             bar.update(len(responses))
     seconds = time.perf_counter() - started
     flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS
@@ -144,7 +149,20 @@ def build_bank(
         sgemm_gflops=rate and rate / 1e9,
         gemm_fraction=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
+        worst_edge_rate_hz=worst_edge_rate_hz,
     )
+
+
+def _edge_rate_hz(board: Board, words: NDArray[np.uint32], cell: int) -> float:
+    """Edges per second of the busiest channel of an entry, within the board's limit."""
+    counts = edges(words)
+    rate_hz = float(counts.max()) / board.waveform.duration_s
+    if rate_hz > board.limits.max_edge_rate_hz:
+        raise ConfigError(
+            f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
+            f" edges per second of channel {int(counts.argmax())} in the waveform of cell {cell}: raise it if the driver allows it"
+        )
+    return rate_hz
 
 
 def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:

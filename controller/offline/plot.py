@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,8 +14,23 @@ from controller.board import Board
 from controller.errors import ConfigError
 from controller.offline.field import Field
 
+KINDS = (".png", ".svg", ".pdf")
 STEP_M = 0.5e-3
 Point = tuple[float, float]
+
+
+def check_picture(path: Path) -> None:
+    """Refuse a picture that could not be written, before the work for it is done.
+
+    Raises
+    ------
+    ConfigError
+        If its folder does not exist or is not writable, or its suffix is none of `KINDS`.
+    """
+    if path.suffix not in KINDS:
+        raise ConfigError(f"{path}: a picture is {' or '.join(KINDS)}, by the ending of its name")
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise ConfigError(f"{path}: the picture cannot be written there")
 
 
 def plot_focus(path: Path, board: Board, field: Field, foci: Sequence[Point], title: str) -> None:

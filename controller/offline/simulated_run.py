@@ -220,7 +220,8 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
             "contacts": counts.contacts,
             "max_fingers": counts.max_fingers,
         },
-        "warnings": in_words(run.source.warnings),
+        "warnings": [f"{run.recording.name}: {warning}" for warning in in_words(run.source.warnings)]
+        + ([f"{counters.skipped.bad_entries} × no emission: {counters.bad_entry}"] if counters.bad_entry else []),
         "emissions": int(run.capture.focus_ticks.size),
         "triggers": counters.emissions,
         "uploads": counters.uploads,

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from controller.bank.packing import CHANNELS, channel_bits, drive_words, quantise
+from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 
 levels = st.one_of(st.sampled_from([0.0, -0.0, 2.0**-149, -(2.0**-149)]), st.floats(-1, 1, width=32))
 responses = arrays(np.float32, st.tuples(st.integers(1, 40), st.just(CHANNELS)), elements=levels)
@@ -70,3 +70,8 @@ def test_refuses_what_cannot_be_played(bad):
 def test_refuses_an_idle_word_that_is_not_32_bits(idle_word):
     with pytest.raises(ValueError, match="idle word"):
         drive_words(np.zeros((1, CHANNELS)), idle_word)
+
+
+def test_edges_are_counted_for_each_channel():
+    words = np.array([0b000, 0b001, 0b011, 0b010, 0b010], "<u4")
+    assert edges(words).tolist() == [2, 1] + [0] * 30

@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from controller.board import data_folder
+from controller.board import FEWEST_BIT_TICKS, data_folder
 from controller.fpga import registers
 from controller.fpga.registers import REGISTERS, Control, Fault, FrameType, Register, Result, State
 
@@ -43,3 +43,7 @@ def test_the_readme_describes_every_register_as_the_code_does():
     readme = (data_folder("fpga_rtl") / "README.md").read_text()
     for register, description in REGISTERS.items():
         assert f"| {int(register)} | {register.name} | {description.access} | {description.text} |" in readme
+
+
+def test_the_boards_shortest_word_is_the_gatewares():
+    assert FEWEST_BIT_TICKS == registers.BIT_TICKS_MIN

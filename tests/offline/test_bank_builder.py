@@ -2,6 +2,7 @@ import json
 import subprocess
 import sys
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -107,3 +108,13 @@ def test_the_whole_plate_at_5_mm_is_built_in_600_mb(tmp_path):
     assert report["gemm_fraction"] == pytest.approx(
         2 * 1148 * report["modes"] * 32_000 / (report["sgemm_gflops"] * 1e9 * report["response_seconds"])
     )
+
+
+def test_a_waveform_that_switches_more_often_than_the_board_allows_is_refused(board, tmp_path):
+    report = build_bank(board, tmp_path / "bank", 20e-3, measure_sgemm=False)
+    assert 70e3 < report.worst_edge_rate_hz < 110e3, "twice the mean frequency of what passes the driver, 40 kHz or so"
+    limits = msgspec.structs.replace(board.limits, max_edge_rate_hz=report.worst_edge_rate_hz * 0.99)
+    before = (tmp_path / "bank").read_bytes()
+    with pytest.raises(ConfigError, match="max_edge_rate_hz"):
+        build_bank(msgspec.structs.replace(board, limits=limits), tmp_path / "bank", 20e-3, measure_sgemm=False)
+    assert (tmp_path / "bank").read_bytes() == before
