@@ -1,4 +1,7 @@
-"""The command line: arguments, exit codes, printing. Every subcommand is one call into a room."""
+"""The command line: arguments, exit codes, printing. Every subcommand is one call into a room.
+
+The offline room is imported only by the commands that need it: a device may lack its packages.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +23,7 @@ from controller.errors import ConfigError, ControllerError
 from controller.hardware import recording_path
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
+from controller.tables import plain_table, run_table
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
@@ -56,9 +60,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Replay a recording on the simulated panel and print what its fingers would have felt."""
-    from threadpoolctl import threadpool_limits  # noqa: PLC0415
+    from threadpoolctl import threadpool_limits
 
-    from controller.offline import report_text, simulated_run  # noqa: PLC0415
+    from controller.offline import simulated_run
 
     picture = _picture(options)
     board = load_board(find_board(options.board))
@@ -83,14 +87,12 @@ def run(options: argparse.Namespace) -> int:
         print(f"haptic-panel: {warning}", file=sys.stderr)
     if picture:
         _plot_run(picture, board, judged, recording.name)
-    _show(options, figures, report_text.run_table)
+    _show(options, figures, run_table)
     return 0
 
 
 def bank_build(options: argparse.Namespace) -> int:
     """Build a bank for a board: of the whole plate, or of the cells that a scene can reach."""
-    from controller.offline.report_text import plain_table  # noqa: PLC0415
-
     board = load_board(find_board(options.board))
     scene_file = find_scene(board, options.scene) if options.scene else None
     scene = load_scene(scene_file, board) if scene_file else None
@@ -103,16 +105,12 @@ def bank_build(options: argparse.Namespace) -> int:
 
 def bank_tell(options: argparse.Namespace) -> int:
     """Say what a bank holds and what it was computed from."""
-    from controller.offline.report_text import plain_table  # noqa: PLC0415
-
     _show(options, bank_info(_bank_file(options)), plain_table)
     return 0
 
 
 def bank_check(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
-    from controller.offline.report_text import plain_table  # noqa: PLC0415
-
     _show(options, verify_bank(_bank_file(options)), plain_table)
     return 0
 
@@ -127,8 +125,7 @@ def _bank_file(options: argparse.Namespace) -> Path:
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and say how good the focus is; or measure the figures of the README."""
-    from controller.offline.report_text import plain_table  # noqa: PLC0415
-    from controller.offline.work_precision import figures, focus_on  # noqa: PLC0415
+    from controller.offline.work_precision import figures, focus_on
 
     picture = _picture(options)
     board = load_board(find_board(options.board))
@@ -140,7 +137,7 @@ def focus(options: argparse.Namespace) -> int:
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:
-        from controller.offline.plot import plot_focus  # noqa: PLC0415
+        from controller.offline.plot import plot_focus
 
         plot_focus(picture, board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
     _show(options, {"board": board.name, "foci": rows}, lambda shown: "\n\n".join(map(plain_table, shown["foci"])))
@@ -177,7 +174,7 @@ def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
 
 
 def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None, *, measure: bool) -> BuildReport:
-    from controller.offline.bank_builder import build_bank  # noqa: PLC0415
+    from controller.offline.bank_builder import build_bank
 
     cells = None if scene is None else _cells(board, pitch_m, scene)
     return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)
@@ -187,14 +184,14 @@ def _picture(options: argparse.Namespace) -> Path | None:
     """File asked for with --plot, refused before any work if it could not be written."""
     if not options.plot:
         return None
-    from controller.offline.plot import check_picture  # noqa: PLC0415
+    from controller.offline.plot import check_picture
 
     check_picture(Path(options.plot))
     return Path(options.plot)
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
-    from controller.offline.plot import plot_focus  # noqa: PLC0415
+    from controller.offline.plot import plot_focus
 
     if judged.field is None:
         print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)
@@ -207,7 +204,7 @@ def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
 
 def _progress(what: str) -> Callable[[int, int], None]:
     """A progress bar on stderr for work over 2 s, told of what is done and the total; silent when stderr is no terminal."""
-    from tqdm import tqdm  # noqa: PLC0415
+    from tqdm import tqdm
 
     bar = tqdm(desc=what, disable=None, delay=2, leave=False)
 

@@ -68,7 +68,7 @@ def test_every_public_name_says_what_it_is():
 
 
 def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
-    from hatchling.builders.wheel import WheelBuilder  # noqa: PLC0415  (a build tool: imported only here)
+    from hatchling.builders.wheel import WheelBuilder
 
     wheel = Path(next(iter(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))))
     names = zipfile.ZipFile(wheel).namelist()
