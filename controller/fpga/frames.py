@@ -168,17 +168,32 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     LinkError
         If it has no sync word or a wrong CRC, or a code this version does not know.
     """
-    sync, result, sequence, state, faults, data, triggers, timestamp, emissions, crc = STATUS.unpack_from(buffer, offset)
-    if sync != STATUS_SYNC:
-        raise LinkError(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
-    wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
-    if crc != wanted:
-        raise LinkError(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
+    result, sequence, state, faults, data, triggers, timestamp, emissions = _checked(buffer, offset)
     try:
         code = Result(result)
     except ValueError:
         raise LinkError(f"status has result code {result}, which this version does not know") from None
     return Status(code, sequence, State(state), Fault(faults), data, triggers, timestamp, emissions)
+
+
+def answered_well(buffer: ReadableBuffer, offset: int, sequence: int) -> bool:
+    """Whether a status says that the frame of this sequence number was accepted and done, and no fault is latched.
+
+    The short form of `parse_status` for the hot path, and with the same errors for a damaged status.
+    """
+    result, last_sequence, _, faults, *_ = _checked(buffer, offset)
+    return result == Result.OK and last_sequence == sequence and not faults
+
+
+def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
+    """Fields of a status between sync word and CRC, both of which have to be right."""
+    sync, *fields, crc = STATUS.unpack_from(buffer, offset)
+    if sync != STATUS_SYNC:
+        raise LinkError(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
+    wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
+    if crc != wanted:
+        raise LinkError(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
+    return tuple(fields)
 
 
 _ZEROS = tuple((0,) * (5 - given) for given in range(6))

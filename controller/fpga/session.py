@@ -11,7 +11,7 @@ from collections.abc import Callable
 from controller.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Status, parse_status, upload_slices
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Status, answered_well, parse_status, upload_slices
 from controller.fpga.link import Link
 from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Control, Fault, Register, Result, State
 
@@ -129,8 +129,10 @@ class Session:
         ------
         HostSilent, FaultError
             If the FPGA has switched off.
+        LinkError
+            If its answers are damaged again and again.
         """
-        return self._exchange_short(frames.pack_nop(self._sent, 0, self._sequence))
+        return self._insist(lambda _: self._exchange_short(frames.pack_nop(self._sent, 0, self._sequence)))
 
     def play(self, slot: int, count: int, period_s: float, *, stop: bool) -> None:
         """Have a resident waveform accepted for the next trigger.
@@ -148,8 +150,8 @@ class Session:
             If the FPGA cannot play it.
         """
 
-        def send(again: bool) -> None:
-            self._exchange_short(self._pack_commands(0, self._sequence, slot, None, count, period_s, stop or again))
+        def send(again: bool) -> Status:
+            return self._exchange_short(self._pack_commands(0, self._sequence, slot, None, count, period_s, stop or again))
 
         self._insist(send)
 
@@ -166,12 +168,12 @@ class Session:
             If the link damages whatever is tried; nothing is left to play then.
         """
 
-        def send(again: bool) -> None:
+        def send(again: bool) -> Status:
             sequence = self._sequence
             end = frames.pack_upload(self._sent, 0, sequence, words)
             commands = end
             end = self._pack_commands(end, sequence + len(self._upload), slot, words.nbytes // 4, count, period_s, stop or again)
-            self._exchange([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
+            return self._exchange([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
 
         try:
             self._insist(send)
@@ -197,18 +199,19 @@ class Session:
         end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
 
-    def _insist(self, send: Callable[[bool], None]) -> None:
-        """Send again, a STOP first, what was damaged on its way there or back."""
-        for attempt in range(ATTEMPTS):
+    def _insist(self, send: Callable[[bool], Status]) -> Status:
+        """Send again what was damaged on its way there or back; `send` is told whether it is again."""
+        for again in (False, *[True] * (ATTEMPTS - 2)):
             try:
-                send(attempt > 0)
-                return
+                return send(again)
             except LinkError as error:
-                hopeless = isinstance(error, Refused) and error.result not in DAMAGED
-                if hopeless or attempt == ATTEMPTS - 1:
-                    if not hopeless:
-                        self._stop()
+                if isinstance(error, Refused) and error.result not in DAMAGED:
                     raise
+        try:
+            return send(True)
+        except LinkError:
+            self._stop()
+            raise
 
     def _stop(self) -> None:
         """Leave nothing to play; on a link that damages everything, as well as it can be done."""
@@ -227,28 +230,41 @@ class Session:
         return self._exchange([FRAME_BYTES] * (end // FRAME_BYTES), faults_matter=faults_matter)
 
     def _exchange(self, lengths: list[int], *, faults_matter: bool = True) -> Status:
-        """Send frames, check every answer; the last status, which is that of the frame before the last."""
-        self._sequence = (self._sequence + len(lengths)) & 0xFF
+        """Send frames and check every answer; the last status, which is that of the frame before the last.
+
+        Raises
+        ------
+        HostSilent, FaultError
+            If a fault is latched.
+        Refused
+            With the first result that is not OK.
+        LinkError
+            If a frame or an answer was damaged or lost.
+        """
+        sequence = self._sequence
+        self._sequence = (sequence + len(lengths)) & 0xFF
         self._link.exchange(self._sent, lengths, self._received)
         self.heartbeat_due_s = self._now_s() + self._beat_s
-        status = None
-        refused = None
-        start = 0
-        for index, length in enumerate(lengths):
-            status = parse_status(self._received, start)
+        start = lengths[0]  # the first answer is about the message before
+        for index, length in enumerate(lengths[1:]):
+            if not answered_well(self._received, start, (sequence + index) & 0xFF):
+                self._explain(parse_status(self._received, start), faults_matter)
             start += length
-            if index and status.result is not Result.OK and refused is None:
-                refused = status.result
-        if status is None:
-            raise ValueError("no frames to send")
-        self.status = status
-        if faults_matter and status.faults:
+        self.status = parse_status(self._received, start - lengths[-1])
+        if self.status.faults:
+            self._explain(self.status, faults_matter)
+        return self.status
+
+    def _explain(self, status: Status, faults_matter: bool) -> None:
+        """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""
+        if status.faults and faults_matter:
             self._on = False
             kind = HostSilent if status.faults == Fault.HOST_SILENT else FaultError
             raise kind(f"outputs off: {status.faults.sentence}")
-        if refused is not None:
-            raise Refused(refused)
-        return status
+        if status.result is not Result.OK:
+            raise Refused(status.result)
+        if not status.faults:
+            raise LinkError(f"a frame was lost on its way: the FPGA's last one is number {status.sequence}")
 
     def _verify(self) -> None:
         """Refuse any FPGA but the one this host was made for."""

@@ -6,6 +6,7 @@ import pytest
 
 from controller.errors import LinkError
 from controller.event_loop import VirtualClock
+from controller.fpga import frames
 from controller.fpga.registers import Result, State
 from controller.fpga.session import Refused, Session
 from controller.fpga.simulated_link import SimulatedLink
@@ -30,6 +31,8 @@ class NoisyLink(SimulatedLink):
             frame = bytearray(sent[start : start + length])
             if direction == "to the FPGA":
                 frame[byte % length] ^= 4
+            if direction == "lost, an old NOP instead":
+                frames.pack_nop(frame, 0, 200)
             super().exchange(memoryview(frame), [length], received[start : start + length])
             if direction == "to the host":
                 received[start + byte % length] ^= 4
@@ -135,6 +138,18 @@ def test_a_link_that_damages_everything_is_given_up_with_nothing_left_to_play(cl
     assert armed.heartbeat().emissions == 0
 
 
+def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed):
+    armed.upload_and_play(0, WORDS, 1, 0.0, stop=False)
+    armed.trigger()
+    wait(clock, link, 3e-3)
+    link.noise = {link.frames: ("lost, an old NOP instead", 0)}
+    armed.play(0, 1, 0.0, stop=False)
+    assert State.PENDING in armed.heartbeat().state, "sent again: it is there after all"
+    link.noise = {link.frames: ("lost, an old NOP instead", 0)}
+    with pytest.raises(LinkError, match="lost on its way"):
+        armed.clear_faults()
+
+
 @pytest.mark.parametrize("frame", range(11))
 def test_a_damaged_answer_to_an_upload_makes_it_go_again_and_play_once(clock, link, armed, frame):
     link.noise = {link.frames + frame: ("to the host", 9)}
@@ -146,8 +161,10 @@ def test_a_damaged_answer_to_an_upload_makes_it_go_again_and_play_once(clock, li
 
 
 @pytest.mark.parametrize("byte", [0, 2, 4, 20, 31])
-def test_a_damaged_answer_is_an_error_and_never_believed(link, armed, byte):
+def test_damaged_answers_are_asked_for_again_and_never_believed(link, armed, byte):
     link.noise = {link.frames: ("to the host", byte)}
+    assert State.ARMED in armed.heartbeat().state
+    link.noise = dict.fromkeys(range(link.frames, link.frames + 3), ("to the host", byte))
     with pytest.raises(LinkError, match="status"):
         armed.heartbeat()
 
