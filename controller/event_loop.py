@@ -17,7 +17,8 @@ from collections.abc import Callable, Iterator
 from typing import Protocol
 
 from controller.errors import FaultError
-from controller.fpga.session import HostSilent, Session
+from controller.fpga.exchange import HostSilent
+from controller.fpga.session import Session
 from controller.latency import Counters
 from controller.playback import ENDLESS, NEVER, Playback
 from controller.scene import OUTSIDE, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch

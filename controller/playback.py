@@ -15,7 +15,8 @@ from dataclasses import dataclass
 
 from controller.bank.selection import Key, Selection
 from controller.errors import BankError
-from controller.fpga.session import Refused, Session
+from controller.fpga.exchange import Refused
+from controller.fpga.session import Session
 from controller.latency import Counters
 from controller.scene import Emission
 

@@ -118,7 +118,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 
 def test_a_train_ends_when_the_finger_is_lifted(perform, cell):
-    assert perform([(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {})], TRAIN).capture.focus_ticks.size == 5
+    assert perform([(0.0, {0: cell[1]}), (0.09, {0: None}), (0.5, {})], TRAIN).capture.focus_ticks.size == 5
 
 
 def test_two_fingers_due_at_once_are_one_emission_with_two_foci(perform, board, bank_file):

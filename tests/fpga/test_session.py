@@ -7,8 +7,9 @@ import pytest
 from controller.errors import LinkError
 from controller.event_loop import VirtualClock
 from controller.fpga import frames
+from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, State
-from controller.fpga.session import Refused, Session
+from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
 BUILD = 0x1234ABCD
@@ -62,7 +63,7 @@ def wait(clock, link, seconds):
 
 
 def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock, link, armed):
-    assert State.HV_ENABLE in armed.status.state
+    assert State.HV_ENABLE in armed.heartbeat().state
     clock._now_s = armed.disarm()
     assert armed.heartbeat().state & (State.ARMED | State.HV_ENABLE) == 0
     link.close()

@@ -1,0 +1,143 @@
+"""Frames there and back, each answer checked: what was damaged or lost on the way is an error or goes again.
+
+Every frame's result comes with the next one, so each message ends with a NOP that fetches the last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from controller.errors import FaultError, LinkError
+from controller.fpga import frames
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Status, answered_well, parse_status
+from controller.fpga.link import Link
+from controller.fpga.registers import Control, Fault, Register, Result
+
+ATTEMPTS = 3
+COMMANDS = 8  # short frames that fit behind an upload
+DAMAGED = frozenset({Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC, Result.INCOMPLETE})
+
+
+class Refused(LinkError):
+    """The FPGA understood and said no; its state is as before."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(f"the FPGA refused: {result.sentence}")
+        self.result = result
+
+
+class HostSilent(FaultError):
+    """The FPGA switched off because this host was silent for too long: the one fault the host may clear by itself."""
+
+
+class Exchange:
+    """Messages of frames over a link.
+
+    Parameters
+    ----------
+    link : Link
+    now_s : callable
+        The loop's clock.
+    beat_s : float
+        A heartbeat is due this long after the last message.
+
+    Attributes
+    ----------
+    sent : memoryview
+        Where frames are packed, from 0 on, before they are sent.
+    sequence : int
+        Number for the first of them.
+    status : Status or None
+        The last one.
+    heartbeat_due_s : float
+        When the FPGA should hear from us next.
+    """
+
+    def __init__(self, link: Link, now_s: Callable[[], float], beat_s: float) -> None:
+        size = UPLOAD_BYTES + COMMANDS * FRAME_BYTES
+        self.sent = memoryview(bytearray(size))
+        self.sequence = 0
+        self.status: Status | None = None
+        self.heartbeat_due_s = now_s()
+        self._received = memoryview(bytearray(size))
+        self._link = link
+        self._now_s = now_s
+        self._beat_s = beat_s
+
+    def message(self, lengths: list[int], *, faults_matter: bool = True) -> Status:
+        """Send frames and check every answer; the last status, which is that of the frame before the last.
+
+        Raises
+        ------
+        HostSilent, FaultError
+            If a fault is latched.
+        Refused
+            With the first result that is not OK.
+        LinkError
+            If a frame or an answer was damaged or lost.
+        """
+        sequence = self.sequence
+        self.sequence = (sequence + len(lengths)) & 0xFF
+        self._link.exchange(self.sent, lengths, self._received)
+        self.heartbeat_due_s = self._now_s() + self._beat_s
+        start = lengths[0]  # the first answer is about the message before
+        for index, length in enumerate(lengths[1:]):
+            if not answered_well(self._received, start, (sequence + index) & 0xFF):
+                self._explain(parse_status(self._received, start), faults_matter)
+            start += length
+        self.status = parse_status(self._received, start - lengths[-1])
+        if self.status.faults:
+            self._explain(self.status, faults_matter)
+        return self.status
+
+    def short(self, end: int, *, faults_matter: bool = True) -> Status:
+        """Send the short frames packed up to `end`; as `message`."""
+        return self.message([FRAME_BYTES] * (end // FRAME_BYTES), faults_matter=faults_matter)
+
+    def insist(self, send: Callable[[bool], Status]) -> Status:
+        """Send again what was damaged on its way there or back; `send` is told whether it is again."""
+        for again in (False, *[True] * (ATTEMPTS - 2)):
+            try:
+                return send(again)
+            except LinkError as error:
+                if isinstance(error, Refused) and error.result not in DAMAGED:
+                    raise
+        try:
+            return send(True)
+        except LinkError:
+            self.stop()
+            raise
+
+    def stop(self) -> None:
+        """Leave nothing to play; on a link that damages everything, as well as it can be done."""
+        for _ in range(ATTEMPTS):
+            try:
+                self.control(Control.STOP)
+                return
+            except LinkError:
+                continue
+
+    def control(self, command: Control, *, faults_matter: bool = True) -> None:
+        """Give one command."""
+        end = frames.pack_control(self.sent, 0, self.sequence, command)
+        self.short(frames.pack_nop(self.sent, end, self.sequence + 1), faults_matter=faults_matter)
+
+    def write(self, register: Register, value: int) -> None:
+        """Write one register."""
+        end = frames.pack_write(self.sent, 0, self.sequence, register, value)
+        self.short(frames.pack_nop(self.sent, end, self.sequence + 1))
+
+    def read(self, register: Register) -> int:
+        """Value of one register."""
+        end = frames.pack_read(self.sent, 0, self.sequence, register)
+        return self.short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
+
+    def _explain(self, status: Status, faults_matter: bool) -> None:
+        """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""
+        if status.faults and faults_matter:
+            kind = HostSilent if status.faults == Fault.HOST_SILENT else FaultError
+            raise kind(f"outputs off: {status.faults.sentence}")
+        if status.result is not Result.OK:
+            raise Refused(status.result)
+        if not status.faults:
+            raise LinkError(f"a frame was lost on its way: the FPGA's last one is number {status.sequence}")
