@@ -1,4 +1,4 @@
-"""The only place that chooses drivers for a board: so far the model of the gateware and recordings."""
+"""The only place that chooses drivers for a board: so far simulated gateware and recordings."""
 
 from __future__ import annotations
 
@@ -7,21 +7,30 @@ from pathlib import Path
 
 from controller.board import Board, data_folder
 from controller.fpga.build_hash import build_hash
+from controller.fpga.gateware import HEARTBEAT_LIMIT_S, GatewareFactory
+from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
 
-def open_fpga(board: Board, now_s: Callable[[], float]) -> tuple[SimulatedLink, Session]:
+def open_fpga(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> tuple[SimulatedLink, Session]:
     """Link and session of a board's FPGA, which is checked to run the gateware that belongs to this software.
+
+    Parameters
+    ----------
+    gateware : GatewareFactory
+        What computes the gateware's pins.
 
     Raises
     ------
     LinkError
         If it does not answer or is another one.
     """
-    gateware = build_hash(data_folder("fpga_rtl"))
-    link = SimulatedLink(board.link, now_s, gateware)
-    return link, Session(link, board, gateware, now_s)
+    built_from = build_hash(data_folder("fpga_rtl"))
+    settings = board.link
+    limit_ticks = round(HEARTBEAT_LIMIT_S * settings.clock_hz)
+    link = SimulatedLink(settings, now_s, gateware(settings.clock_hz, settings.slots, built_from, limit_ticks))
+    return link, Session(link, board, built_from, now_s)
 
 
 def recording_path(board: Board, given: str | None) -> Path:

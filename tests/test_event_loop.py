@@ -264,7 +264,7 @@ def test_a_lost_run_permit_ends_the_loop_with_its_cause_and_outputs_off(board, b
         def wait(self, selector, until_s):
             super().wait(selector, until_s)
             if self._now_s > 0.2:
-                link.model.permit(round(self._now_s * board.link.clock_hz), False)
+                link.gateware.permit(round(self._now_s * board.link.clock_hz), False)
 
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, PermitLost(), [(0.0, {0: cell[1]}), (0.5, {0: None})], evemu_text)

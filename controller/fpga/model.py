@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from controller.fpga.capture import Capture
 from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status
+from controller.fpga.gateware import InputTiming
 from controller.fpga.model_decoder import Frame, judge
 from controller.fpga.model_gate import PIN_TICKS, Gate, OutputGate
 from controller.fpga.model_player import Buffers, Play, Player
@@ -23,7 +24,6 @@ from controller.fpga.registers import CHUNKS, PROTOCOL_VERSION, Control, FrameTy
 
 INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
 JUDGE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
-SELECT_HIGH_TICKS = 4  # chip select stays high at least this long between frames
 
 
 class _Kind(Enum):
@@ -45,11 +45,7 @@ Effect = Callable[[int], None]
 
 
 class GatewareModel:
-    """`haptic_core.v` with its pins.
-
-    `exchange`, `permit` and `trigger` come in the order of their ticks (an exchange by its select
-    tick; at equal ticks permit first).
-    """
+    """`haptic_core.v` with its pins: a `Gateware`."""
 
     def __init__(self, clock_hz: int, slots: int, build_hash: int, heartbeat_ticks_max: int) -> None:
         self._registers = RegisterFile(clock_hz, slots, build_hash, heartbeat_ticks_max)
@@ -57,6 +53,7 @@ class GatewareModel:
         self._buffers = Buffers(slots)
         self._player = Player()
         self._now = 0
+        self._timing = InputTiming()
         self._events: list[_Event] = []
         self._result = Result.OK
         self._sequence = 0
@@ -90,18 +87,14 @@ class GatewareModel:
 
     def trigger(self, tick: int) -> None:
         """Raise the trigger pin at `tick`."""
+        self._timing.trigger(tick)
         self._expect(_Event(tick + INPUT_TICKS, _Kind.TRIGGER))
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """One chip-select assertion: the pin falls at `select_tick` and rises at `release_tick`.
-
-        Parameters
-        ----------
-        mosi : bytes-like
-            What the host sends.
-        miso : writable memoryview of as many bytes
-            What comes back meanwhile: the status as of the fall, then zeros.
-        """
+        """One chip-select assertion; see `Gateware`."""
+        if select_tick + INPUT_TICKS < self._now:
+            raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._now}")
+        self._timing.frame(select_tick, release_tick, len(mosi))
         self.advance(select_tick + INPUT_TICKS)
         answer = bytearray(max(FRAME_BYTES, len(miso)))
         pack_status(answer, 0, self.status())

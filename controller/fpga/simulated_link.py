@@ -1,7 +1,7 @@
-"""A link to the bit-exact model of the gateware, in place of SPI and GPIO.
+"""A link to simulated gateware (its model, or its Verilog compiled), in place of SPI and GPIO.
 
 Frames take the time they would on the board's wire: a frame begins when the wire is free, its
-chip select is low for its bits at SCK, and the next one follows after a pause. The model's clock is
+chip select is low for its bits at SCK, and the next one follows after a pause. The gateware's clock is
 the loop's clock, so a replay in virtual time and one in real time go through the same ticks.
 """
 
@@ -12,27 +12,26 @@ from collections.abc import Callable, Sequence
 
 from controller.board import LinkSettings
 from controller.fpga.capture import Capture
-from controller.fpga.model import GatewareModel
+from controller.fpga.gateware import READY_TICKS, Gateware
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
-HEARTBEAT_LIMIT_S = 0.25
 TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger pin: the frame must have been judged
 
 
 class SimulatedLink:
-    """`Link` to a GatewareModel.
+    """`Link` to a gateware that is computed.
 
     Parameters
     ----------
     settings : LinkSettings
-        Clock, SCK and slots of the board.
+        Clock and SCK of the board.
     now_s : callable
         The loop's clock; tick 0 is its value now.
-    build_hash : int
-        What the model is to say it was built from.
+    gateware : Gateware
+        Just out of reset; it is given its run permit.
     """
 
-    def __init__(self, settings: LinkSettings, now_s: Callable[[], float], build_hash: int) -> None:
+    def __init__(self, settings: LinkSettings, now_s: Callable[[], float], gateware: Gateware) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0
         self.away_ns = 0
@@ -41,19 +40,18 @@ class SimulatedLink:
         self._start_s = now_s()
         self._ticks_per_bit = settings.clock_hz / settings.sck_hz
         self._pause_ticks = round(SELECT_PAUSE_SCK * self._ticks_per_bit)
-        self._free_tick = 0  # when the wire is free
-        limit = round(HEARTBEAT_LIMIT_S * settings.clock_hz)
-        self.model = GatewareModel(settings.clock_hz, settings.slots, build_hash, limit)
-        self.model.permit(0, True)
+        self._free_tick = READY_TICKS  # when the wire is free
+        self.gateware = gateware
+        gateware.permit(0, True)
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames to the model, each at its time on the wire."""
+        """Send frames, each at its time on the wire."""
         started_ns = time.perf_counter_ns()
         first = tick = max(self._tick_now(), self._free_tick)
         start = 0
         for length in lengths:
             release = tick + round(8 * length * self._ticks_per_bit) + self._pause_ticks
-            self.model.exchange(tick, release, sent[start : start + length], received[start : start + length])
+            self.gateware.exchange(tick, release, sent[start : start + length], received[start : start + length])
             tick = release + self._pause_ticks
             start += length
         self._free_tick = tick
@@ -62,10 +60,10 @@ class SimulatedLink:
         self.away_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
-        """Pulse the model's trigger pin, now or when the frames before it have gone."""
+        """Pulse the trigger pin, now or when the frames before it have gone."""
         started_ns = time.perf_counter_ns()
         tick = max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
-        self.model.trigger(tick)
+        self.gateware.trigger(tick)
         self._free_tick = max(self._free_tick, tick)
         self.away_ns += time.perf_counter_ns() - started_ns
         return self.time_s(tick)
@@ -75,16 +73,23 @@ class SimulatedLink:
         return self.time_s(self._free_tick + TRIGGER_AFTER_TICKS)
 
     def time_s(self, tick: int) -> float:
-        """A tick of the model on the loop's clock."""
+        """A tick of the gateware on the loop's clock."""
         return self._start_s + tick / self.clock_hz
 
     def close(self) -> None:
-        """Let the model live on to what it would do by itself."""
-        self.model.advance(max(self._tick_now(), self._free_tick))
+        """Let the gateware live on to what it would do by itself."""
+        started_ns = time.perf_counter_ns()
+        self.gateware.advance(max(self._tick_now(), self._free_tick))
+        self.away_ns += time.perf_counter_ns() - started_ns
+
+    @property
+    def speed(self) -> float:
+        """Time the gateware has been through, over the time it took to compute."""
+        return self.gateware.now / self.clock_hz / (self.away_ns * 1e-9)
 
     def take_capture(self) -> Capture:
         """What the pins did since the last call."""
-        return self.model.take_capture()
+        return self.gateware.take_capture()
 
     def _tick_now(self) -> int:
         return round((self._now_s() - self._start_s) * self.clock_hz)

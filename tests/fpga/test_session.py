@@ -8,12 +8,17 @@ from controller.errors import LinkError
 from controller.event_loop import VirtualClock
 from controller.fpga import frames
 from controller.fpga.exchange import Refused
+from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Result, State
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
 BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
+
+
+def gateware(settings, build_hash=BUILD):
+    return GatewareModel(settings.clock_hz, settings.slots, build_hash, settings.clock_hz // 4)
 
 
 class NoisyLink(SimulatedLink):
@@ -47,7 +52,7 @@ def clock():
 
 @pytest.fixture
 def link(board, clock):
-    return NoisyLink(board.link, clock.now_s, BUILD)
+    return NoisyLink(board.link, clock.now_s, gateware(board.link))
 
 
 @pytest.fixture
@@ -83,7 +88,7 @@ def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock,
 )
 def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, clock, change, said):
     settings = msgspec.structs.replace(board.link, **{k: v for k, v in change.items() if k != "build_hash"})
-    link = SimulatedLink(settings, clock.now_s, change.get("build_hash", BUILD))
+    link = SimulatedLink(settings, clock.now_s, gateware(settings, change.get("build_hash", BUILD)))
     with pytest.raises(LinkError, match=said):
         Session(link, board, BUILD, clock.now_s)
     link.close()
@@ -101,7 +106,7 @@ def test_a_silent_link_is_explained(board, clock):
             received[:] = bytes(len(received))
 
     with pytest.raises(LinkError, match="is MISO wired"):
-        Session(Silent(board.link, clock.now_s, BUILD), board, BUILD, clock.now_s)
+        Session(Silent(board.link, clock.now_s, gateware(board.link)), board, BUILD, clock.now_s)
 
 
 def test_an_upload_comes_out_of_the_pins_word_by_word(board, clock, link, armed):
