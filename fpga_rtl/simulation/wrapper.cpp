@@ -1,0 +1,152 @@
+// haptic_core as a shared library: the clock, an SPI controller and a recorder, so that whoever loads it
+// (controller/offline/rtl_gateware.py) moves whole frames and whole captures and never a single clock.
+// A tick is a clock since reset: inputs set at tick t are sampled by the edge that ends it, outputs of
+// tick t are on the pins after the edge that begins it.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "Vhaptic_core.h"
+#include "Vhaptic_core___024root.h"
+#include "verilated.h"
+
+double sc_time_stamp() { return 0; }  // wanted by Verilator's run time
+
+// What Vhaptic_core::eval() calls, without its locks and message queues for threads that are not there: half again as fast
+void Vhaptic_core___024root___eval(Vhaptic_core___024root *);
+
+namespace {
+
+constexpr uint64_t SELECT_TO_SCK_TICKS = 5;  // as in controller/fpga/gateware.py
+constexpr int RESET_CLOCKS = 4;
+constexpr uint64_t NEVER = UINT64_MAX;
+enum Pin : uint32_t { TRIGGER = 0, PERMIT = 1 };
+
+struct Change {
+    Pin pin;
+    bool level;
+};
+
+class Panel {
+public:
+    Panel() : core_{&context_} {
+        core_.spi_cs_n_i = 1;
+        core_.rst_i = 1;
+        core_.eval();
+        for (int i = 0; i < RESET_CLOCKS; ++i) clock();
+        core_.rst_i = 0;
+    }
+    ~Panel() { core_.final(); }
+
+    uint64_t now() const { return now_; }
+
+    // Inputs but for the link's; of one pin in the order of their ticks
+    void set(Pin pin, uint64_t tick, bool level) {
+        inputs_.emplace(tick, Change{pin, level});
+        next_input_ = inputs_.begin()->first;
+    }
+
+    void run(uint64_t tick) {
+        while (now_ < tick) {
+            if (next_input_ <= now_) apply();
+            clock();
+            ++now_;
+            record();
+        }
+    }
+
+    void exchange(uint64_t select, uint64_t release, size_t size, const uint8_t *mosi, uint8_t *miso) {
+        const uint64_t bits = 8 * size, room = release - select - SELECT_TO_SCK_TICKS;
+        const auto rise = [=](uint64_t bit) { return select + SELECT_TO_SCK_TICKS + bit * room / bits; };
+        std::fill_n(miso, size, uint8_t{0});
+        run(select);
+        core_.spi_cs_n_i = 0;
+        for (uint64_t bit = 0; bit < bits; ++bit) {
+            core_.spi_mosi_i = mosi[bit / 8] >> (7 - bit % 8) & 1;
+            run(rise(bit));
+            miso[bit / 8] |= core_.spi_miso_o << (7 - bit % 8);
+            core_.spi_sck_i = 1;
+            run((rise(bit) + rise(bit + 1)) / 2);
+            core_.spi_sck_i = 0;
+        }
+        run(release);
+        core_.spi_cs_n_i = 1;
+    }
+
+    std::vector<uint64_t> ticks, focus_ticks;  // of changes on channel_o or hv_enable_o; of rises of focus_o
+    std::vector<uint32_t> words;
+    std::vector<uint8_t> levels;
+
+private:
+    void clock() {
+        core_.clk_i = 1;
+        Vhaptic_core___024root___eval(core_.rootp);
+        core_.clk_i = 0;
+        Vhaptic_core___024root___eval(core_.rootp);
+    }
+
+    void apply() {
+        for (auto input = inputs_.begin(); input != inputs_.end() && input->first <= now_; input = inputs_.erase(input))
+            (input->second.pin == TRIGGER ? core_.trigger_i : core_.run_permit_i) = input->second.level;
+        next_input_ = inputs_.empty() ? NEVER : inputs_.begin()->first;
+    }
+
+    void record() {
+        if (core_.channel_o != word_ || core_.hv_enable_o != level_) {
+            ticks.push_back(now_);
+            words.push_back(word_ = core_.channel_o);
+            levels.push_back(level_ = core_.hv_enable_o);
+        }
+        if (core_.focus_o && !focus_) focus_ticks.push_back(now_);
+        focus_ = core_.focus_o;
+    }
+
+    VerilatedContext context_;
+    Vhaptic_core core_;
+    uint64_t now_ = 0;
+    std::multimap<uint64_t, Change> inputs_;  // not yet on the pins
+    uint64_t next_input_ = NEVER;
+    uint32_t word_ = 0;
+    uint8_t level_ = 0, focus_ = 0;
+};
+
+template <typename T>
+void move_to(T *target, std::vector<T> &source) {
+    std::copy(source.begin(), source.end(), target);
+    source.clear();
+}
+
+}  // namespace
+
+extern "C" {
+#pragma GCC visibility push(default)
+
+Panel *panel_open() { return new Panel; }
+
+void panel_close(Panel *panel) { delete panel; }
+
+uint64_t panel_now(const Panel *panel) { return panel->now(); }
+
+void panel_set(Panel *panel, uint32_t pin, uint64_t tick, uint32_t level) { panel->set(Pin(pin), tick, level); }
+
+void panel_run(Panel *panel, uint64_t tick) { panel->run(tick); }
+
+void panel_exchange(Panel *panel, uint64_t select, uint64_t release, size_t size, const uint8_t *mosi, uint8_t *miso) {
+    panel->exchange(select, release, size, mosi, miso);
+}
+
+size_t panel_changes(const Panel *panel) { return panel->ticks.size(); }
+
+size_t panel_foci(const Panel *panel) { return panel->focus_ticks.size(); }
+
+void panel_take(Panel *panel, uint64_t *ticks, uint32_t *words, uint8_t *levels, uint64_t *focus_ticks) {
+    move_to(ticks, panel->ticks);
+    move_to(words, panel->words);
+    move_to(levels, panel->levels);
+    move_to(focus_ticks, panel->focus_ticks);
+}
+
+#pragma GCC visibility pop
+}  // extern "C"
