@@ -10,6 +10,7 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,8 @@ from controller.bank.location import bank_path
 from controller.bank.reader import Bank
 from controller.board import Board, find_board, load_board
 from controller.errors import ConfigError, ControllerError
+from controller.fpga.gateware import GatewareFactory
+from controller.fpga.model import GatewareModel
 from controller.hardware import recording_path
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
@@ -69,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     scene_file = find_scene(board, options.scene or board.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
-    real_time = options.speed != "max"
+    gateware, real_time = _gateware(options)
 
     def ready() -> None:
         if real_time:
@@ -80,15 +83,30 @@ def run(options: argparse.Namespace) -> int:
 
     # the loop's and the twin's products are small: a second BLAS thread costs more to wake than it saves
     with _open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
-        done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready)
+        done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
         judged = simulated_run.judge(done, _progress("plate"))
-    figures = simulated_run.report(done, judged.foci)
+    figures = {"link": options.link} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
     if picture:
         _plot_run(picture, board, judged, recording.name)
     _show(options, figures, run_table)
     return 0
+
+
+def _gateware(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
+    """What computes the gateware's pins, and whether in real time."""
+    if options.link == "model":
+        return GatewareModel, options.speed != "max"
+    from controller.offline.rtl_gateware import RtlGateware
+
+    if options.speed == "1":
+        raise ConfigError("--link rtl is slower than real time, and the FPGA would call the host silent: use --speed max")
+
+    def compiling() -> None:
+        print("haptic-panel: compiling the gateware, about 10 s", file=sys.stderr)
+
+    return partial(RtlGateware, compiling=compiling), False
 
 
 def bank_build(options: argparse.Namespace) -> int:
@@ -237,7 +255,7 @@ def _parser() -> argparse.ArgumentParser:
         "run",
         parents=[common],
         help="replay a touch recording on the simulated panel",
-        description="Replay a touch recording through the event loop, the frame protocol and the gateware model, let a simulated "
+        description="Replay a touch recording through the event loop, the frame protocol and the gateware, let a simulated "
         "plate feel every emission, and print what the fingers felt. Builds the board's bank when it is missing or stale.",
     )
     play.add_argument("--replay", metavar="FILE", help="evemu recording (default: the board's own)")
@@ -245,7 +263,12 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument(
         "--bank", metavar="FILE", help="play from this bank; it is refused, not rebuilt, if it does not fit the board"
     )
-    play.add_argument("--speed", choices=["1", "max"], default="1", help="1: real time (default); max: as fast as the machine goes")
+    play.add_argument(
+        "--link", choices=["model", "rtl"], default="model", help="the FPGA: its model (default), or its Verilog, compiled"
+    )
+    play.add_argument(
+        "--speed", choices=["1", "max"], help="1: real time (default); max: as fast as the machine goes (always with --link rtl)"
+    )
     play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
     play.set_defaults(command=run)
 

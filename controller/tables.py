@@ -22,6 +22,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"{recording['contacts']} contacts, at most {recording['max_fingers']} at once",
         f"{figures['emissions']} emissions from {figures['triggers']} triggers ({figures['uploads']} uploads, "
         f"{figures['resident']} resident), {figures['bytes_sent']:,} bytes sent, {figures['heartbeats']} heartbeats",
+        f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
         "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
         "",

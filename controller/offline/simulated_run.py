@@ -1,6 +1,6 @@
-"""A whole run on a simulated panel: recording, event loop, gateware model, plate, and what came of it.
+"""A whole run on a simulated panel: recording, event loop, gateware, plate, and what came of it.
 
-The loop runs first, against the gateware model. Only then the plate twin looks at the captured
+The loop runs first, against the model of the gateware or its compiled Verilog. Only then the plate twin looks at the captured
 channel pins, so that its computing cannot disturb any latency. What was meant (which finger, which
 point) comes from the loop's own account; where the finger really was at T, from the recording.
 """
@@ -21,6 +21,8 @@ from controller.bank.selection import Selection
 from controller.board import Board
 from controller.event_loop import EventLoop, MonotonicClock, VirtualClock
 from controller.fpga.capture import Capture
+from controller.fpga.gateware import GatewareFactory
+from controller.fpga.model import GatewareModel
 from controller.fpga.simulated_link import SimulatedLink
 from controller.hardware import open_fpga
 from controller.latency import Counters, LatencyHistogram
@@ -79,9 +81,16 @@ class Run:
 
 
 def play(
-    board: Board, scene: Scene, bank: Bank, recording: Recording, *, real_time: bool, ready: Callable[[], None] = lambda: None
+    board: Board,
+    scene: Scene,
+    bank: Bank,
+    recording: Recording,
+    *,
+    real_time: bool,
+    ready: Callable[[], None] = lambda: None,
+    gateware: GatewareFactory = GatewareModel,
 ) -> Run:
-    """Replay a recording through the event loop into the gateware model.
+    """Replay a recording through the event loop into the gateware.
 
     Parameters
     ----------
@@ -89,6 +98,8 @@ def play(
         Else in virtual time, as fast as the machine goes and the same every time.
     ready : callable
         Called when the simulated panel is armed.
+    gateware : GatewareFactory
+        What computes the gateware's pins.
 
     Raises
     ------
@@ -96,7 +107,7 @@ def play(
         As the event loop does.
     """
     clock = MonotonicClock() if real_time else VirtualClock()
-    link, session = open_fpga(board, clock.now_s)
+    link, session = open_fpga(board, clock.now_s, gateware)
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
     played: list[Played] = []
@@ -230,6 +241,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "host_silent": counters.host_silent,
         "outputs_off": not (run.capture.hv[-1:].any() or run.capture.words[-1:].any()),
         "bytes_sent": run.link.bytes_sent,
+        "gateware_speed": round(run.link.speed, 3),  # times real time
         "skipped": asdict(counters.skipped),
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
