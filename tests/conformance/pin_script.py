@@ -1,0 +1,138 @@
+"""Scripts: everything that is done to the pins, tick by tick, to be performed on any back-end.
+
+A script knows no answers, so that every back-end gets exactly the same one. What happens on other
+pins while a frame is on the wire comes before that frame in the script.
+"""
+
+import numpy as np
+
+from controller.board import data_folder
+from controller.fpga import frames
+from controller.fpga.build_hash import build_hash
+from controller.fpga.frames import parse_status
+from controller.fpga.gateware import HEARTBEAT_LIMIT_S, READY_TICKS, SCK_TICKS, SELECT_HIGH_TICKS, SELECT_TO_SCK_TICKS
+from controller.fpga.registers import Register
+
+# Those of the simulated board, so that one library serves all
+CLOCK_HZ = 80_000_000
+SLOTS = 4
+BUILD_HASH = build_hash(data_folder("fpga_rtl"))
+HEARTBEAT_TICKS_MAX = round(HEARTBEAT_LIMIT_S * CLOCK_HZ)
+
+BIT_TICKS = 4
+RAMP_SAMPLES = 9
+RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
+IDLE_WORD = 0x96969696
+FRAME_TICKS = SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * frames.FRAME_BYTES
+JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is carried out
+
+
+def open_gateware(back_end):
+    return back_end(CLOCK_HZ, SLOTS, BUILD_HASH, HEARTBEAT_TICKS_MAX)
+
+
+class Script:
+    """A list of (method of the gateware, arguments), written as one would drive the pins."""
+
+    def __init__(self):
+        self.steps = []
+        self.tick = READY_TICKS
+        self.sequence = 0
+        self.slack_ticks = 0  # of the next frames: SCK slower than it might be
+        self._trigger_from = READY_TICKS
+        self._buffer = bytearray(frames.LOAD_FRAME_BYTES)
+
+    def wait(self, ticks):
+        self.tick += ticks
+
+    def permit(self, level, tick=None):
+        self.steps.append(("permit", (self.tick if tick is None else tick, level)))
+
+    def trigger(self, tick=None):
+        """Raise the trigger, now or as soon as it may rise again after a tick to come; returns its tick."""
+        tick = max(self.tick if tick is None else tick, self._trigger_from)
+        self._trigger_from = tick + 4
+        self.steps.append(("trigger", (tick,)))
+        return tick
+
+    def exchange(self, frame):
+        """One chip-select assertion; returns the tick of its release."""
+        release = self.tick + SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * len(frame) + self.slack_ticks
+        self.steps.append(("exchange", (self.tick, release, bytes(frame))))
+        self.tick = release + SELECT_HIGH_TICKS
+        return release
+
+    def packed(self, pack, *arguments, **named):
+        self.sequence += 1
+        end = pack(self._buffer, 0, self.sequence, *arguments, **named)
+        return bytes(self._buffer[:end])
+
+    def send(self, pack, *arguments, **named):
+        return self.exchange(self.packed(pack, *arguments, **named))
+
+    def status(self):
+        return self.send(frames.pack_nop)
+
+    def control(self, command):
+        return self.send(frames.pack_control, command)
+
+    def settings(self, bit_ticks=BIT_TICKS, ramp_samples=RAMP_SAMPLES):
+        self.permit(True)
+        for register, value in (
+            (Register.IDLE_WORD, IDLE_WORD),
+            (Register.BIT_TICKS, bit_ticks),
+            (Register.RAMP_SAMPLES, ramp_samples),
+        ):
+            self.send(frames.pack_write, register, value)
+
+    def arm(self):
+        release = self.send(frames.pack_arm, BUILD_HASH)
+        self.wait(RAMP_TICKS + 10)
+        return release
+
+    def upload(self, slot, words):
+        data = memoryview(np.ascontiguousarray(words, "<u4")).cast("B")
+        for chunk in range(-(-len(words) // 125)):
+            self.send(frames.pack_load, chunk, data[500 * chunk : 500 * (chunk + 1)])
+        return self.send(frames.pack_store, slot, len(words))
+
+    def perform(self, back_end, late=None):
+        """Answers and capture; `late`: that kind of step comes one tick late."""
+        gateware = open_gateware(back_end)
+        answers = []
+        for method, arguments in self.steps:
+            later = int(method == late)
+            if method == "exchange":
+                select_tick, release_tick, mosi = arguments
+                answers.append(bytearray(len(mosi)))
+                gateware.exchange(select_tick + later, release_tick + later, mosi, memoryview(answers[-1]))
+            else:
+                tick, *level = arguments
+                getattr(gateware, method)(tick + later, *level)
+        gateware.advance(self.tick)
+        return answers, gateware.take_capture()
+
+
+def assert_same(left, right):
+    """Answer by answer and change by change."""
+    (answers, capture), (other_answers, other_capture) = left, right
+    for number, (answer, other) in enumerate(zip(answers, other_answers, strict=True)):
+        assert answer == other, f"answer {number}: {readable(answer)} and {readable(other)}"
+    assert_same_capture(capture, other_capture)
+
+
+def assert_same_capture(capture, other):
+    for name in ("focus_ticks", "ticks", "words", "hv"):
+        values, others = getattr(capture, name), getattr(other, name)
+        assert values.dtype == others.dtype
+        assert np.array_equal(values, others), f"{name} differ: {difference(values, others)}"
+
+
+def difference(values, others):
+    shorter = min(len(values), len(others))
+    index = next((i for i in range(shorter) if values[i] != others[i]), shorter)
+    return f"from change {index}: {values[index : index + 3]} of {len(values)} and {others[index : index + 3]} of {len(others)}"
+
+
+def readable(answer):
+    return parse_status(answer) if len(answer) >= frames.FRAME_BYTES else bytes(answer)
