@@ -24,6 +24,7 @@ from controller.errors import ConfigError
 T = TypeVar("T")
 
 CHANNELS = 32
+LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
 FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
 
@@ -39,14 +40,14 @@ class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tr
 class Plate(Record, frozen=True):
     """Material and edge of the plate; origin at a corner, x along the length."""
 
-    length_mm: Positive
-    width_mm: Positive
-    thickness_mm: Positive
-    young_modulus_pa: Positive
+    length_mm: Annotated[float, Meta(ge=20, le=2000)]
+    width_mm: Annotated[float, Meta(ge=20, le=2000)]
+    thickness_mm: Annotated[float, Meta(ge=0.05, le=20)]
+    young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)]
     poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
-    density_kg_m3: Positive
+    density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)]
     edge: Literal["simply_supported"]
-    decay_time_ms: Positive
+    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10)]
     theory: Literal["kirchhoff"] = "kirchhoff"
 
     @property
@@ -84,10 +85,10 @@ class Driver(Record, frozen=True):
     """The push-pull stage of one channel and the series R-L into the piezo's C (paper, fig. 4)."""
 
     supply_v: Annotated[float, Meta(gt=0, le=60)]
-    resistance_ohm: Positive
-    inductance_h: Positive
-    capacitance_f: Positive
-    moment_n_per_v: Positive
+    resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)]
+    inductance_h: Annotated[float, Meta(ge=1e-5, le=1)]
+    capacitance_f: Annotated[float, Meta(ge=1e-12, le=1e-6)]
+    moment_n_per_v: Annotated[float, Meta(ge=1e-6, le=1)]
 
 
 class Waveform(Record, frozen=True):
@@ -154,7 +155,7 @@ class LinkSettings(Record, frozen=True):
 class Limits(Record, frozen=True):
     """What the panel may be asked for."""
 
-    heartbeat_timeout_ms: Annotated[float, Meta(gt=0, le=250)]
+    heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
     ramp_ms: Annotated[float, Meta(gt=0, le=100)]
     max_duty: Share
     max_edge_rate_hz: Positive
@@ -163,7 +164,7 @@ class Limits(Record, frozen=True):
 class Board(Record, frozen=True):
     """One panel. `folder` holds its board.toml; scene and recording names are relative to it."""
 
-    name: str
+    name: Annotated[str, Meta(pattern="^[a-z0-9][a-z0-9_-]{0,63}$")]
     scene: str
     plate: Plate
     actuators: tuple[Actuator, ...]
@@ -188,6 +189,12 @@ class Board(Record, frozen=True):
             for axis, value, extent in (("x_mm", a.x_mm, self.plate.length_mm), ("y_mm", a.y_mm, self.plate.width_mm)):
                 if not half <= value <= extent - half:
                     raise ValueError(f"actuators[{index}].{axis} = {value} puts the patch off the plate (0 to {extent} mm)")
+
+    @property
+    def called(self) -> str:
+        """What to give as --board: its name where that finds it, else its folder."""
+        known = any((place / self.name).resolve() == self.folder.resolve() for place in board_places())
+        return self.name if known else str(self.folder)
 
     @property
     def idle_word(self) -> int:
@@ -231,6 +238,12 @@ def load_board(path: Path) -> Board:
             f"{file}: waveform.bit_clock_hz = {bit_clock_hz} is not"
             f" link.clock_hz = {clock_hz} over a whole number >= {FEWEST_BIT_TICKS}"
         )
+    frame_ms = LONGEST_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
+    if frame_ms > board.limits.heartbeat_timeout_ms / 2:
+        raise ConfigError(
+            f"{file}: limits.heartbeat_timeout_ms = {board.limits.heartbeat_timeout_ms:g} is less than twice the {frame_ms:.3g} ms"
+            f" that one frame takes at link.sck_hz = {board.link.sck_hz}"
+        )
     return msgspec.structs.replace(board, folder=file.parent)
 
 
@@ -246,7 +259,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         tables = tomllib.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ConfigError(f"{file}: not valid TOML: {error}") from error
     for path, value in _leaves(tables, ()):
         if isinstance(value, float) and not math.isfinite(value):
@@ -304,12 +317,17 @@ def find_board(name_or_path: str) -> Path:
         return given.parent
     if (given / "board.toml").is_file():
         return given
-    places = [SYSTEM_BOARDS, data_folder("boards")]
+    places = board_places()
     for place in places:
         if (place / name_or_path / "board.toml").is_file():
             return place / name_or_path
     known = sorted({file.parent.name for place in places for file in place.glob("*/board.toml")})
     raise ConfigError(f"board {name_or_path!r} not found; there are: {', '.join(known) or 'none'} (or a folder with a board.toml)")
+
+
+def board_places() -> list[Path]:
+    """Folders in which boards are looked up by name."""
+    return [SYSTEM_BOARDS, data_folder("boards")]
 
 
 def data_folder(room: str) -> Path:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -20,7 +21,7 @@ from controller.bank.inspection import bank_info, is_current, verify_bank
 from controller.bank.location import bank_path
 from controller.bank.reader import Bank
 from controller.board import Board, find_board, load_board
-from controller.errors import ConfigError, ControllerError
+from controller.errors import BankError, ConfigError, ControllerError
 from controller.fpga.gateware import GatewareFactory
 from controller.fpga.model import GatewareModel
 from controller.hardware import recording_path
@@ -36,12 +37,14 @@ if TYPE_CHECKING:
     from controller.offline.bank_builder import BuildReport
     from controller.offline.simulated_run import Judged
 
+SMALLEST_PITCH_MM = 0.5
 OFFLINE_HINT = "this command needs the offline tools: pip install 'haptic-panel[offline]'"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code (0, or 2 usage, 78 configuration, 69 device missing, 1 otherwise)."""
     options = _parser().parse_args(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # outside the event loop it ends a command as Ctrl-C does
     command: Callable[[argparse.Namespace], int] = options.command
     try:
         return command(options)
@@ -55,6 +58,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise
     except BrokenPipeError:
         sys.stderr.close()
+        return 1
+    except OSError as error:
+        print(f"haptic-panel: {error}", file=sys.stderr)
+        return 1
+    except MemoryError:
+        print("haptic-panel: not enough memory for what was asked", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("haptic-panel: interrupted", file=sys.stderr)
@@ -88,9 +97,9 @@ def run(options: argparse.Namespace) -> int:
     figures = {"link": options.link} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
+    _show(options, figures, run_table)
     if picture:
         _plot_run(picture, board, judged, recording.name)
-    _show(options, figures, run_table)
     return 0
 
 
@@ -114,6 +123,8 @@ def bank_build(options: argparse.Namespace) -> int:
     board = load_board(find_board(options.board))
     scene_file = find_scene(board, options.scene) if options.scene else None
     scene = load_scene(scene_file, board) if scene_file else None
+    if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
+        raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
     path = Path(options.out) if options.out else bank_path(board.name, scene_file.stem if scene_file else "plate")
     pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
     name = scene_file.name if scene_file else None
@@ -134,11 +145,14 @@ def bank_check(options: argparse.Namespace) -> int:
 
 
 def _bank_file(options: argparse.Namespace) -> Path:
-    """The file given, else the bank of the board's default scene."""
+    """The file given, else the board's bank that was built last."""
     if options.file:
         return Path(options.file)
     board = load_board(find_board(options.board))
-    return bank_path(board.name, find_scene(board, board.scene).stem)
+    banks = sorted(bank_path(board.name, "x").parent.glob(f"{board.name}-*.bank"), key=lambda file: file.stat().st_mtime)
+    if not banks:
+        raise BankError(f"board {board.name!r} has no bank yet; build it: haptic-panel bank build --board {board.called}")
+    return banks[-1]
 
 
 def focus(options: argparse.Namespace) -> int:
@@ -196,6 +210,13 @@ def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: 
 
     cells = None if scene is None else _cells(board, pitch_m, scene)
     return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)
+
+
+def _natural(text: str) -> int:
+    """Argument that is a whole number from 0."""
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0")
+    return int(text)
 
 
 def _picture(options: argparse.Namespace) -> Path | None:
@@ -284,7 +305,7 @@ def _parser() -> argparse.ArgumentParser:
         ("verify", bank_check, "check every bit of a bank"),
     ):
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
-        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the bank of the board's own scene)")
+        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
         command.set_defaults(command=action)
 
     point = commands.add_parser(
@@ -295,7 +316,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
     point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
-    point.add_argument("--seed", type=int, default=1, help="of the random points (default: 1)")
+    point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
     return parser

@@ -12,6 +12,7 @@ from controller.errors import ConfigError
 from controller.shapes import Circle, Point, Polygon, Rectangle
 
 ROUNDING_M = 1e-9
+Rate = Annotated[float, Meta(ge=0.1, le=1000)]  # the FPGA counts periods in 32 bits of its clock
 
 
 class Click(Record, frozen=True, tag_field="effect", tag="click"):
@@ -21,8 +22,8 @@ class Click(Record, frozen=True, tag_field="effect", tag="click"):
 class Train(Record, frozen=True, tag_field="effect", tag="train"):
     """Emissions at a rate from the moment the finger is put down."""
 
-    rate_hz: Positive
-    duration_ms: Positive
+    rate_hz: Rate
+    duration_ms: Annotated[float, Meta(gt=0, le=3.6e6)]
 
     @property
     def period_s(self) -> float:
@@ -44,7 +45,7 @@ class Texture(Record, frozen=True, tag_field="effect", tag="texture"):
 class Always(Record, frozen=True, tag_field="effect", tag="always"):
     """Emissions at a fixed point, the region's centre if none is given, without any finger."""
 
-    rate_hz: Positive
+    rate_hz: Rate
     x_mm: NotNegative | None = None
     y_mm: NotNegative | None = None
 

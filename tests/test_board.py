@@ -58,8 +58,16 @@ def test_no_two_discs_are_mirror_images():
     [
         ("thickness_mm = 0.5", "thick_mm = 0.5", r"plate\.thick_mm = 0\.5: unknown key"),
         ("[limits]", "[limit]", r"limit: unknown key"),
+        ('name = "simulated"', 'name = "../../elsewhere"', r"name = '\.\./\.\./elsewhere'"),
+        ('name = "simulated"', 'name = "a\\u0000b"', r"name = "),
+        ("name", "x = " + "[" * 20_000 + "\nname", r"not valid TOML"),
+        ("thickness_mm = 0.5", "thickness_mm = 1e-6", r"plate\.thickness_mm = 1e-06"),
+        ("thickness_mm = 0.5", "thickness_mm = 1e300", r"plate\.thickness_mm = 1e\+300"),
+        ("decay_time_ms = 1.0", "decay_time_ms = 20.0", r"plate\.decay_time_ms = 20\.0"),
+        ("capacitance_f = 2.0e-9", "capacitance_f = 1e26", r"driver\.capacitance_f = 1e\+26"),
+        ("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 1e-6", r"limits\.heartbeat_timeout_ms = 1e-06"),
         ("length_mm = 210.0", 'length_mm = "210"', r"plate\.length_mm = '210': Expected `float`, got `str`"),
-        ("length_mm = 210.0", "length_mm = -210.0", r"plate\.length_mm = -210\.0: .*> 0"),
+        ("length_mm = 210.0", "length_mm = -210.0", r"plate\.length_mm = -210\.0: .*>= 20"),
         ("length_mm = 210.0", "length_mm = nan", r"plate\.length_mm = nan"),
         ("length_mm = 210.0", "length_mm = inf", r"plate\.length_mm = inf"),
         ("size_mm = 4.6", "size_mm = -4.6", r"actuators\[0\]\.size_mm = -4\.6"),
@@ -126,3 +134,17 @@ def test_the_digest_changes_with_what_a_bank_is_computed_from_and_with_nothing_e
     assert digest("capacitance_f = 2.0e-9", "capacitance_f = 2.02e-9") != same
     assert digest("slots = 4", "slots = 3") == same
     assert digest("# beside", "# next to") == same
+
+
+def test_a_heartbeat_that_one_frame_would_outlast_is_refused(tmp_path):
+    slow = SHIPPED.replace("sck_hz = 13_000_000", "sck_hz = 100_000")
+    said = refused(tmp_path, slow.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 81.0"))
+    assert "limits.heartbeat_timeout_ms = 81 is less than twice the 41 ms" in said
+    (tmp_path / "board.toml").write_text(slow.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 82.0"))
+    assert load_board(tmp_path).link.sck_hz == 100_000
+
+
+def test_a_board_is_called_by_its_name_only_where_that_finds_it(tmp_path, board):
+    assert board.called == "simulated"
+    (tmp_path / "board.toml").write_text(SHIPPED)
+    assert load_board(tmp_path).called == str(tmp_path)

@@ -156,6 +156,9 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("run", "--plot", "/proc/nothing/plate.png"), 78, "/proc/nothing/plate.png: the picture cannot be written there"),
         (("run", "--plot", "plate.txt"), 78, ".png or .svg or .pdf"),
         (("run", "--link", "rtl", "--speed", "1"), 78, "slower than real time, and the FPGA would call the host silent"),
+        (("bank", "build", "--pitch-mm", "0.01"), 78, "pitch_mm = 0.01"),
+        (("bank", "build", "--out", "/dev/null"), 78, "not a regular file"),
+        (("run", "--replay", "/dev/zero"), 69, "not a regular file"),
         (("focus",), 78, "--at X_MM Y_MM"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),
         (("focus", "--at", "nan", "20"), 78, "--at nan"),
@@ -166,7 +169,16 @@ def test_a_mistake_is_told_in_one_line_with_the_right_exit_code(capsys, argument
 
 
 @pytest.mark.parametrize(
-    "arguments", [(), ("nothing",), ("run", "--speed", "fast"), ("run", "--link", "spi"), ("bank",), ("focus", "--at", "1")]
+    "arguments",
+    [
+        (),
+        ("nothing",),
+        ("run", "--speed", "fast"),
+        ("run", "--link", "spi"),
+        ("bank",),
+        ("focus", "--at", "1"),
+        ("focus", "--figures", "--seed", "-1"),
+    ],
 )
 def test_wrong_usage_ends_with_2(capsys, arguments):
     with pytest.raises(SystemExit) as end:
@@ -242,6 +254,19 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
     content[-2000] ^= 16
     file.write_bytes(content)
     assert "damaged" in told_off(capsys, "bank", "verify", file)
+
+
+def test_info_and_verify_without_a_file_take_the_bank_built_last(capsys, small_board):
+    for scene in ((), ("--scene", "scene")):
+        cells = json.loads(printed(capsys, "bank", "build", "--board", small_board, *scene, "--json").out)["cells"]
+        assert json.loads(printed(capsys, "bank", "info", "--board", small_board, "--json").out)["cells"] == cells
+        assert json.loads(printed(capsys, "bank", "verify", "--board", small_board, "--json").out)["cells"] == cells
+
+
+def test_a_recording_without_touch_is_silent_even_on_a_scene_with_a_spot(capsys, tmp_path):
+    (tmp_path / "still.evemu").write_text("E: 0.0 0000 0000 0\nE: 3.0 0000 0000 0\n")
+    figures = json.loads(printed(capsys, "run", "--replay", tmp_path / "still.evemu", "--speed", "max", "--json").out)
+    assert figures["emissions"] == 0
 
 
 def test_a_folder_that_cannot_be_written_is_named(capsys, small_board):

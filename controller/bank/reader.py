@@ -75,9 +75,9 @@ class Bank:
         BankError
             With the reason and how to rebuild.
         """
-        rebuild = f"haptic-panel bank build --board {board.name if board else 'NAME'}"
+        rebuild = f"haptic-panel bank build --board {board.called if board else 'NAME'} --out {path}"
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
         except OSError as error:
             raise BankError(f"{path}: cannot be read ({error.strerror}); build it: {rebuild}") from error
         try:
@@ -85,7 +85,7 @@ class Bank:
             header, sections = parse(os.pread(fd, header_length(os.pread(fd, 16, 0), size), 0), size)
             name = header.parameters.get("board")
             if not board and isinstance(name, str):
-                rebuild = f"haptic-panel bank build --board {name}"
+                rebuild = f"haptic-panel bank build --board {name} --out {path}"
             if board and header.board_digest != board.digest():
                 raise BankError(
                     f"was built for another board: digest {header.board_digest.hex()[:16]}, "

@@ -62,8 +62,11 @@ class BankWriter:
 
     def __enter__(self) -> BankWriter:
         with self._disk_errors():
+            self.path = self.path.resolve()  # a link stays, what it points to is replaced
             if self.path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            if self.path.exists() and not self.path.is_file():
+                raise OSError(errno.EINVAL, "not a regular file")
             remove_leftovers(self.path)
             self._temporary, self._fd = _create_locked(self.path)
             try:

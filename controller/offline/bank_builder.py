@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from controller.bank.file_format import Header, creator
@@ -118,6 +119,7 @@ def build_bank(
     response_seconds = 0.0
     worst_edge_rate_hz = 0.0
     with (
+        threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread is mostly waited for
         BankWriter(path, header, wanted) as writer,  # a folder or disk that cannot take it is refused before the work
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
@@ -137,7 +139,8 @@ def build_bank(
             bar.update(len(responses))
     seconds = time.perf_counter() - started
     flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS
-    rate = best_sgemm_rate() if measure_sgemm else None
+    with threadpool_limits(1, "blas"):  # as many threads as the response step
+        rate = best_sgemm_rate() if measure_sgemm else None
     return BuildReport(
         path=str(path),
         bytes=header.file_bytes,

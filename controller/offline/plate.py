@@ -16,8 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.board import Plate
+from controller.errors import ConfigError
 
 Floats = NDArray[np.float64]
+
+MOST_MODES = 30_000  # 15 times the paper's plate
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,20 +53,22 @@ class PlateModes:
 
         Raises
         ------
-        ValueError
-            If there is none.
+        ConfigError
+            If there is none, or more than can be computed with.
         """
         length, width = plate.length_m, plate.width_m
         stiffness = bending_stiffness(plate)
         per_area = plate.density_kg_m3 * plate.thickness_m
         speed = np.sqrt(stiffness / per_area)  # omega = speed * wavenumber^2
         longest = np.sqrt(2 * np.pi * highest_hz / speed) / np.pi
+        if longest**2 * length * width * np.pi / 4 > MOST_MODES:  # orders within a quarter of an ellipse
+            raise ConfigError(f"the plate has more than {MOST_MODES} modes below {highest_hz:g} Hz: too large or too thin")
         m, n = np.meshgrid(np.arange(1, int(longest * length) + 1), np.arange(1, int(longest * width) + 1), indexing="ij")
         omega = speed * np.pi**2 * ((m / length) ** 2 + (n / width) ** 2)
         chosen = omega <= 2 * np.pi * highest_hz
         order = np.argsort(omega[chosen], kind="stable")
         if not order.size:
-            raise ValueError(f"the plate has no mode below {highest_hz} Hz")
+            raise ConfigError(f"the plate has no mode below {highest_hz:g} Hz: too small or too thick to focus on")
         return cls(
             length_m=length,
             width_m=width,

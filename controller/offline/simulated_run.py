@@ -122,6 +122,9 @@ def play(
     )
     start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + SETTLE_S
     axes = recording.axes(board)
+    tracks = recording.tracks(axes)
+    if not tracks:  # without any touch nothing is played, spots included
+        scene = Scene(())
     source = RecordingSource(recording, axes, start_s)
     EventLoop(clock, session, source, scene, playback, counters).run(ready)
     link.close()
@@ -129,7 +132,7 @@ def play(
         board=board,
         recording=recording,
         source=source,
-        tracks=recording.tracks(axes),
+        tracks=tracks,
         counters=counters,
         capture=link.take_capture(),
         played=played,

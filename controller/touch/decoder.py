@@ -195,7 +195,10 @@ class Decoder:
         """Protocol A: SYN_MT_REPORT closes one contact; an empty one says that there is none."""
         self._packet_seen = True
         if self._here.x is not None and self._here.y is not None and not self._here.hovers:
-            self._packets.append(self._here)
+            if len(self._packets) < MAX_SLOTS:
+                self._packets.append(self._here)
+            else:
+                self.warnings["contacts_absurd"] += 1
         self._here = Contact(AWAY)
 
     def _report(self, time_s: float) -> tuple[TouchSample, ...]:

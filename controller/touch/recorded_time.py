@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 
-LONGEST_GAP_S = 3600.0
+LONGEST_GAP_S = 60.0
 SETTLED_EVENTS = 50  # a clock that has not come back after so many events was set
 
 

@@ -6,7 +6,9 @@ A recording is somebody else's file: what is not understood is skipped or clampe
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 from collections import Counter
 from pathlib import Path
 
@@ -23,12 +25,13 @@ Event = tuple[int, int, int, float]  # type, code, value, time in s from the fir
 
 INT32_MIN, INT32_MAX = -(1 << 31), (1 << 31) - 1
 NEWEST_VERSION = (1, 3)
+LARGEST_BYTES = 256 << 20
 LONGEST_NUMBER = 20  # digits; Python refuses to read numbers of thousands
 
 VERSION = re.compile(r"#\s*EVEMU\s+(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
 EVENT = re.compile(r"E:\s*(\S+)\s+(?:0x)?([0-9a-f]{1,4})\s+(?:0x)?([0-9a-f]{1,4})\s+([-+]?\d+)\s*(?:#.*)?", re.ASCII | re.I)
 AXIS = re.compile(r"A:\s*(?:0x)?([0-9a-f]{1,2})\s+([-+]?\d+)\s+([-+]?\d+)(?:\s+[-+]?\d+){0,4}\s*(?:#.*)?", re.ASCII | re.I)
-OTHER = re.compile(r"N:.*|[IPBLS]:(?:\s*[0-9a-f]+)*\s*(?:#.*)?", re.ASCII | re.I)
+OTHER = re.compile(r"N:.*|[IPBLS]:[\s0-9a-f]*(?:#.*)?", re.ASCII | re.I)
 TIME = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?|nan|[-+]?inf", re.ASCII | re.I)
 # Version 1.3 tells the state at the start in comments, and the current slot is told nowhere else.
 FIRST_SLOT = re.compile(r"^#\s+Event code 47 [^\n]*\n#\s+Value\s+(\d{1,3})\s*$", re.ASCII | re.M)
@@ -77,7 +80,13 @@ class Recording:
             If the file cannot be read, naming it.
         """
         try:
-            data = path.read_bytes()
+            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # a pipe nobody writes to must not hang us
+            with os.fdopen(fd, "rb") as file:
+                if not stat.S_ISREG(os.fstat(fd).st_mode):
+                    raise TouchError(f"{path}: the recording cannot be read (not a regular file)")
+                data = file.read(LARGEST_BYTES + 1)
+            if len(data) > LARGEST_BYTES:
+                raise TouchError(f"{path}: the recording cannot be read (more than {LARGEST_BYTES >> 20} MiB)")
         except OSError as error:
             raise TouchError(f"{path}: the recording cannot be read ({error.strerror})") from error
         except ValueError as error:  # a NUL in the name

@@ -68,6 +68,7 @@ class RecordingSource:
             self._ended = True
             released = self._decoder.release(due_s)
             self._last_words["still_down_at_end"] += len(released)
+            self._last_words["never_reported"] += len(self._events) - self._next
             return released
         end = self._report_ends[self._report]
         feed = self._decoder.feed

@@ -15,6 +15,8 @@ KINDS = {
     "outside_axes": "positions outside the axes were clamped",
     "slot_beyond_range": "contacts in slots that the device does not declare were decoded all the same",
     "slot_absurd": "slot numbers that no device has: their events were skipped",
+    "contacts_absurd": "contacts beyond 256 in one report were skipped",
+    "never_reported": "events after the last SYN_REPORT were not played",
     "dropped": "losses of events (SYN_DROPPED): fingers released or read again",
     "more_than_played": "contacts beyond the ten that are played were left out",
     "still_down_at_end": "fingers still down at the end of the recording were released",

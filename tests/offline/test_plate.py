@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 from controller.board import Plate
+from controller.errors import ConfigError
 from controller.offline.plate import PlateModes, bending_stiffness
 
 PAPER = Plate(
@@ -77,5 +78,11 @@ def test_shapes_vanish_on_the_rim_and_their_mean_square_is_a_quarter():
 
 
 def test_a_plate_without_a_mode_in_range_is_refused():
-    with pytest.raises(ValueError, match="no mode below 50"):
+    with pytest.raises(ConfigError, match="no mode below 50"):
         PlateModes.of(PAPER, 50.0)
+
+
+def test_a_plate_with_more_modes_than_can_be_computed_with_is_refused():
+    vast = msgspec.structs.replace(PAPER, length_mm=2000.0, width_mm=2000.0)
+    with pytest.raises(ConfigError, match="more than 30000 modes"):
+        PlateModes.of(vast, 100e3)

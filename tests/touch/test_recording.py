@@ -1,4 +1,5 @@
 import math
+import os
 import re
 from pathlib import Path
 
@@ -320,3 +321,23 @@ def test_any_bytes_are_replayed_to_their_end(tmp_path_factory, data):
     file = tmp_path_factory.getbasetemp() / "any.evemu"
     file.write_bytes(data)
     assert replay(Recording.open(file))[1].next_time_s() is None
+
+
+def test_a_line_made_to_stall_a_parser_is_one_warning():
+    recording = Recording("S: " + "0" * 5000 + "z\n")
+    assert recording.warnings == {"garbage_lines": 1}
+
+
+def test_what_no_report_ever_ended_is_counted(board):
+    recording = Recording("E: 0.0 0003 0035 10\nE: 0.0 0003 0036 10\n")
+    source = RecordingSource(recording, recording.axes(board), 0.0)
+    assert source.read(1.0) == ()
+    assert source.next_time_s() is None
+    assert source.warnings["never_reported"] == 2
+
+
+def test_what_is_no_regular_file_is_refused_at_once(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", Path("/dev/zero"), tmp_path):
+        with pytest.raises(TouchError, match="cannot be read"):
+            Recording.open(path)
