@@ -94,6 +94,8 @@ def run(options: argparse.Namespace) -> int:
     with _open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
         done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
         judged = simulated_run.judge(done, _progress("plate"))
+    if judged.left_out:
+        print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
     figures = {"link": options.link} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)

@@ -11,10 +11,12 @@ import pytest
 
 from controller.bank.inspection import bank_info
 from controller.bank.location import bank_path
+from controller.bank.reader import Bank
 from controller.board import find_board
 from controller.cli import main
 from controller.offline.bank_builder import build_bank
 from controller.offline.rtl_build import verilator_root
+from controller.offline.simulated_run import judge, report
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -29,6 +31,17 @@ def own_cache(tmp_path_factory, monkeypatch):
     folder.mkdir(exist_ok=True)
     monkeypatch.setenv("STATE_DIRECTORY", str(folder))
     return folder
+
+
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "click" }]\n'
+
+
+@pytest.fixture
+def cell_of_bank(bank_file):
+    """Place in mm of a cell in the middle."""
+    with Bank.open(bank_file) as bank:
+        x_m, y_m = bank.grid.points()[len(bank.cells) // 2]
+    return x_m * 1e3, y_m * 1e3
 
 
 @pytest.fixture
@@ -313,3 +326,15 @@ def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_cac
     assert process.returncode == 0, err
     assert "emissions" in out
     assert "outputs off" in out
+
+
+def test_ctrl_c_while_judging_leaves_the_figures_of_what_was_judged(perform, board, cell_of_bank):
+    run = perform([(0.0, {0: cell_of_bank}), (0.1, {0: None}), (0.2, {0: cell_of_bank}), (0.3, {0: None})], CLICK)
+
+    def interrupted(done, total):
+        assert (done, total) == (1, 2)
+        raise KeyboardInterrupt
+
+    judged = judge(run, interrupted)
+    assert len(judged.foci) == judged.left_out == 1
+    assert report(run, judged.foci)["focus"]["count"] == 1

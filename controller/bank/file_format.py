@@ -12,6 +12,7 @@ import math
 import struct
 import zlib
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from controller.bank.grid import Grid
@@ -27,6 +28,15 @@ MAX_HEADER = 1 << 20
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
 # nx, ny, samples, channels, entries, parameters bytes, sections, zero
 FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
+MODEL_CODE = (
+    "offline/plate.py",
+    "offline/driver.py",
+    "offline/step_response.py",
+    "offline/impulse_response.py",
+    "offline/row_responses.py",
+    "bank/packing.py",
+    "bank/grid.py",
+)
 SECTION = struct.Struct("<16sQQIIII")  # name, offset, bytes, rows, bytes of a row, stride, CRC-32
 CRC = struct.Struct("<I")  # the last four bytes of the header: of all before them
 
@@ -110,8 +120,12 @@ class Header:
 
 
 def creator() -> str:
-    """This program and its version, as the header of a bank names them."""
-    return f"haptic-panel {importlib.metadata.version('haptic-panel')}"
+    """This program, its version and a CRC-32 of the code that a bank is computed by, as the header of a bank names them."""
+    package = Path(__file__).parent.parent
+    model = 0
+    for name in MODEL_CODE:
+        model = zlib.crc32((package / name).read_bytes(), model)
+    return f"haptic-panel {importlib.metadata.version('haptic-panel')}, model {model:08x}"
 
 
 def up(value: int, step: int) -> int:

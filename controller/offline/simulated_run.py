@@ -7,6 +7,7 @@ point) comes from the loop's own account; where the finger really was at T, from
 
 from __future__ import annotations
 
+import contextlib
 import time
 import zlib
 from bisect import bisect_right
@@ -60,6 +61,7 @@ class Judged:
     foci: list[Focus]
     field: Field | None
     shown: list[Focus]
+    left_out: int  # emissions not judged, because of Ctrl-C or SIGTERM
 
 
 @dataclass(frozen=True)
@@ -158,7 +160,7 @@ def copy_and_checksum(size: int) -> LatencyHistogram:
 
 
 def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judged:
-    """Let the plate twin play the captured pins, and judge every focus where its finger was at T.
+    """Let the plate twin play the captured pins, and judge every focus where its finger was at T; Ctrl-C cuts it short.
 
     Parameters
     ----------
@@ -167,24 +169,32 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
     """
     twin = PlateTwin(run.board)
     meant = foci_meant(run)
-    judged = Judged([], None, [])
-    for done, ((tick, emissions), field) in enumerate(zip(meant, twin.fields(run.capture, run.link.clock_hz), strict=True), 1):
-        recording_s = run.link.time_s(tick) - run.start_s
-        places = [_place(run.tracks, emission, recording_s) for emission in emissions]
-        together = []
-        for emission, (x_m, y_m) in zip(emissions, places, strict=True):
-            metrics = field.focus_metrics(x_m, y_m, places)
-            crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
-            reference_m = twin.reference_amplitude(x_m, y_m)
-            relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
-            distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
-            together.append(Focus(recording_s, emission, x_m, y_m, relative, metrics, distance_m))
-        judged.foci.extend(together)
-        if _worth_showing(together) > _worth_showing(judged.shown):
-            judged = Judged(judged.foci, field, together)
-        if progress:
-            progress(done, len(meant))
+    judged = Judged([], None, [], len(meant))
+    moments = zip(meant, twin.fields(run.capture, run.link.clock_hz), strict=True)
+    with contextlib.suppress(KeyboardInterrupt):
+        for done, ((tick, emissions), field) in enumerate(moments, 1):
+            together = _judge_moment(run, twin, field, run.link.time_s(tick) - run.start_s, emissions)
+            better = _worth_showing(together) > _worth_showing(judged.shown)
+            shown = (field, together) if better else (judged.field, judged.shown)
+            judged.foci.extend(together)
+            judged = Judged(judged.foci, *shown, len(meant) - done)
+            if progress:
+                progress(done, len(meant))
     return judged
+
+
+def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
+    """All foci of one emission, each where its finger was."""
+    places = [_place(run.tracks, emission, time_s) for emission in emissions]
+    together = []
+    for emission, (x_m, y_m) in zip(emissions, places, strict=True):
+        metrics = field.focus_metrics(x_m, y_m, places)
+        crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
+        reference_m = twin.reference_amplitude(x_m, y_m)
+        relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
+        distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
+        together.append(Focus(time_s, emission, x_m, y_m, relative, metrics, distance_m))
+    return together
 
 
 def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
