@@ -94,6 +94,7 @@ class EventLoop:
         self._common_period_s = 1 / rates.pop() if len(rates) == 1 else None
         self._stopped = False
         self._stalls = 0
+        self._emissions_at_stall = 0
 
     def stop(self) -> None:
         """End after this turn: outputs off, `run` returns."""
@@ -142,7 +143,8 @@ class EventLoop:
     def _rearm(self, selector: selectors.BaseSelector, stall: HostSilent) -> None:
         """This process stalled and the FPGA rightly switched off; work goes on, as it would have after a start."""
         self._counters.host_silent += 1
-        self._stalls += 1
+        self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
+        self._emissions_at_stall = self._counters.emissions
         if self._stalls > STALLS_IN_A_ROW:
             raise FaultError(f"{stall} ({self._stalls} times in a row: the machine is too slow or too busy)") from stall
         self._playback.forget_slots()
@@ -180,7 +182,6 @@ class EventLoop:
         trigger_at_s = self._playback.trigger_at_s
         if trigger_at_s is not None and trigger_at_s <= now_s:
             self._playback.trigger(started_ns)
-            self._stalls = 0
         elif trigger_at_s is None and self._due and self._session.free_s() <= now_s:
             self._play(now_s, started_ns)
         return self._next_s(now_s)
