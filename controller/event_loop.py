@@ -21,7 +21,7 @@ from controller.fpga.exchange import HostSilent
 from controller.fpga.session import Session
 from controller.latency import Counters
 from controller.playback import ENDLESS, NEVER, Playback
-from controller.scene import OUTSIDE, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
+from controller.scene import OUTSIDE, ROUNDING_S, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
 from controller.touch.source import TouchSource
 
 SPOT_LEAD_S = 0.5e-3  # a spot's play command goes out this early, so that its beat does not wait for the wire
@@ -211,7 +211,7 @@ class EventLoop:
         if self._playback.repeating:
             return
         for spot, due_s in self._spot_due_s.items():
-            if due_s <= now_s + SPOT_LEAD_S:
+            if due_s <= now_s + SPOT_LEAD_S + ROUNDING_S:
                 self._add((Emission(due_s, spot.x_m, spot.y_m, None, spot.region),))
                 missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
                 self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz
