@@ -21,7 +21,7 @@ from controller.fpga.exchange import HostSilent
 from controller.fpga.session import Session
 from controller.latency import Counters
 from controller.playback import ENDLESS, NEVER, Playback
-from controller.scene import OUTSIDE, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
+from controller.scene import OUTSIDE, ROUNDING_S, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
 from controller.touch.source import TouchSource
 
 SPOT_LEAD_S = 0.5e-3  # a spot's play command goes out this early, so that its beat does not wait for the wire
@@ -94,6 +94,7 @@ class EventLoop:
         self._common_period_s = 1 / rates.pop() if len(rates) == 1 else None
         self._stopped = False
         self._stalls = 0
+        self._emissions_at_stall = 0
 
     def stop(self) -> None:
         """End after this turn: outputs off, `run` returns."""
@@ -142,7 +143,8 @@ class EventLoop:
     def _rearm(self, selector: selectors.BaseSelector, stall: HostSilent) -> None:
         """This process stalled and the FPGA rightly switched off; work goes on, as it would have after a start."""
         self._counters.host_silent += 1
-        self._stalls += 1
+        self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
+        self._emissions_at_stall = self._counters.emissions
         if self._stalls > STALLS_IN_A_ROW:
             raise FaultError(f"{stall} ({self._stalls} times in a row: the machine is too slow or too busy)") from stall
         self._playback.forget_slots()
@@ -180,7 +182,6 @@ class EventLoop:
         trigger_at_s = self._playback.trigger_at_s
         if trigger_at_s is not None and trigger_at_s <= now_s:
             self._playback.trigger(started_ns)
-            self._stalls = 0
         elif trigger_at_s is None and self._due and self._session.free_s() <= now_s:
             self._play(now_s, started_ns)
         return self._next_s(now_s)
@@ -210,7 +211,7 @@ class EventLoop:
         if self._playback.repeating:
             return
         for spot, due_s in self._spot_due_s.items():
-            if due_s <= now_s + SPOT_LEAD_S:
+            if due_s <= now_s + SPOT_LEAD_S + ROUNDING_S:
                 self._add((Emission(due_s, spot.x_m, spot.y_m, None, spot.region),))
                 missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
                 self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz

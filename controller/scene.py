@@ -201,8 +201,8 @@ def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[
     """
     far_m = 1e3
     rim_m = 1.5 * pitch_m
-    low = np.where(at < at.min(initial=np.inf) + rim_m, at - far_m, at - half_m)
-    high = np.where(at > at.max(initial=-np.inf) - rim_m, at + far_m, at + half_m)
+    low = np.where(at < at.min() + rim_m, at - far_m, at - half_m)
+    high = np.where(at > at.max() - rim_m, at + far_m, at + half_m)
     return low, high
 
 

@@ -4,13 +4,17 @@ Recording, scene, bank, session, link and gateware model are the product's own; 
 every run gives the same ticks.
 """
 
+import gc
+import selectors
+import signal
+
 import msgspec
 import numpy as np
 import pytest
 
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
-from controller.errors import FaultError
+from controller.errors import FaultError, TouchError
 from controller.event_loop import EventLoop, VirtualClock
 from controller.hardware import open_fpga
 from controller.latency import Counters
@@ -122,6 +126,17 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
     played_bytes = run.link.bytes_sent - 32 * run.counters.heartbeats - (silent.link.bytes_sent - 32 * silent.counters.heartbeats)
     assert played_bytes == UPLOAD_BYTES + 19 * RESIDENT_BYTES
     assert np.diff(starts_ms(run))[1:] == pytest.approx(20, abs=1e-3)  # the first one waits for its upload
+    wire = run.counters.upload_latency.wire, run.counters.resident_latency.wire
+    assert [stage.count for stage in wire] == [1, 19]
+    sent = [stage.worst_ns * run.board.link.sck_hz / 8e9 for stage in wire]
+    assert sent == pytest.approx([UPLOAD_BYTES, RESIDENT_BYTES], rel=0.02)  # chip select takes its time too
+
+
+def test_the_waveform_played_longest_ago_gives_up_its_slot(perform):
+    places = [20.0, 50.0, 80.0, 110.0, 20.0, 140.0, 20.0]  # four slots: the fifth place takes that of the second
+    reports = [report for k, x in enumerate(places) for report in ((0.1 * k, {0: (x, 54.0)}), (0.1 * k + 0.05, {0: None}))]
+    run = perform(reports, CLICK)
+    assert (run.counters.uploads, run.counters.resident) == (5, 2)
 
 
 def test_a_train_ends_when_the_finger_is_lifted(perform, cell):
@@ -148,6 +163,15 @@ def test_what_becomes_due_while_the_plate_is_busy_is_composed_when_it_is_free(pe
     run = perform(reports, CLICK)
     assert [len(played.emissions) for played in run.played] == [1, 2]
     assert np.diff(starts_ms(run)) >= T_S * 1e3
+
+
+def test_the_time_that_an_emission_waits_for_the_plate_is_told_in_ns(perform, board, cell):
+    slow = msgspec.structs.replace(board, limits=msgspec.structs.replace(board.limits, max_duty=0.1))
+    run = perform([(0.0, {0: cell[1]}), (0.01, {0: None}), (0.011, {0: cell[1]}), (0.1, {0: None})], CLICK, on=slow)
+    first, second = (played.trigger_s for played in run.played)
+    asked_s = run.start_s + 0.011 + RESIDENT_BYTES * 8 / board.link.sck_hz
+    assert run.counters.resident_latency.wait.worst_ns == pytest.approx((second - asked_s) * 1e9, rel=0.01)
+    assert second - first == pytest.approx(20e-3, rel=0.01)
 
 
 def test_of_one_finger_only_the_newest_emission_waits(perform):
@@ -177,6 +201,7 @@ def test_a_spot_is_handed_to_the_fpga_which_repeats_it_without_the_host(perform)
 
 def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on_in_its_beat(perform):
     run = perform([(0.0, {}), (0.212, {0: (150.0, 94.0)}), (0.4, {0: None}), (1.0, {})], SPOT + CLICK)
+    assert all(len(meant) == 1 for _, meant in foci_meant(run))
     spots = [tick for tick, meant in foci_meant(run) if meant[0].finger is None]
     fingers = [tick for tick, meant in foci_meant(run) if meant[0].finger is not None]
     assert len(fingers) == 1
@@ -186,13 +211,24 @@ def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on
     assert run.counters.resident == 1
 
 
+def test_a_spot_as_fast_as_the_plate_allows_gives_way_to_a_finger(perform):
+    fast = SPOT.replace("rate_hz = 20.0", "rate_hz = 500.0")
+    taps = [(0.2, {0: (150.0, 94.0)}), (0.3, {0: None}), (0.4, {0: (150.0, 94.0)}), (0.5, {0: None}), (0.6, {})]
+    run = perform([(0.0, {}), *taps], fast + CLICK)
+    spot, *others = (words_before(run, tick) for tick in run.capture.focus_ticks.tolist())
+    assert run.counters.resident > 0
+    assert sum(not np.array_equal(spot, words) for words in others) == 2
+    assert np.diff(starts_ms(run)).min() == pytest.approx(T_S * 1e3)
+
+
 def test_a_finger_due_with_a_spot_is_composed_with_it(perform):
     first = perform(nearby(1.0), SPOT)
     next_start_s = starts_ms(first)[4] * 1e-3 - first.start_s + first.link.time_s(0)
     run = perform([(0.0, {}), (next_start_s - 0.0005, {0: (150.0, 94.0)}), (0.9, {0: None}), (1.0, {})], SPOT + CLICK)
-    together = [meant for _, meant in foci_meant(run) if len(meant) == 2]
-    assert len(together) == 1
-    assert {emission.region for emission in together[0]} == {"spot", "all"}
+    ((together, meant),) = [(tick, meant) for tick, meant in foci_meant(run) if len(meant) == 2]
+    assert {emission.region for emission in meant} == {"spot", "all"}
+    next_spot = run.capture.focus_ticks[run.capture.focus_ticks > together][0]
+    assert next_spot - together == pytest.approx(PERIOD_TICKS, abs=400_000)  # 5 ms: its beat is not made up for
 
 
 def test_a_bad_entry_is_left_out_counted_and_the_loop_goes_on(perform, bank_file, cell, tmp_path):
@@ -229,13 +265,13 @@ class StallingClock(VirtualClock):
             self._now_s += self.stalls.pop(0)[1]
 
 
-def loop_of(board, bank, tmp_path, clock, reports, evemu_text):
-    (tmp_path / "s.toml").write_text(TRAIN)
+def loop_of(board, bank, tmp_path, clock, reports, evemu_text, scene_text=TRAIN, slots=4, max_duty=1.0):
+    (tmp_path / "s.toml").write_text(scene_text)
     scene = load_scene(tmp_path / "s.toml", board)
     link, session = open_fpga(board, clock.now_s)
     counters = Counters()
     selection = Selection(bank, 1e-3, board.idle_word)
-    playback = Playback(session, selection, slots=4, duration_s=T_S, max_duty=1.0, counters=counters)
+    playback = Playback(session, selection, slots=slots, duration_s=T_S, max_duty=max_duty, counters=counters)
     recording = Recording(evemu_text(*reports))
     source = RecordingSource(recording, recording.axes(board), 0.1)
     return link, counters, EventLoop(clock, session, source, scene, playback, counters)
@@ -254,16 +290,118 @@ def test_after_a_stall_the_fpga_is_off_and_the_loop_arms_again(board, bank_file,
     silent_s = capture.ticks[off[0]] / board.link.clock_hz - 0.25
     assert 0 < silent_s <= 0.1, "the heartbeat timeout"
     assert (capture.focus_ticks > 1.1 * board.link.clock_hz).sum() == 20, "the second touch is played in full"
+    assert counters.uploads == 2, "what the slots hold is not trusted any more"
+
+
+def test_what_waited_before_a_stall_is_not_played_after_it(board, bank_file, tmp_path, evemu_text):
+    reports = [(0.005 * k, {k: (40.0 + 30 * k, 54.0)}) for k in range(3)]
+    with Bank.open(bank_file, board) as bank:
+        clock = StallingClock([(0.115, 0.4)])
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, [*reports, (0.9, {})], evemu_text, CLICK, max_duty=0.1)
+        loop.run()
+        link.close()
+    assert counters.host_silent == 1
+    assert link.take_capture().focus_ticks.size == 1
+
+
+def test_a_spot_goes_on_after_a_stall(board, bank_file, tmp_path, evemu_text):
+    with Bank.open(bank_file, board) as bank:
+        clock = StallingClock([(0.25, 0.4)])
+        link, _, loop = loop_of(board, bank, tmp_path, clock, [(0.0, {}), (1.4, {})], evemu_text, SPOT)
+        loop.run()
+        link.close()
+    assert (link.take_capture().focus_ticks > 0.7 * board.link.clock_hz).sum() == pytest.approx(16, abs=1)
+
+
+def test_beats_of_spots_that_a_short_stall_missed_are_not_made_up_for(board, bank_file, tmp_path, evemu_text):
+    spots = [SPOT.replace('"spot"', f'"{rate_hz}"').replace("20.0", f"{rate_hz}.0") for rate_hz in (50, 25)]
+    with Bank.open(bank_file, board) as bank:
+        clock = StallingClock([(0.25, 0.06)])
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, [(0.0, {}), (0.5, {})], evemu_text, "".join(spots))
+        loop.run()
+        link.close()
+    assert counters.host_silent == 0
+    starts = link.take_capture().focus_ticks / board.link.clock_hz
+    apart_s = np.diff(starts)[1:]  # the first one waits for its upload
+    assert apart_s.max() > 60e-3
+    assert (apart_s < 17e-3).sum() == 1, "the one that was under way in the stall; two that are due at once are one, every time"
+
+
+def test_a_refused_upload_is_counted_and_costs_no_waveform_that_is_there(board, bank_file, tmp_path, evemu_text):
+    places = [20.0, 50.0, 80.0, 110.0, 140.0, 170.0, 20.0]
+    reports = [report for k, x in enumerate(places) for report in ((0.1 * k, {0: (x, 54.0)}), (0.1 * k + 0.05, {0: None}))]
+    with Bank.open(bank_file, board) as bank:  # one slot more than the FPGA has
+        link, counters, loop = loop_of(board, bank, tmp_path, VirtualClock(), reports, evemu_text, CLICK, slots=5)
+        loop.run()
+        link.close()
+    assert (counters.skipped.refused, counters.uploads, counters.resident) == (2, 4, 1)
+    assert link.take_capture().focus_ticks.size == 5
+
+
+def test_a_ramp_longer_than_the_heartbeat_timeout_is_lived_through(perform, board, cell):
+    limits = msgspec.structs.replace(board.limits, heartbeat_timeout_ms=20.0, ramp_ms=100.0)
+    run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK, on=msgspec.structs.replace(board, limits=limits))
+    assert run.counters.host_silent == 0
+    assert run.capture.focus_ticks.size == 1
+
+
+def test_outputs_are_off_when_the_panel_is_lost(board, bank_file, tmp_path, evemu_text):
+    class PanelLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                raise TouchError("the panel is gone")
+
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, PanelLost(), [(0.0, {}), (0.5, {})], evemu_text, SPOT)
+        with pytest.raises(TouchError, match="the panel is gone"):
+            loop.run()
+        sent = link.bytes_sent
+        loop._session.off()
+        assert link.bytes_sent == sent, "it had been told"
+        link.close()
+
+
+def test_the_last_emission_of_a_replay_sounds_to_its_end(perform, cell):
+    assert perform([(0.0, {0: cell[1]}), (0.003, {0: None})], CLICK).capture.focus_ticks.size == 1
+
+
+def test_a_finished_run_gives_back_signals_and_garbage_collection(perform, cell):
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.getsignal(number) for number in numbers]
+    perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
+    assert [signal.getsignal(number) for number in numbers] == before
+    assert signal.set_wakeup_fd(-1) == -1
+    assert gc.isenabled()
+
+
+def test_virtual_time_never_goes_back():
+    clock = VirtualClock()
+    with selectors.DefaultSelector() as selector:
+        clock.wait(selector, 1.0)
+        clock.wait(selector, 0.5)
+    assert clock.now_s() == 1.0
 
 
 def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, evemu_text):
     stalls = [(0.02 + 0.3 * k, 0.25) for k in range(10)]
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), [(0.0, {}), (9.0, {})], evemu_text)
-        with pytest.raises(FaultError, match=r"No good frame came from the host.*in a row"):
+        with pytest.raises(FaultError, match=r"No good frame came from the host.*\(4 times in a row"):
             loop.run()
         link.close()
     assert link.take_capture().hv[-1] == 0
+
+
+@pytest.mark.parametrize("scene_text", [SPOT, CLICK], ids=["spot", "click"])
+def test_stalls_with_emissions_between_them_are_not_in_a_row(board, bank_file, tmp_path, cell, evemu_text, scene_text):
+    stalls = [(0.25 + 0.5 * k, 0.25) for k in range(6)]
+    taps = [report for k in range(7) for report in ((0.5 * k, {0: cell[1]}), (0.5 * k + 0.05, {0: None}))]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), taps, evemu_text, scene_text)
+        loop.run()
+        link.close()
+    assert counters.host_silent == 6
 
 
 def test_a_lost_run_permit_ends_the_loop_with_its_cause_and_outputs_off(board, bank_file, tmp_path, cell, evemu_text):
@@ -289,5 +427,6 @@ def test_spots_of_different_rates_each_keep_their_own_beat(perform):
     meant = foci_meant(run)
     for name, period_ticks in (("spot", PERIOD_TICKS), ("slow", 10_000_000)):
         ticks = [tick for tick, emissions in meant if name in {emission.region for emission in emissions}]
-        assert np.diff(ticks)[1:] == pytest.approx(period_ticks, abs=400_000)  # 4 ms: an upload while the other one sounds
+        assert np.diff(ticks)[1:] == pytest.approx(period_ticks, abs=400_000)  # 5 ms: an upload while the other one sounds
+        assert ticks[-1] - ticks[1] == pytest.approx((len(ticks) - 2) * period_ticks, abs=400_000), "no drift"
     assert any(len(emissions) == 2 for _, emissions in meant), "due at once, they are composed"

@@ -99,6 +99,11 @@ def test_a_spacing_one_percent_off_is_noticed(scene_of):
     assert [hit[0] for hit in wrong if hit] != [hit[0] for hit in right if hit]
 
 
+def test_the_way_of_a_texture_counts_in_any_direction(scene_of):
+    scene = scene_of(square(TEXTURE))
+    assert touch(scene, at(60, 52), at(60, 57), at(57, 61))[0] == [None, (60, "square"), (57, "square")]
+
+
 def test_a_jump_over_several_spacings_is_one_emission_and_the_rest_is_kept(scene_of):
     assert touch(scene_of(square(TEXTURE)), at(52), at(74), at(76.9), at(77))[0] == [None, (74, "square"), None, (77, "square")]
 
@@ -131,6 +136,25 @@ def test_a_late_train_plays_one_and_keeps_its_beat(scene_of):
     assert next_time_s(state) == pytest.approx(0.05)
     state, (last,) = on_time(scene, state, 77.0)
     assert last.time_s == pytest.approx(0.99)
+    assert next_time_s(state) is None
+
+
+def test_a_train_read_at_the_very_time_of_a_beat_plays_that_beat(scene_of):
+    scene = scene_of(square(TRAIN.replace("100", "64").replace("30", "100")))
+    state, _ = on_touch(scene, None, at(60))
+    assert [on_time(scene, state, beat / 64)[1][0].time_s * 64 for beat in (1, 2)] == [1, 2]
+
+
+@pytest.mark.parametrize("press_s", [5.0, 20.0, 33.3])
+def test_rounding_gives_a_late_train_no_beat_more(scene_of, press_s):
+    scene = scene_of(square(TRAIN))
+    state, _ = on_touch(scene, None, at(60, time_s=press_s))
+    assert on_time(scene, state, 77.0)[1][0].time_s == pytest.approx(press_s + 0.02)
+
+
+def test_a_train_of_one_beat_is_over_with_the_press(scene_of):
+    state, emissions = on_touch(scene_of(square(TRAIN.replace("30", "10"))), None, at(60))
+    assert len(emissions) == 1
     assert next_time_s(state) is None
 
 
@@ -187,6 +211,7 @@ def test_the_functions_change_nothing_they_are_given(scene_of):
         (square('{ effect = "train", rate_hz = 505, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
         (square('{ effect = "always", rate_hz = 505 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
         (square('{ effect = "always", rate_hz = 5, x_mm = 210.5 }'), "effects[0].x_mm = 210.5 is off the plate"),
+        (square('{ effect = "always", rate_hz = 5, y_mm = 148.5 }'), "effects[0].y_mm = 148.5 is off the plate"),
         (square('{ effect = "always", rate_hz = 5, y_mm = -1 }'), "regions[0].effects[0].y_mm = -1"),
         (square('{ effect = "texture", spacing_mm = 0 }'), "regions[0].effects[0].spacing_mm = 0"),
         (square(f"{CLICK}, {CLICK}"), "effect 'click' more than once"),
@@ -196,6 +221,10 @@ def test_the_functions_change_nothing_they_are_given(scene_of):
         (square(CLICK, ""), "regions[0].name = ''"),
         (square(CLICK) + "\n[[regions]]\n" + square(CLICK), "regions[1].name = 'square' is taken by regions[0]"),
         ('name = "a"\nshape = "circle"\nx_mm = 5\ny_mm = 9\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 5\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 143\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        (f'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1]]\neffects = [{CLICK}, {CLICK}]', "more than once"),
+        (f'name = "a"\nshape = "polygon"\ncorners_mm = {[[1, 1]] * 1001}\neffects = []', "regions[0].corners_mm"),
         ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2]]\neffects = []', "regions[0].corners_mm"),
         ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2], [3]]\neffects = []', "regions[0].corners_mm[2]"),
         (
@@ -223,6 +252,15 @@ def test_a_file_without_regions_is_refused(tmp_path, text):
 
 def test_the_highest_rate_that_emissions_fit_into_is_accepted(scene_of):
     assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).areas[0].train.rate_hz == 500
+
+
+def test_what_reaches_just_to_the_limits_is_accepted_rounding_included(scene_of, tmp_path):
+    corner = '{ effect = "always", rate_hz = 5, x_mm = 210, y_mm = 148 }'
+    fine = '{ effect = "texture", spacing_mm = 0.1 }'
+    assert scene_of(square(corner + "," + fine, "wide", 100.1).replace("width_mm = 40", "width_mm = 109.9")).spots
+    board = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, max_duty=0.7))
+    scene_of(square('{ effect = "train", rate_hz = 350, duration_ms = 4 }'))
+    assert load_scene(tmp_path / "scene.toml", board).areas[0].train  # 350 Hz × 2 ms is above 0.7 in binary
 
 
 def test_a_scene_is_found_by_path_or_name_and_an_unknown_one_lists_those_that_exist(tmp_path):
@@ -291,11 +329,34 @@ def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
         assert apart.min() < 2.1 * grid.pitch_m
 
 
+@pytest.mark.parametrize("far", [False, True])
+def test_a_region_in_a_corner_of_the_plate_reaches_the_four_outermost_cells_only(far):
+    grid = Grid.of(BOARD.plate, 5e-3)
+    x_m, y_m = (BOARD.plate.length_m - 1e-3, BOARD.plate.width_m - 1e-3) if far else (0.0, 0.0)
+    reached = reach(_scene(Rectangle(x_m, y_m, x_m + 1e-3, y_m + 1e-3)), grid.points(), grid.pitch_m)
+    assert set(np.flatnonzero(reached)) == set(grid.corners(x_m, y_m)[0])
+
+
+@pytest.mark.parametrize("effect", [CLICK, TRAIN, TEXTURE])
+def test_every_effect_of_a_finger_reaches_the_cells_of_its_region(scene_of, effect):
+    grid = Grid.of(BOARD.plate, 5e-3)
+    asked = np.array([grid.corners(x, y)[0] for x in (0.050, 0.090) for y in (0.050, 0.090)])
+    assert reach(scene_of(square(effect)), grid.points(), grid.pitch_m)[asked].all()
+
+
 def test_a_region_within_one_mesh_reaches_its_four_cells_only():
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
     reached = reach(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(x_m + 1e-3, y_m + 1e-3)[0])
+
+
+def test_a_region_that_nearly_touches_the_next_mesh_reaches_it_because_points_are_rounded():
+    grid = Grid.of(BOARD.plate, 5e-3)
+    x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
+    near = Rectangle(x_m + 1e-3, y_m + 1e-3, x_m + grid.pitch_m - LATTICE_M / 3, y_m + grid.pitch_m - LATTICE_M / 3)
+    over = grid.corners(near.x_high + LATTICE_M / 2, near.y_high + LATTICE_M / 2)[0]
+    assert reach(_scene(near), grid.points(), grid.pitch_m)[list(over)].all()
 
 
 @given(u=fractions, v=fractions, dx=st.floats(-1, 1), dy=st.floats(-1, 1), shape=st.sampled_from(SHAPES))
@@ -321,6 +382,12 @@ def test_a_box_that_holds_a_point_of_a_shape_meets_it(x, y, size, u, v, shape):
     assert shape.meets(box)[0] or not inside
 
 
+def test_the_rim_belongs_to_rectangles_and_circles():
+    corners, poles = [(1, 2), (3, 2), (1, 5), (3, 5)], [(0, 2), (4, 2), (2, 0), (2, 4)]
+    assert all(Rectangle(1, 2, 3, 5).contains(*corner) for corner in corners)
+    assert all(Circle(2, 2, 2).contains(*pole) for pole in poles)
+
+
 def test_a_polygon_contains_what_its_picture_shows():
     corner = Polygon(((0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)))
     assert [corner.contains(*p) for p in [(0.5, 3), (3, 0.5), (2, 2), (-1, 0.5), (5, 0.5), (0.5, 0.5)]] == [1, 1, 0, 0, 0, 1]
@@ -336,6 +403,8 @@ def test_a_polygon_contains_what_its_picture_shows():
         [(0, 0), (2, 0), (2, 0), (1, 1)],  # a corner twice
         [(0, 0), (1, 0), (2, 0)],  # no area
         [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],  # a corner on an edge
+        [(0, 0), (3 * 0.1, 3 * 0.7), (-1.8, 2.4), (0.1, 0.7), (-2.1, 0.3)],  # a corner on an edge but for rounding
+        [(1, 1), (1, 1), (1, 1)],  # one point
         [(0, 0), (2, 0), (1, 1), (2, 2), (0, 2), (1, 1)],  # two parts that meet in a point
     ],
 )

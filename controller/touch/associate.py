@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from controller.touch.axes import Axes
@@ -28,7 +29,7 @@ class Contact:
     y_m: float = 0.0
 
 
-def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serial: int) -> dict[int, Contact]:
+def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int]) -> dict[int, Contact]:
     """Carry what is known of the contacts of the last report over to those of a new one.
 
     Parameters
@@ -36,11 +37,11 @@ def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serial: i
     old : dict
         Contacts of the last report by identity.
     new : list of Contact
-        Contacts of this report, each with both positions and the device's tracking id or -1.
+        Contacts of this report, each with both positions and the device's tracking id, negative without one.
     axes : Axes
         Gives distances on the plate.
-    serial : int
-        First identity free for a contact without tracking id, above all tracking ids.
+    serials : iterator of int
+        Identities for new contacts without tracking id, from FIRST_SERIAL on.
 
     Returns
     -------
@@ -65,8 +66,7 @@ def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serial: i
             taken.add(i)
     for j, contact in enumerate(unnamed):
         if j not in partner:
-            contact.identity = serial
-            serial += 1
+            contact.identity = next(serials)
         same = _moved(partner.get(j), contact)
         now[same.identity] = same
     return now
@@ -75,7 +75,7 @@ def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serial: i
 def _moved(was: Contact | None, is_now: Contact) -> Contact:
     if was is None:
         return is_now
-    was.moved |= (was.x, was.y) != (is_now.x, is_now.y)
+    was.moved = (was.x, was.y) != (is_now.x, is_now.y)
     was.x, was.y, was.palm = is_now.x, is_now.y, is_now.palm
     return was
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from itertools import count
 
 from controller.touch import event_codes as ev
 from controller.touch.associate import FIRST_SERIAL, Contact, associate
@@ -67,13 +68,12 @@ class Decoder:
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
         self._packet_seen = False
         self._gone: list[Contact] = []  # replaced within the report by another contact in the same slot
-        self._touching: bool | None = False if protocol is Protocol.SINGLE else None  # BTN_TOUCH, None until heard
+        self._touching: bool | None = None  # BTN_TOUCH, None until heard
         self._losing = False
         self._played = 0
         self._next_finger = 0
-        self._serial = FIRST_SERIAL
-        self._slot = slot
-        self._here = self._enter(slot)
+        self._serials = count(FIRST_SERIAL)
+        self._select(slot)
 
     def feed(self, kind: int, code: int, value: int, time_s: float) -> tuple[TouchSample, ...] | None:
         """Take one event.
@@ -90,20 +90,19 @@ class Decoder:
         tuple of TouchSample or None
             At SYN_REPORT: fingers released, begun or moved, in this order of kind; else None.
         """
+        if kind == ev.EV_SYN and code == ev.SYN_REPORT:
+            return self._report(time_s)
+        if self._losing:
+            return None
         if kind == ev.EV_ABS:
-            if not self._losing:
-                self._axis(code, value)
-        elif kind == ev.EV_SYN:
-            if code == ev.SYN_REPORT:
-                return self._report(time_s)
-            if code == ev.SYN_MT_REPORT:
-                if self.protocol is Protocol.A and not self._losing:
-                    self._end_packet()
-            elif code == ev.SYN_DROPPED and not self._losing:
-                self._losing = True
-                self.warnings["dropped"] += 1
-        elif kind == ev.EV_KEY and code == ev.BTN_TOUCH and not self._losing:
+            self._axis(code, value)
+        elif kind == ev.EV_KEY and code == ev.BTN_TOUCH:
             self._button(value != 0)
+        elif kind == ev.EV_SYN and code == ev.SYN_MT_REPORT and self.protocol is Protocol.A:
+            self._end_packet()
+        elif kind == ev.EV_SYN and code == ev.SYN_DROPPED:
+            self._losing = True
+            self.warnings["dropped"] += 1
         return None
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
@@ -112,9 +111,8 @@ class Decoder:
         self._slots.clear()
         self._gone.clear()
         self._packets.clear()
-        self._packet_seen = False
-        self._touching = False if self.protocol is Protocol.SINGLE else None
-        self._here = self._enter(self._slot)
+        self._touching = None
+        self._select(self._slot)
         return tuple([self._released(contact, time_s) for contact in fingers])
 
     def restore(self, state: PanelState, time_s: float) -> tuple[TouchSample, ...]:
@@ -125,8 +123,7 @@ class Decoder:
             self._identify(contact, max(tracking_id, AWAY))
             contact.moved |= (contact.x, contact.y) != (x, y)
             contact.x, contact.y = x, y
-        self._slot = state.slot
-        self._here = self._enter(state.slot)
+        self._select(state.slot)
         return self._samples(time_s)
 
     def fingers(self) -> list[tuple[int, float, float]]:
@@ -144,14 +141,12 @@ class Decoder:
         elif self.protocol is Protocol.SINGLE:
             return
         elif code == ev.ABS_MT_SLOT:
-            if self.protocol is Protocol.B:
-                self._slot = value
-                self._here = self._enter(value)
+            self._select(value)
         elif code == ev.ABS_MT_TRACKING_ID:
             if self.protocol is Protocol.B:
                 self._identify(here, max(value, AWAY))
             else:
-                here.identity = max(value, AWAY)
+                here.identity = value
         elif code == ev.ABS_MT_DISTANCE or (code == ev.ABS_MT_TOUCH_MAJOR and self.protocol is Protocol.A):
             here.hovers = value > 0 if code == ev.ABS_MT_DISTANCE else value == 0
         elif code == ev.ABS_MT_TOOL_TYPE:
@@ -160,9 +155,13 @@ class Decoder:
             here.identity = IMPLIED
 
     def _button(self, touching: bool) -> None:
-        if self.protocol is Protocol.SINGLE and touching is not self._touching:
+        if self.protocol is Protocol.SINGLE:
             self._identify(self._here, 0 if touching else AWAY)
         self._touching = touching
+
+    def _select(self, slot: int) -> None:
+        self._slot = slot
+        self._here = self._enter(slot)
 
     def _enter(self, slot: int) -> Contact:
         """Contact of a slot; one that leads nowhere if no device has such a slot."""
@@ -174,7 +173,7 @@ class Decoder:
             return Contact(AWAY)
         if slot > self._last_slot:
             self.warnings["slot_beyond_range"] += 1
-        contact = Contact(UNKNOWN if self.protocol is Protocol.B else AWAY)
+        contact = Contact(UNKNOWN)
         if self.protocol is not Protocol.A:
             self._slots[slot] = contact
         return contact
@@ -185,7 +184,7 @@ class Decoder:
             return
         if contact.identity >= 0 and not contact.counted and self._down(contact):
             self.counts.contacts += 1  # came and went within one report
-        if identity >= 0 and contact.finger is not None:
+        if contact.finger is not None:
             self._gone.append(Contact(AWAY, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m))
             contact.finger = None
         contact.identity = identity
@@ -208,9 +207,8 @@ class Decoder:
             if self._here.x is not None:
                 self._end_packet()
             if self._packet_seen or self._touching is False:
-                now = associate(self._slots, self._packets, self._axes, self._serial)
-                self._serial += len(self._packets)
-                self._gone += [was for key, was in self._slots.items() if was.finger is not None and now.get(key) is not was]
+                now = associate(self._slots, self._packets, self._axes, self._serials)
+                self._gone += [was for key, was in self._slots.items() if was.finger is not None and key not in now]
                 self._slots = now
                 self._packets.clear()
             self._packet_seen = False
@@ -229,20 +227,13 @@ class Decoder:
         return samples
 
     def _samples(self, time_s: float) -> tuple[TouchSample, ...]:
-        samples = [self._released(contact, time_s) for contact in self._gone] if self._gone else []
+        samples = [self._released(contact, time_s) for contact in self._gone]
         self._gone.clear()
-        waiting = False
         for contact in self._slots.values():
             if not self._down(contact) or contact.palm:
                 if contact.finger is not None:
                     samples.append(self._released(contact, time_s))
-                if contact.identity == IMPLIED and self._touching is False:
-                    contact.identity = AWAY
                 contact.refused = False
-            elif contact.moved or contact.finger is None:
-                waiting = True
-        if not waiting:
-            return tuple(samples)
         for contact in self._slots.values():
             if contact.palm or contact.refused or not self._down(contact):
                 continue

@@ -61,6 +61,17 @@ def test_float32_differs_from_float64_in_at_most_a_bit_of_a_thousand_and_nothing
             assert np.sum((2.0 * wrong - 1) * response) / np.abs(response).sum() < 0.9999
 
 
+def test_a_channel_that_can_gain_nothing_stays_at_its_idle_level(board, tmp_path, monkeypatch):
+    def only_channel_0(model, points_m, out):
+        out[:] = 0
+        out[:, :, 0] = 1e-9
+
+    monkeypatch.setattr(ResponseModel, "drive_order_responses", only_channel_0)
+    build_bank(board, tmp_path / "idle", PITCH_M, measure_sgemm=False)
+    with Bank.open(tmp_path / "idle", board) as bank:
+        assert set(np.frombuffer(bank.words(3), "<u4").tolist()) == {board.idle_word | 1}
+
+
 def test_a_cell_has_the_same_entry_whichever_others_are_built(built, board, tmp_path):
     _, path = built
     some = np.isin(np.arange(15), [3, 11])

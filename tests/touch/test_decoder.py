@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from controller.board import data_folder, load_board
 from controller.touch.axes import Axes, AxisRange
-from controller.touch.decoder import MAX_PLAYED, Decoder
+from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, Decoder
 from controller.touch.panel import PanelState, Protocol, Slot, protocol_of
 
 BOARD = load_board(data_folder("boards") / "simulated")
@@ -44,8 +44,22 @@ def test_protocol_b_begins_moves_and_releases():
 def test_a_finger_at_rest_gives_no_samples_but_counts():
     d = decoder()
     play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
-    assert play(d, (4, 5, 1234), REPORT, (X, 100), REPORT) == []
+    assert play(d, (4, 5, 1234), REPORT, (X, 100), (Y, 200), REPORT) == []
     assert counts(d) == (3, 1, 1)
+
+
+def test_a_place_told_twice_in_one_report_has_moved_all_the_same():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (X, 110), (X, 110), REPORT) == [(0, 11, 20, True)]
+    assert play(d, (Y, 210), (Y, 210), REPORT) == [(0, 11, 21, True)]
+
+
+@pytest.mark.parametrize("away", [-1, -2, -3, -(1 << 31)])
+def test_any_negative_tracking_id_ends_the_contact(away):
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (ID, away), REPORT, (X, 110), REPORT) == [(0, 10, 20, False)]
 
 
 def test_a_slot_keeps_its_position_from_one_contact_to_the_next():
@@ -85,15 +99,23 @@ def test_protocol_b_that_starts_in_mid_contact_has_a_finger_once_its_place_is_kn
     assert counts(d) == (2, 0, 1)
 
 
+def test_a_contact_that_was_there_before_the_stream_can_hover_and_touch_again():
+    d = decoder()
+    assert play(d, (X, 100), (Y, 200), REPORT) == [(0, 10, 20, True)]
+    assert play(d, (KEY, TOUCH, 0), REPORT) == [(0, 10, 20, False)]
+    assert play(d, (KEY, TOUCH, 1), REPORT) == [(1, 10, 20, True)]
+
+
 def test_the_slot_current_at_the_start_can_be_given():
     d = decoder(slot=2)
     assert play(d, (ID, 7), (X, 1), (Y, 1), REPORT, (SLOT, 2), (X, 2), REPORT) == [(0, 0.1, 0.1, True), (0, 0.2, 0.1, True)]
 
 
-def test_a_contact_without_position_waits_for_it():
+@pytest.mark.parametrize("known", [X, Y])
+def test_a_contact_without_position_waits_for_it(known):
     d = decoder()
-    assert play(d, (ID, 7), REPORT, (X, 5), REPORT) == []
-    assert play(d, (Y, 5), REPORT) == [(0, 0.5, 0.5, True)]
+    assert play(d, (ID, 7), REPORT, (known, 5), REPORT) == []
+    assert play(d, (X, 5), (Y, 5), REPORT) == [(0, 0.5, 0.5, True)]
     assert counts(d) == (3, 1, 1)
 
 
@@ -101,7 +123,8 @@ def test_a_contact_without_position_waits_for_it():
 def test_hovering_is_no_contact(hover):
     touch = (DISTANCE, 0) if hover[0] == DISTANCE else (KEY, TOUCH, 1)
     d = decoder()
-    assert play(d, hover, (ID, 7), (X, 100), (Y, 200), REPORT, (X, 120), REPORT) == []
+    assert play(d, hover, (ID, 6), (X, 100), (Y, 200), (ID, -1), REPORT) == []
+    assert play(d, (ID, 7), REPORT, (X, 120), REPORT) == []
     assert counts(d) == (0, 0, 0)
     assert play(d, touch, REPORT) == [(0, 12, 20, True)]
     assert play(d, hover, REPORT) == [(0, 12, 20, False)]
@@ -127,23 +150,40 @@ def test_ten_fingers_are_played_and_all_are_counted():
     assert play(d, (SLOT, 0), (ID, 20), REPORT) == [(10, 0, 0, True)]
 
 
+@pytest.mark.parametrize("anew", [[(ID, -1), (ID, 20), REPORT], [(DISTANCE, 1), REPORT, (DISTANCE, 0), REPORT]])
+def test_a_finger_left_out_is_played_when_it_comes_anew(anew):
+    d = decoder()
+    play(d, *[event for slot in range(11) for event in ((SLOT, slot), (ID, slot), (X, slot), (Y, 0))], REPORT)
+    assert play(d, (SLOT, 0), (ID, -1), REPORT) == [(0, 0, 0, False)]
+    assert play(d, (SLOT, 10), *anew) == [(10, 1, 0, True)]
+
+
 def test_slots_beyond_the_declared_range_are_decoded_with_a_warning_and_impossible_ones_skipped():
     d = decoder(last_slot=4)
     assert play(d, (SLOT, 7), (ID, 1), (X, 10), (Y, 10), REPORT, (X, 20), REPORT) == [(0, 1, 1, True), (0, 2, 1, True)]
-    assert play(d, (SLOT, -1), (ID, 2), (X, 10), (Y, 10), REPORT, (SLOT, 1 << 30), (ID, 3), (X, 10), REPORT) == []
+    assert play(d, (SLOT, -1), (ID, 2), (X, 10), (Y, 10), REPORT, (SLOT, MAX_SLOTS), (ID, 3), (X, 10), REPORT) == []
     assert d.warnings == {"slot_beyond_range": 1, "slot_absurd": 2}
+
+
+def test_without_a_declared_range_every_possible_slot_is_taken():
+    d = decoder()
+    assert play(d, (SLOT, MAX_SLOTS - 1), (ID, 1), (X, 10), (Y, 10), REPORT) == [(0, 1, 1, True)]
+    assert not d.warnings
 
 
 def test_positions_outside_the_axes_are_clamped_and_counted():
     d = decoder()
     assert play(d, (ID, 1), (X, -5), (Y, 5000), REPORT, (X, 9999), REPORT) == [(0, 0, 148, True), (0, 210, 148, True)]
-    assert d.warnings == {"outside_axes": 2}
+    assert play(d, (Y, 10), REPORT, (X, 10), (Y, -1), REPORT) == [(0, 210, 1, True), (0, 1, 0, True)]
+    assert d.warnings == {"outside_axes": 4}
 
 
 def test_extra_axes_change_nothing():
     extra = [(MAJOR, 0), (0x34, 3), (0x3A, 200), (0x18, 40), (0, 77), (1, 78), (4, 5, 999), (KEY, 0x145, 1), (2, 0, 5)]
+    extra += [(4, TOUCH, 0), MT_REPORT]
     d = decoder()
     assert play(d, *extra, REPORT) == []
+    assert counts(d) == (0, 0, 0)
     assert play(d, (ID, 1), *extra, (X, 10), (Y, 10), *extra, REPORT, *extra, REPORT) == [(0, 1, 1, True)]
 
 
@@ -155,6 +195,52 @@ def test_protocol_a_with_tracking_ids():
     assert play(d, (ID, 9), (X, 210), (Y, 200), MT_REPORT, REPORT) == [(0, 10, 10, False), (1, 21, 20, True)]
     assert play(d, MT_REPORT, REPORT) == [(1, 21, 20, False)]
     assert counts(d) == (3, 2, 2)
+
+
+def test_protocol_a_tells_contacts_with_a_tracking_id_from_those_without():
+    d = decoder(Protocol.A)
+    other = [(X, 1000), (Y, 1000), MT_REPORT]
+    assert play(d, (ID, 0), (X, 100), (Y, 100), MT_REPORT, *other, REPORT) == [(0, 10, 10, True), (1, 100, 100, True)]
+    assert play(d, (ID, 0), (X, 900), (Y, 100), MT_REPORT, *other, REPORT) == [(0, 90, 10, True)]
+    assert play(d, (X, 900), (Y, 110), MT_REPORT, *other, REPORT) == [(0, 90, 10, False), (2, 90, 11, True)]
+
+
+def test_protocol_a_takes_the_first_of_two_contacts_with_the_same_tracking_id():
+    both = [(ID, 4), (X, 100), (Y, 100), MT_REPORT, (ID, 4), (X, 200), (Y, 200), MT_REPORT]
+    assert play(decoder(Protocol.A), *both, REPORT) == [(0, 10, 10, True)]
+
+
+def test_protocol_a_begins_a_report_with_nothing_known():
+    d = decoder(Protocol.A)
+    assert play(d, (X, 5), MT_REPORT, REPORT, (Y, 5), MT_REPORT, REPORT) == []  # no place, no contact
+    assert counts(d) == (0, 0, 0)
+    assert play(d, (MAJOR, 0), REPORT) == []
+    assert play(d, (X, 5), (Y, 5), REPORT) == [(0, 0.5, 0.5, True)]  # SYN_REPORT closes the last contact as well
+
+
+def test_protocol_a_pairs_the_nearest_first_and_each_once():
+    d = decoder(Protocol.A)
+
+    def x_mm(*places):
+        return [event for x in places for event in ((X, 10 * x), (Y, 100), MT_REPORT)]
+
+    assert play(d, *x_mm(30), REPORT) == [(0, 30, 10, True)]
+    assert sorted(play(d, *x_mm(10, 31), REPORT)) == [(0, 31, 10, True), (1, 10, 10, True)]
+    assert sorted(play(d, *x_mm(25, 12), REPORT)) == [(0, 25, 10, True), (1, 12, 10, True)]
+    assert play(d, *x_mm(24), REPORT) == [(1, 12, 10, False), (0, 24, 10, True)]
+    assert play(d, *x_mm(53), REPORT) == [(0, 53, 10, True)]  # 29 mm on
+    assert play(d, *x_mm(84), REPORT) == [(0, 53, 10, False), (2, 84, 10, True)]  # 31 mm on
+    assert play(d, *x_mm(84, 150), REPORT, *x_mm(84, 150, 200), REPORT) == [(3, 150, 10, True), (4, 200, 10, True)]
+    assert [finger for finger, _, _ in d.fingers()] == [2, 3, 4]
+
+
+def test_a_palm_in_protocol_a_is_counted_but_not_played():
+    d = decoder(Protocol.A)
+    place = [(X, 100), (Y, 100), MT_REPORT, REPORT]
+    assert play(d, *place) == [(0, 10, 10, True)]
+    assert play(d, (TOOL, 2), *place) == [(0, 10, 10, False)]
+    assert play(d, MT_REPORT, REPORT) == []
+    assert counts(d) == (2, 1, 1)
 
 
 def test_protocol_a_without_tracking_ids_goes_by_distance():
@@ -174,6 +260,8 @@ def test_protocol_a_lifts(lift):
     assert play(d, (KEY, TOUCH, 1), (MAJOR, 5), (X, 100), (Y, 100), MT_REPORT, REPORT) == [(0, 10, 10, True)]
     assert play(d, (KEY, 0x66, 1), REPORT) == []  # a report about something else
     assert play(d, *lift, REPORT) == [(0, 10, 10, False)]
+    assert play(d, (KEY, TOUCH, 1), (X, 100), (Y, 100), MT_REPORT, REPORT) == [(1, 10, 10, True)]
+    assert counts(d) == (3, 2, 1)
 
 
 def test_single_touch():
@@ -181,9 +269,10 @@ def test_single_touch():
     assert play(d, (0, 100), (1, 200), REPORT) == []  # hovering
     assert play(d, (KEY, TOUCH, 1), REPORT) == [(0, 10, 20, True)]
     assert play(d, (0, 110), REPORT, (KEY, TOUCH, 2), REPORT) == [(0, 11, 20, True)]
+    assert play(d, (ID, -1), (DISTANCE, 1), (TOOL, 2), REPORT) == []  # axes of the other protocols
     assert play(d, (KEY, TOUCH, 0), REPORT) == [(0, 11, 20, False)]
     assert play(d, (KEY, TOUCH, 1), (0, 0), REPORT) == [(1, 0, 20, True)]
-    assert counts(d) == (4, 2, 1)
+    assert counts(d) == (5, 2, 1)
 
 
 def test_after_lost_events_a_recording_releases_all_fingers_and_a_finger_that_moves_on_begins_anew():
@@ -206,12 +295,44 @@ def test_after_lost_events_no_finger_is_stuck(protocol):
     assert play(d, (KEY, TOUCH, 1), x, y, MT_REPORT, REPORT) == [(1, 0.5, 0.5, True)]
 
 
+def test_after_lost_events_a_recording_keeps_its_slot_but_not_what_it_knew_of_btn_touch():
+    d = decoder()
+    play(d, (SLOT, 1), (ID, 7), (X, 100), (Y, 200), (KEY, TOUCH, 0), REPORT, DROPPED, REPORT)
+    assert play(d, (X, 120), (Y, 210), REPORT) == [(0, 12, 21, True)]
+    assert play(d, (SLOT, 1), (X, 130), REPORT) == [(0, 13, 21, True)]
+
+
+@pytest.mark.parametrize("lost", [True, False])
+def test_what_an_unfinished_report_replaced_is_released_once(lost):
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT, (ID, 8))
+    assert (play(d, DROPPED, REPORT) if lost else [s[0] for s in d.release(1.5)]) == ([(0, 10, 20, False)] if lost else [0])
+    assert play(d, REPORT) == []
+
+
+def test_after_lost_events_contacts_of_an_unfinished_report_of_protocol_a_are_forgotten():
+    d = decoder(Protocol.A, read_state=lambda: pytest.fail("the kernel keeps no state of protocol A"))
+    assert play(d, (X, 100), (Y, 100), MT_REPORT, DROPPED, REPORT, MT_REPORT, REPORT) == []
+
+
 def test_after_lost_events_a_device_is_read_again():
     state = PanelState(1, True, (Slot(0, 7, 150, 200), Slot(1, -1, 0, 0), Slot(2, 9, 10, 20)))
     d = decoder(read_state=lambda: state)
     play(d, (ID, 7), (X, 100), (Y, 200), (SLOT, 1), (ID, 8), (X, 5), (Y, 5), REPORT)
-    assert play(d, DROPPED, (X, 9), REPORT) == [(1, 0.5, 0.5, False), (0, 15, 20, True), (2, 1, 2, True)]
+    assert play(d, (SLOT, 0), DROPPED, (ID, 99), REPORT) == [(1, 0.5, 0.5, False), (0, 15, 20, True), (2, 1, 2, True)]
     assert play(d, (ID, 10), (X, 30), (Y, 30), REPORT) == [(3, 3, 3, True)]  # slot 1 is current
+
+
+def test_what_is_read_after_lost_events_is_told_even_if_it_was_heard_before_them():
+    d = decoder(read_state=lambda: PanelState(0, True, (Slot(0, 7, 110, 200), Slot(1, -3, 5, 5))))
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, (X, 110), DROPPED, REPORT) == [(0, 11, 20, True)]
+
+
+def test_a_finger_that_hovers_after_lost_events_is_released():
+    d = decoder(read_state=lambda: PanelState(0, False, (Slot(0, 7, 100, 200),)))
+    play(d, (KEY, TOUCH, 1), (ID, 7), (X, 100), (Y, 200), REPORT)
+    assert play(d, DROPPED, REPORT) == [(0, 10, 20, False)]
 
 
 def test_the_protocol_shows_itself():
@@ -220,6 +341,9 @@ def test_the_protocol_shows_itself():
     assert protocol_of((), {(ABS, X), (ABS, ID)}) is Protocol.B
     assert protocol_of({0, 1}, {(ABS, 0), (KEY, TOUCH)}) is Protocol.SINGLE
     assert protocol_of((), ()) is Protocol.SINGLE
+    assert protocol_of((), {(ABS, SLOT), (SYN, 2)}) is Protocol.B
+    assert protocol_of((), {(KEY, X)}) is Protocol.SINGLE  # a key of the same number
+    assert all(protocol_of({axis}, ()) is Protocol.B for axis in (SLOT, ID, X, Y))
 
 
 codes = st.sampled_from([SLOT, ID, X, Y, 0, 1, DISTANCE, TOOL, MAJOR, 0x3A])

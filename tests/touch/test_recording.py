@@ -147,6 +147,7 @@ def test_the_other_protocols_are_recognised(protocol, text, expected):
     recording = Recording("A: 00 0 1000 0 0\nA: 01 0 500 0 0\n" + text)
     assert recording.protocol is protocol
     assert not recording.warnings  # the ranges of ABS_X and ABS_Y serve the multi-touch axes as well
+    assert (recording.x, recording.y) == (AxisRange(0, 1000), AxisRange(0, 500))
     assert counted(recording) == expected
 
 
@@ -170,20 +171,52 @@ def test_without_axis_lines_its_own_extent_is_taken_with_one_warning():
     recording = Recording(moved)
     assert (recording.x, recording.y) == (AxisRange(250, 750), AxisRange(125, 375))
     assert recording.warnings == {"no_axis_lines": 1}
-    samples, _ = replay(recording)
+    samples, played = replay(recording)
+    assert played.warnings == recording.warnings
     assert [(s.x_m, s.y_m) for s in samples[:2]] == [pytest.approx((0, 0)), pytest.approx((0.210, 0.148))]
 
 
-@pytest.mark.parametrize("axes", ["A: 35 1000 0 0 0\nA: 36 5 5 0 0\n", "A: 35 0\nA: zz 0 1000 0 0\n"])
+def test_the_extent_is_that_of_possible_positions_only():
+    other = "E: 0.1 0003 0035 99999999999\nE: 0.1 0003 0036 -99999999999\nE: 0.1 0004 0035 9999\n"
+    recording = Recording(TAP + other)
+    assert (recording.x, recording.y) == (AxisRange(250, 250), AxisRange(125, 125))
+
+
+def test_slots_beyond_the_declared_ones_are_told():
+    begin, end = TAP.split("E: 0.5", 1)
+    recording = Recording(HEADER + AXES + "E: 0 0003 002f 5\n" + begin + "E: 0.5" + end)
+    assert set(replay(recording)[1].warnings) == {"slot_beyond_range"}
+
+
+def test_the_largest_and_smallest_values_of_32_bits_are_possible():
+    assert not Recording(HEADER + f"E: 0 0003 003a {(1 << 31) - 1}\nE: 0 0003 003a {-(1 << 31)}\n").warnings
+
+
+def test_a_byte_order_mark_is_no_garbage(tmp_path):
+    file = tmp_path / "marked.evemu"
+    file.write_text(HEADER + AXES + TAP, encoding="utf-8-sig")
+    assert not Recording.open(file).warnings
+
+
+@pytest.mark.parametrize(
+    "axes", ["A: 35 1000 0 0 0\nA: 36 0 9 0 0\n", "A: 35 0 9 0 0\nA: 36 5 5 0 0\n", "A: 35 0\nA: zz 0 9 0 0\n"]
+)
 def test_axis_lines_that_cannot_be_meant_are_not_taken(axes):
     recording = Recording(axes + TAP)
     assert recording.warnings["no_axis_lines"] == 1
     assert counted(recording) == (1, 1, 1)
 
 
+def test_a_closed_source_has_nothing_more_to_read():
+    played = source(Recording(HEADER + AXES + TAP))
+    played.close()
+    assert played.next_time_s() is None
+    assert played.read(math.inf) == ()
+
+
 def test_fingers_still_down_at_the_end_are_released():
-    samples, played = replay(Recording(HEADER + AXES + TAP.split("E: 0.5", maxsplit=1)[0]))
-    assert [s.contact for s in samples] == [True, False]
+    samples, played = replay(Recording(HEADER + AXES + TAP.split("E: 0.5", maxsplit=1)[0] + "E: 0.400001 0004 0005 1\n"))
+    assert [(s.time_s, s.contact) for s in samples] == [(0.0, True), (pytest.approx(0.4), False)]
     assert played.warnings == {"still_down_at_end": 1}
 
 
@@ -233,6 +266,16 @@ def test_times_never_go_back_and_recover_from_a_slip():
     assert times(5, 6, 1e6, 7, 8) == [0, 1, 1, 2, 3]
     assert times("nan", 5, 6) == [0, 0, 1]
     assert times("nan", "nan") == [0, 0]
+
+
+def test_a_pause_of_an_hour_is_kept_and_a_longer_one_is_not():
+    assert times(5, 3605) == [0, 3600]
+    assert times(5, 3606) == [0, 0]
+
+
+def test_a_slip_of_fifty_events_is_a_slip_and_a_longer_one_a_clock_that_was_set():
+    assert times(0, 1, *[1e6 + k for k in range(50)], 2) == [0, 1, *[1] * 50, 2]
+    assert times(0, 1, *[1e6 + k for k in range(51)], 2) == [0, 1, *range(1, 52), 51]
 
 
 def test_a_clock_set_while_recording_costs_only_the_moment():
