@@ -266,7 +266,7 @@ def test_protocol_a_lifts(lift):
 
 def test_single_touch():
     d = decoder(Protocol.SINGLE)
-    assert play(d, (0, 100), (1, 200), REPORT) == []  # hovering
+    assert play(d, (X, 5), (0, 100), (1, 200), REPORT) == []  # hovering
     assert play(d, (KEY, TOUCH, 1), REPORT) == [(0, 10, 20, True)]
     assert play(d, (0, 110), REPORT, (KEY, TOUCH, 2), REPORT) == [(0, 11, 20, True)]
     assert play(d, (ID, -1), (DISTANCE, 1), (TOOL, 2), REPORT) == []  # axes of the other protocols
