@@ -36,9 +36,7 @@ class Played:
     resident: bool
 
     def last_start_s(self, at_s: float) -> float:
-        """When the emission began that sounds, or sounded last, at a time after the trigger."""
-        if self.count == 1:
-            return self.trigger_s
+        """When the emission of a repetition began that sounds, or sounded last, at a time after the trigger."""
         return self.trigger_s + math.floor((at_s - self.trigger_s) / self.period_s) * self.period_s
 
 
