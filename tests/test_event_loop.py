@@ -5,6 +5,7 @@ every run gives the same ticks.
 """
 
 import gc
+import itertools
 import selectors
 import signal
 
@@ -16,6 +17,7 @@ from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.errors import FaultError, TouchError
 from controller.event_loop import EventLoop, VirtualClock
+from controller.fpga.session import Session
 from controller.hardware import open_fpga
 from controller.latency import Counters
 from controller.offline.simulated_run import foci_meant
@@ -130,6 +132,14 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
     assert [stage.count for stage in wire] == [1, 19]
     sent = [stage.worst_ns * run.board.link.sck_hz / 8e9 for stage in wire]
     assert sent == pytest.approx([UPLOAD_BYTES, RESIDENT_BYTES], rel=0.02)  # chip select takes its time too
+
+
+def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
+    ages_ns = itertools.count(step=10**12)
+    monkeypatch.setattr(Session, "away_ns", property(lambda _: next(ages_ns)))
+    run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
+    assert run.counters.upload_latency.host.count == 1
+    assert run.counters.upload_latency.host.worst_ns == 0
 
 
 def test_the_waveform_played_longest_ago_gives_up_its_slot(perform):
@@ -383,13 +393,16 @@ def test_virtual_time_never_goes_back():
     assert clock.now_s() == 1.0
 
 
-def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, evemu_text):
-    stalls = [(0.02 + 0.3 * k, 0.25) for k in range(10)]
+@pytest.mark.parametrize("tap", [False, True])
+def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, cell, evemu_text, tap):
+    stalls = [(0.2 + 0.3 * k, 0.25) for k in range(10)]
+    reports = [(0.0, {0: cell[1]} if tap else {}), (0.05, {0: None} if tap else {}), (9.0, {})]
     with Bank.open(bank_file, board) as bank:
-        link, _, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), [(0.0, {}), (9.0, {})], evemu_text)
+        link, counters, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), reports, evemu_text, CLICK)
         with pytest.raises(FaultError, match=r"No good frame came from the host.*\(4 times in a row"):
             loop.run()
         link.close()
+    assert (counters.emissions, counters.host_silent) == (tap, 4)
     assert link.take_capture().hv[-1] == 0
 
 
