@@ -13,7 +13,7 @@ SETTLED_EVENTS = 50  # a clock that has not come back after so many events was s
 def rebased(raw_s: Sequence[float], warnings: Counter[str]) -> list[float]:
     """Times from the first event.
 
-    An event earlier than the one before, or more than an hour later, or without a time that is a
+    An event earlier than the one before, or more than a minute later, or without a time that is a
     number, takes the time of the one before. If those after it stay off, the clock was set while
     recording: they keep their distances to each other.
 
