@@ -218,6 +218,13 @@ def test_protocol_a_begins_a_report_with_nothing_known():
     assert play(d, (X, 5), (Y, 5), REPORT) == [(0, 0.5, 0.5, True)]  # SYN_REPORT closes the last contact as well
 
 
+def test_protocol_a_takes_so_many_contacts_in_one_report_and_counts_the_rest():
+    d = decoder(Protocol.A)
+    play(d, *[event for k in range(MAX_SLOTS + 2) for event in ((ID, k), (X, k), (Y, 0), MT_REPORT)], REPORT)
+    assert counts(d) == (1, MAX_SLOTS, MAX_SLOTS)
+    assert d.warnings["contacts_absurd"] == 2
+
+
 def test_protocol_a_pairs_the_nearest_first_and_each_once():
     d = decoder(Protocol.A)
 
