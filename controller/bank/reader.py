@@ -118,10 +118,6 @@ class Bank:
         """Copy bytes of the file; fewer at its end."""
         return os.pread(self._fd, size, offset)
 
-    def has(self, cell: int) -> bool:
-        """Whether the bank holds an entry for this cell."""
-        return 0 <= cell < len(self._entry_of) and self._entry_of[cell] >= 0
-
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, as the bytes that go to the wire: 4 a sample, not copied.
 

@@ -47,8 +47,6 @@ class Exchange:
         Where frames are packed, from 0 on, before they are sent.
     sequence : int
         Number for the first of them.
-    status : Status or None
-        The last one.
     heartbeat_due_s : float
         When the FPGA should hear from us next.
     """
@@ -57,7 +55,6 @@ class Exchange:
         size = UPLOAD_BYTES + COMMANDS * FRAME_BYTES
         self.sent = memoryview(bytearray(size))
         self.sequence = 0
-        self.status: Status | None = None
         self.heartbeat_due_s = now_s()
         self._received = memoryview(bytearray(size))
         self._link = link
@@ -85,10 +82,10 @@ class Exchange:
             if not answered_well(self._received, start, (sequence + index) & 0xFF):
                 self._explain(parse_status(self._received, start), faults_matter)
             start += length
-        self.status = parse_status(self._received, start - lengths[-1])
-        if self.status.faults:
-            self._explain(self.status, faults_matter)
-        return self.status
+        status = parse_status(self._received, start - lengths[-1])
+        if status.faults:
+            self._explain(status, faults_matter)
+        return status
 
     def short(self, end: int, *, faults_matter: bool = True) -> Status:
         """Send the short frames packed up to `end`; as `message`."""

@@ -15,7 +15,6 @@ is left below 16 kHz. Sharper edges ring for longer and lose contrast (28.0 at 0
 
 from __future__ import annotations
 
-import time
 from typing import Any
 
 import numpy as np
@@ -52,8 +51,6 @@ class ResponseModel:
         Response of each mode to a pulse of one bit period, in m per N.
     modal_band : (mode, sample) array
         The same, band-limited.
-    gemm_seconds : float
-        Time spent so far in the response step (shapes, modal forces, GEMM, order of axes).
     """
 
     def __init__(self, board: Board, highest_hz: float = 100e3) -> None:
@@ -70,7 +67,6 @@ class ResponseModel:
             (waveform.band_low_hz, waveform.band_high_hz),
             board.plate.decay_time_s,
         )
-        self.gemm_seconds = 0.0
         self._kernels: dict[tuple[bool, bool, str], NDArray[np.floating[Any]]] = {}
         self._workspaces: dict[str, tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
@@ -136,12 +132,10 @@ class ResponseModel:
             out = np.empty(shape, kernel.dtype)
         if out.shape != shape or out.dtype != kernel.dtype:
             raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
-        started = time.perf_counter()
         if in_rows(points) and out.flags.c_contiguous:
             responses_in_rows(self.plate_modes, self.forces, kernel, points, out)
         else:
             self._responses_anywhere(points, kernel, out)
-        self.gemm_seconds += time.perf_counter() - started
         return out
 
     def _responses_anywhere(self, points: Floats, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]]) -> None:
