@@ -12,36 +12,41 @@ module frame_decoder (
     input  wire        byte_valid_i,
     input  wire [7:0]  byte_i,
     input  wire        landing_busy_i,
+    input  wire        landing_live_i,
+    input  wire [31:0] bit_period_i,
     output wire        accept_o,        // pulse; the fields below hold until the next frame begins
     output wire        refuse_o,        // pulse, with refusal_o
     output wire [7:0]  refusal_o,
     output wire [7:0]  type_o,
     output wire [7:0]  sequence_o,
     output wire [15:0] argument_o,
-    output wire [31:0] word0_o,
-    output wire [31:0] word1_o,
-    output wire [31:0] word2_o,
-    output wire        landing_busy_o,  // as it was when the frame began
+    output wire [191:0] words_o,        // first six of the payload, the first lowest
+    output wire        landing_busy_o,  // as they were when the frame began
+    output wire        landing_live_o,
     output wire [6:0]  payload_words_o,
-    output wire        write_o,         // pulse: a word for the landing buffer
-    output wire [2:0]  write_chunk_o,
-    output wire [6:0]  write_word_o,    // within the chunk
-    output wire [31:0] write_data_o
+    output wire        fast_o,          // its words came at least as fast as they would play
+    output wire        word_valid_o,    // pulse: a word of the payload, which counts only with accept_o
+    output wire [7:0]  word_number_o,
+    output wire [31:0] word_o,
+    output wire        load_word_o      // pulse: it is one of a LOAD for the landing buffer
 );
     reg        accept_q, refuse_q;
     reg [7:0]  refusal_q;
     reg        sync_good_q;
     reg [7:0]  type_q, sequence_q;
     reg [15:0] length_q, argument_q;
-    reg [31:0] word_q [0:2];
-    reg        landing_busy_q;
+    reg [191:0] words_q;
+    reg        landing_busy_q, landing_live_q;
     reg [9:0]  count_q;                 // bytes so far, held at its highest: no frame is that long
     reg [31:0] recent_q;                // last four bytes
     reg        word_valid_q;            // recent_q is a word behind the header
     reg [7:0]  word_number_q;
+    reg signed [39:0] ahead_q;          // 65536ths of a clock by which the words would outlast the frame so far
 
     wire is_load = type_q == `TYPE_LOAD;
-    wire length_good = is_load
+    wire is_long = is_load || type_q == `TYPE_TEST;
+    wire in_payload = word_valid_q && word_number_q < {1'b0, length_q[8:2]};
+    wire length_good = is_long
         ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
         : length_q == `SHORT_PAYLOAD_BYTES;
     wire whole = length_good && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
@@ -69,7 +74,11 @@ module frame_decoder (
                 default: ;
             endcase
         end
-        if (word_valid_q && word_number_q < 8'd3) word_q[word_number_q[1:0]] <= recent_q;
+        if (in_payload && word_number_q < 8'd6) words_q[{word_number_q[2:0], 5'd0} +: 32] <= recent_q;
+
+        if (ahead_q[39:38] != 2'b10)  // long behind: it stays so
+            ahead_q <= ahead_q - 40'sd65536 + (in_payload ? $signed({8'd0, bit_period_i}) : 40'sd0);
+        if (select_i) ahead_q <= 40'sd0;
 
         accept_q <= 1'b0;
         refuse_q <= 1'b0;
@@ -87,6 +96,7 @@ module frame_decoder (
             type_q         <= `TYPE_NOP;
             count_q        <= 10'd0;
             landing_busy_q <= landing_busy_i;
+            landing_live_q <= landing_live_i;
         end
 
         if (rst_i) begin
@@ -98,10 +108,10 @@ module frame_decoder (
             sequence_q     <= 8'd0;
             length_q       <= 16'd0;
             argument_q     <= 16'd0;
-            word_q[0]      <= 32'd0;
-            word_q[1]      <= 32'd0;
-            word_q[2]      <= 32'd0;
+            words_q        <= 192'd0;
             landing_busy_q <= 1'b0;
+            landing_live_q <= 1'b0;
+            ahead_q        <= 40'sd0;
             count_q        <= 10'd0;
             recent_q       <= 32'd0;
             word_valid_q   <= 1'b0;
@@ -115,16 +125,15 @@ module frame_decoder (
     assign type_o          = type_q;
     assign sequence_o      = sequence_q;
     assign argument_o      = argument_q;
-    assign word0_o         = word_q[0];
-    assign word1_o         = word_q[1];
-    assign word2_o         = word_q[2];
+    assign words_o         = words_q;
     assign landing_busy_o  = landing_busy_q;
+    assign landing_live_o  = landing_live_q;
     assign payload_words_o = length_q[8:2];
-    assign write_o         = word_valid_q && is_load && sync_good_q && length_good && !landing_busy_q
-                             && argument_q < {12'd0, `CHUNKS} && word_number_q < {1'b0, length_q[8:2]};
-    assign write_chunk_o   = argument_q[2:0];
-    assign write_word_o    = word_number_q[6:0];
-    assign write_data_o    = recent_q;
+    assign fast_o          = !ahead_q[39];
+    assign word_valid_o    = in_payload && length_good;
+    assign word_number_o   = word_number_q;
+    assign word_o          = recent_q;
+    assign load_word_o     = in_payload && is_load && sync_good_q && length_good && argument_q < {12'd0, `CHUNKS};
 endmodule
 
 `default_nettype wire

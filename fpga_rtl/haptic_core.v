@@ -1,5 +1,5 @@
-// The gateware of a haptic panel but for its board: SPI, trigger and run permit in, 32 channels out.
-// Pin to pin: a trigger's first word is out 5 clocks after the first clock edge that samples the trigger high;
+// The gateware of a haptic panel but for its board: frames by SPI or UART, trigger and permits in, 32 channels out.
+// Pin to pin: a trigger's first word is out 8 clocks after the first clock edge that samples the trigger high;
 // a lost permit has the outputs low 2 clocks after the first edge that samples it low.
 `default_nettype none
 `include "registers.vh"
@@ -8,7 +8,17 @@ module haptic_core #(
     parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
     parameter        SLOTS               = 4,              // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,
-    parameter [31:0] HEARTBEAT_TICKS_MAX = CLOCK_HZ / 4    // 250 ms
+    parameter [31:0] BOARD               = 32'h204D4953,   // 'SIM '
+    parameter [31:0] BAUD                = 32'd1_000_000,
+    // hard limits of what the host may set
+    parameter [31:0] HEARTBEAT_TICKS_MAX = CLOCK_HZ / 4,   // 250 ms
+    parameter [31:0] EDGE_WINDOW_TICKS   = CLOCK_HZ / 4,
+    parameter [31:0] PULSE_TICKS_MIN     = CLOCK_HZ / 2_500_000 > 4 ? CLOCK_HZ / 2_500_000 : 4,  // 0.4 us
+    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd125_000,    // 500 kHz over the window
+    parameter [31:0] TOTAL_EDGES_MAX     = 32'd4_000_000,
+    parameter [31:0] EMISSION_TICKS_MAX  = CLOCK_HZ / 100, // 10 ms
+    parameter [31:0] DUTY_SHARE_MAX      = 32'd65_536,
+    parameter [31:0] DUTY_TICKS_MAX      = CLOCK_HZ
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -16,73 +26,124 @@ module haptic_core #(
     input  wire        spi_cs_n_i,
     input  wire        spi_mosi_i,
     output wire        spi_miso_o,
+    input  wire        uart_rx_i,
+    output wire        uart_tx_o,
     input  wire        trigger_i,
-    input  wire        run_permit_i,    // driven high to run
+    input  wire        run_permit_i,       // driven high to run
+    input  wire        temperature_ok_i,   // driven high while cool
     output wire [31:0] channel_o,
     output wire        hv_enable_o,
     output wire        hv_alive_o,
-    output wire        focus_o          // high for one drive word from t = T
+    output wire        focus_o,            // high for one drive word from t = T
+    output wire        ready_o,            // a play waits for the trigger
+    output wire        fault_o
 );
     localparam BUFFER_BITS = $clog2(SLOTS + 1);
     localparam ALIVE_HALF_TICKS = CLOCK_HZ / 40_000 > 0 ? CLOCK_HZ / 40_000 : 1;
 
-    // Pins that have no clock, through two flip-flops; a third sees the trigger's edge
-    reg [2:0]  trigger_q;
-    reg [1:0]  run_permit_q;
-    reg [63:0] timestamp_q;
-    wire       trigger    = trigger_q[1] && !trigger_q[2];
-    wire       run_permit = run_permit_q[1];
+    // Pins that have no clock, through two flip-flops; a trigger is high for FILTER_TICKS, low as long before the next
+    reg [3:0]  trigger_q;
+    reg        triggered_q, command_q;
+    reg [1:0]  run_permit_q, temperature_ok_q;
+    reg [63:0] now_q, input_time_q;
+    reg [1:0]  permits_q;
+    wire       trigger_high    = trigger_q[3:1] == 3'b111;
+    wire       trigger_low     = trigger_q[3:1] == 3'b000;
+    wire       command;
+    wire       trigger         = (trigger_high && !triggered_q) || command_q;
+    wire       run_permit      = run_permit_q[1];
+    wire       temperature_ok  = temperature_ok_q[1];
 
     always @(posedge clk_i) begin
-        trigger_q    <= {trigger_q[1:0], trigger_i};
-        run_permit_q <= {run_permit_q[0], run_permit_i};
-        timestamp_q  <= timestamp_q + 64'd1;
+        trigger_q        <= {trigger_q[2:0], trigger_i};
+        triggered_q      <= trigger_high || (triggered_q && !trigger_low);
+        command_q        <= command;
+        run_permit_q     <= {run_permit_q[0], run_permit_i};
+        temperature_ok_q <= {temperature_ok_q[0], temperature_ok_i};
+        permits_q        <= {temperature_ok, run_permit};
+        now_q            <= now_q + 64'd1;
+        if (permits_q != {temperature_ok, run_permit}) input_time_q <= now_q;
         if (rst_i) begin
-            trigger_q    <= 3'b111;     // high at reset is no edge
-            run_permit_q <= 2'b00;
-            timestamp_q  <= 64'd0;
+            trigger_q        <= 4'b1111;   // high at reset is no edge
+            triggered_q      <= 1'b1;
+            command_q        <= 1'b0;
+            run_permit_q     <= 2'b00;
+            temperature_ok_q <= 2'b00;
+            permits_q        <= 2'b00;
+            now_q            <= 64'd0;
+            input_time_q     <= 64'd0;
         end
     end
 
-    // Frames
-    wire       select, release_frame, partial, byte_valid, answer_take;
-    wire [7:0] byte_in, answer;
-    wire       accept, refuse;
-    wire [7:0] refusal, kind, sequence_number;
-    wire [15:0] argument;
-    wire [31:0] word0, word1, word2;
-    wire        landing_busy, landing_was_busy;
-    wire [6:0]  payload_words;
-    wire        write;
-    wire [2:0]  write_chunk;
-    wire [6:0]  write_word;
-    wire [31:0] write_data;
+    // Frames, from whichever link one begins on
+    wire       spi_select, spi_release, spi_partial, spi_byte_valid, spi_take;
+    wire       uart_select, uart_release, uart_partial, uart_byte_valid, uart_take;
+    wire [7:0] spi_byte, uart_byte, answer;
+    wire       select        = spi_select || uart_select;
+    wire       release_frame = spi_release || uart_release;
+    wire       partial       = (spi_release && spi_partial) || (uart_release && uart_partial);
+    wire       byte_valid    = spi_byte_valid || uart_byte_valid;
+    wire [7:0] byte_in       = spi_byte_valid ? spi_byte : uart_byte;
+    wire       answer_take   = spi_take || uart_take;
 
     spi_peripheral spi_peripheral (
         .clk_i(clk_i), .rst_i(rst_i),
         .spi_sck_i(spi_sck_i), .spi_cs_n_i(spi_cs_n_i), .spi_mosi_i(spi_mosi_i), .spi_miso_o(spi_miso_o),
-        .select_o(select), .release_o(release_frame), .partial_o(partial),
-        .byte_valid_o(byte_valid), .byte_o(byte_in), .answer_i(answer), .answer_take_o(answer_take)
+        .select_o(spi_select), .release_o(spi_release), .partial_o(spi_partial),
+        .byte_valid_o(spi_byte_valid), .byte_o(spi_byte), .answer_i(answer), .answer_take_o(spi_take)
     );
+
+    uart_peripheral #(.CLOCK_HZ(CLOCK_HZ), .BAUD(BAUD)) uart_peripheral (
+        .clk_i(clk_i), .rst_i(rst_i), .uart_rx_i(uart_rx_i), .uart_tx_o(uart_tx_o),
+        .select_o(uart_select), .release_o(uart_release), .partial_o(uart_partial),
+        .byte_valid_o(uart_byte_valid), .byte_o(uart_byte), .answer_i(answer), .answer_take_o(uart_take)
+    );
+
+    wire         accept, refuse, landing_was_busy, landing_was_live, fast, word_valid, load_word;
+    wire [7:0]   refusal, kind, sequence_number, word_number;
+    wire [15:0]  argument;
+    wire [191:0] words;
+    wire [31:0]  word;
+    wire [6:0]   payload_words;
+    wire         landing_busy, landing_live;
+    wire [31:0]  bit_period;
 
     frame_decoder frame_decoder (
         .clk_i(clk_i), .rst_i(rst_i),
         .select_i(select), .release_i(release_frame), .partial_i(partial),
-        .byte_valid_i(byte_valid), .byte_i(byte_in), .landing_busy_i(landing_busy),
+        .byte_valid_i(byte_valid), .byte_i(byte_in),
+        .landing_busy_i(landing_busy), .landing_live_i(landing_live), .bit_period_i(bit_period),
         .accept_o(accept), .refuse_o(refuse), .refusal_o(refusal),
-        .type_o(kind), .sequence_o(sequence_number), .argument_o(argument),
-        .word0_o(word0), .word1_o(word1), .word2_o(word2),
-        .landing_busy_o(landing_was_busy), .payload_words_o(payload_words),
-        .write_o(write), .write_chunk_o(write_chunk), .write_word_o(write_word), .write_data_o(write_data)
+        .type_o(kind), .sequence_o(sequence_number), .argument_o(argument), .words_o(words),
+        .landing_busy_o(landing_was_busy), .landing_live_o(landing_was_live), .payload_words_o(payload_words), .fast_o(fast),
+        .word_valid_o(word_valid), .word_number_o(word_number), .word_o(word), .load_word_o(load_word)
     );
 
     // What becomes of them
-    wire [7:0] read_result, write_result, load_result, store_result, play_result;
-    reg  [7:0] result, result_q, sequence_q;
+    wire [7:0] register_result, write_result, load_result, store_result, play_result, memory_result, crc_result, queue_result;
+    reg  [7:0] read_result, result, result_q, sequence_q;
+    reg        fast_q;                     // of the last LOAD
+    wire       play_accept = accept && kind == `TYPE_PLAY;
+    wire       push = play_accept && play_result == `RESULT_OK;
 
+    wire [31:0] register_data, memory_data, crc_data, queue_data;
+    reg  [31:0] read_data, data_q;
     always @* begin
+        if (argument[15]) begin
+            read_result = memory_result;
+            read_data   = memory_data;
+        end else if (argument[14:8] == 7'd1) begin
+            read_result = crc_result;
+            read_data   = crc_data;
+        end else if (argument[14:8] == 7'd2) begin
+            read_result = argument[7:6] != 2'd0 ? `RESULT_BAD_RANGE : queue_result;
+            read_data   = queue_data;
+        end else begin
+            read_result = register_result;
+            read_data   = register_data;
+        end
         case (kind)
-            `TYPE_NOP:   result = `RESULT_OK;
+            `TYPE_NOP, `TYPE_TEST: result = `RESULT_OK;
             `TYPE_READ:  result = read_result;
             `TYPE_WRITE: result = write_result;
             `TYPE_LOAD:  result = load_result;
@@ -92,103 +153,188 @@ module haptic_core #(
         endcase
     end
 
+    wire [7:0] expected_sequence = sequence_q + 8'd1;
     always @(posedge clk_i) begin
         if (refuse) result_q <= refusal;
         if (accept) begin
             result_q   <= result;
             sequence_q <= sequence_number;
+            if (kind == `TYPE_LOAD) fast_q <= fast;
+            if (kind == `TYPE_READ && read_result == `RESULT_OK) data_q <= read_data;
         end
         if (rst_i) begin
             result_q   <= `RESULT_OK;
             sequence_q <= 8'd0;
+            fast_q     <= 1'b0;
+            data_q     <= 32'd0;
         end
     end
 
-    wire [31:0] data, ignored, triggers, emissions, loaded;
-    wire [31:0] idle_word, heartbeat_ticks, channel_mask;
-    wire [15:0] bit_ticks, fault;
+    wire [31:0] ignored, triggers, emissions, loaded, missed, underruns, fault_count, fault_channels, duty_level;
+    wire [63:0] trigger_time, emission_time, fault_time;
+    wire [31:0] idle_word, heartbeat_ticks, channel_mask, channel_edges, total_edges, emission_ticks, duty_ticks;
+    wire [15:0] fault, pulse_ticks;
+    wire [16:0] duty_share;
     wire [17:0] ramp_samples;
     wire        arm, disarm, clear, stop;
-    wire        off, armed, ramp_up, ramp_down, alive, shut;
+    wire        off, armed, ramp_up, ramp_down, stopping, alive, shut;
+    wire [3:0]  queued;
+    wire        quiet, settled;
 
     register_file #(
-        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX)
+        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
+        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
+        .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX), .DUTY_SHARE_MAX(DUTY_SHARE_MAX),
+        .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) register_file (
         .clk_i(clk_i), .rst_i(rst_i),
-        .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
-        .address_i(argument), .word0_i(word0), .word1_i(word1), .word2_i(word2),
-        .read_result_o(read_result), .write_result_o(write_result), .data_o(data),
-        .off_i(off), .run_permit_i(run_permit), .refused_i(refuse), .fault_i(fault),
-        .ignored_i(ignored), .emissions_i(emissions), .loaded_i(loaded),
-        .idle_word_o(idle_word), .bit_ticks_o(bit_ticks), .ramp_samples_o(ramp_samples),
-        .heartbeat_ticks_o(heartbeat_ticks), .channel_mask_o(channel_mask),
-        .arm_o(arm), .disarm_o(disarm), .clear_o(clear), .stop_o(stop)
+        .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
+        .address_i(argument), .words_i(words[127:0]),
+        .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
+        .off_i(off), .quiet_i((off || armed) && quiet && queued == 4'd0), .permitted_i(run_permit && temperature_ok),
+        .refused_i(refuse), .gap_i(accept && sequence_number != expected_sequence),
+        .fault_i(fault), .fault_channels_i(fault_channels), .fault_count_i(fault_count), .fault_time_i(fault_time),
+        .inputs_i({trigger_q[1], temperature_ok, run_permit}), .input_time_i(input_time_q),
+        .triggers_i(triggers), .ignored_i(ignored), .trigger_time_i(trigger_time),
+        .emissions_i(emissions), .emission_time_i(emission_time),
+        .missed_i(missed), .underruns_i(underruns), .loaded_i(loaded), .queued_i(queued), .duty_level_i(duty_level),
+        .idle_word_o(idle_word), .channel_mask_o(channel_mask), .bit_period_o(bit_period), .ramp_samples_o(ramp_samples),
+        .heartbeat_ticks_o(heartbeat_ticks), .pulse_ticks_o(pulse_ticks), .channel_edges_o(channel_edges),
+        .total_edges_o(total_edges), .emission_ticks_o(emission_ticks), .duty_share_o(duty_share), .duty_ticks_o(duty_ticks),
+        .arm_o(arm), .disarm_o(disarm), .clear_o(clear), .stop_o(stop), .trigger_o(command)
     );
 
     // Waveforms
-    wire                   slot_good;
-    wire [BUFFER_BITS-1:0] slot_buffer, landing, read_buffer;
-    wire [9:0]             slot_words, read_word;
-    wire [31:0]            read_data, drive;
-    wire                   ramp_bit, ramp_done, playing, repeating, pending, ended;
+    wire                   slot_good, slot_intact, slot_checking, checking;
+    wire [BUFFER_BITS-1:0] slot_buffer, landing, read_buffer, play_buffer, head_buffer;
+    wire [9:0]             slot_words, read_word, play_length, head_first, head_length;
+    wire [7:0]             chunks;
+    wire [2:0]             read_chunk;
+    wire [6:0]             read_within;
+    wire                   missing, underrun, play_live, head, head_live, head_polarity, pop;
+    wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
+    wire [15:0]            head_count;
+    wire [1:0]             head_start;
+    wire [31:0]            head_period, head_mask, play_data, drive;
+    wire [63:0]            head_when;
+    wire                   ramp_bit, ramp_done, playing, delayed, repeating, start, ended, ready;
+
+    assign landing_busy = (queue_uses_landing && !head_live) || player_uses_landing;
+    assign landing_live = head_live || player_live;
 
     waveform_buffer #(.SLOTS(SLOTS), .BUFFER_BITS(BUFFER_BITS)) waveform_buffer (
         .clk_i(clk_i), .rst_i(rst_i),
-        .write_i(write), .write_chunk_i(write_chunk), .write_word_i(write_word), .write_data_i(write_data),
+        .write_i(load_word), .write_word_i(word_number[6:0]), .write_data_i(word),
         .load_i(accept && kind == `TYPE_LOAD), .store_i(accept && kind == `TYPE_STORE),
-        .argument_i(argument), .word0_i(word0), .load_words_i(payload_words), .landing_busy_i(landing_was_busy),
+        .argument_i(argument), .word0_i(words[31:0]), .word1_i(words[63:32]), .load_words_i(payload_words),
+        .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
         .load_result_o(load_result), .store_result_o(store_result),
         .slot_good_o(slot_good), .slot_buffer_o(slot_buffer), .slot_words_o(slot_words),
-        .loaded_o(loaded), .landing_o(landing),
-        .read_buffer_i(read_buffer), .read_word_i(read_word), .read_data_o(read_data)
+        .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(loaded), .checking_o(checking),
+        .landing_o(landing), .chunks_o(chunks),
+        .memory_result_o(memory_result), .memory_data_o(memory_data), .crc_result_o(crc_result), .crc_data_o(crc_data),
+        .play_i(playing), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
+        .play_within_i(read_within), .missing_o(missing), .play_data_o(play_data)
+    );
+
+    reg lengths_q;                         // words 0 to 2 of a PLAY are there
+    always @(posedge clk_i) lengths_q <= !rst_i && word_valid && kind == `TYPE_PLAY && word_number == 8'd2;
+
+    play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
+        .clk_i(clk_i), .rst_i(rst_i), .begin_i(lengths_q), .accept_i(play_accept), .forget_i(stop || disarm || shut),
+        .argument_i(argument), .first_i(words[9:0]), .asked_i(words[25:16]), .count_i(words[47:32]), .start_i(words[49:48]),
+        .period_i(words[95:64]), .when_i(words[191:128]),
+        .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now_q),
+        .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
+        .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),
+        .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast_q),
+        .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queued), .full_i(queue_full),
+        .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
+    );
+
+    play_queue #(.BUFFER_BITS(BUFFER_BITS)) play_queue (
+        .clk_i(clk_i), .rst_i(rst_i), .select_i(select),
+        .write_i(word_valid && kind == `TYPE_PLAY), .write_word_i(word_number[2:0]), .write_data_i(word),
+        .push_i(push), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
+        .pop_i(pop), .drop_i(stop || disarm || shut),
+        .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
+        .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
+        .when_o(head_when), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
+        .queued_o(queued), .full_o(queue_full),
+        .address_i(argument[5:0]), .read_result_o(queue_result), .read_data_o(queue_data)
     );
 
     idle_ramp idle_ramp (
         .clk_i(clk_i), .rst_i(rst_i),
-        .up_i(ramp_up), .down_i(ramp_down), .stay_i(armed),
-        .bit_ticks_i(bit_ticks), .samples_i(ramp_samples), .bit_o(ramp_bit), .done_o(ramp_done)
+        .up_i(ramp_up), .down_i(ramp_down), .stay_i(armed || stopping),
+        .bit_ticks_i(bit_period[31:16]), .samples_i(ramp_samples), .bit_o(ramp_bit), .done_o(ramp_done)
     );
 
     waveform_player #(.BUFFER_BITS(BUFFER_BITS)) waveform_player (
-        .clk_i(clk_i), .rst_i(rst_i), .idle_word_i(idle_word), .bit_ticks_i(bit_ticks),
-        .play_i(accept && kind == `TYPE_PLAY), .count_i(word0), .period_ticks_i(word1),
-        .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
-        .armed_i(armed), .faulted_i(fault != 16'd0), .play_result_o(play_result),
-        .stop_i(stop), .drop_i(disarm || shut), .fault_i(shut), .trigger_i(trigger),
-        .landing_i(landing), .landing_busy_o(landing_busy),
-        .read_buffer_o(read_buffer), .read_word_o(read_word), .read_data_i(read_data),
+        .clk_i(clk_i), .rst_i(rst_i), .idle_word_i(idle_word), .bit_period_i(bit_period),
+        .armed_i(armed), .stop_i(stop), .disarm_i(disarm), .fault_i(shut), .trigger_i(trigger), .now_i(now_q),
+        .head_i(head), .head_buffer_i(head_buffer), .head_first_i(head_first), .head_length_i(head_length),
+        .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
+        .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_live_i(head_live),
+        .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
+        .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
+        .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
-        .drive_o(drive), .ended_o(ended), .playing_o(playing), .repeating_o(repeating), .pending_o(pending),
-        .triggers_o(triggers), .ignored_o(ignored)
+        .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),
+        .repeating_o(repeating), .settled_o(settled), .quiet_o(quiet), .ready_o(ready),
+        .triggers_o(triggers), .ignored_o(ignored), .missed_o(missed),
+        .trigger_time_o(trigger_time), .emission_time_o(emission_time)
+    );
+
+    // The way to the pins
+    wire [4:0] limits;
+    stage_limits #(.WINDOW_TICKS(EDGE_WINDOW_TICKS)) stage_limits (
+        .clk_i(clk_i), .rst_i(rst_i), .channel_i(channel_o), .active_i(playing || ramp_up || ramp_down),
+        .emission_i(playing), .start_i(start), .clear_i(clear),
+        .pulse_ticks_i(pulse_ticks), .channel_edges_i(channel_edges), .total_edges_i(total_edges),
+        .emission_ticks_i(emission_ticks), .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
+        .cause_o(limits), .channels_o(fault_channels), .duty_level_o(duty_level)
     );
 
     output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS)) output_gate (
         .clk_i(clk_i), .rst_i(rst_i),
         .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heartbeat_i(accept), .heartbeat_ticks_i(heartbeat_ticks),
-        .run_permit_i(run_permit), .ramp_done_i(ramp_done), .channel_mask_i(channel_mask), .bit_ticks_i(bit_ticks),
-        .drive_i(drive), .ended_i(ended),
-        .off_o(off), .armed_o(armed), .ramp_up_o(ramp_up), .ramp_down_o(ramp_down), .alive_o(alive), .shut_o(shut),
-        .fault_o(fault), .emissions_o(emissions),
+        .run_permit_i(run_permit), .temperature_good_i(temperature_ok), .underrun_i(underrun), .limits_i(limits),
+        .ramp_done_i(ramp_done), .settled_i(settled), .channel_mask_i(channel_mask), .bit_ticks_i(bit_period[31:16]),
+        .drive_i(drive), .now_i(now_q), .ended_i(ended),
+        .off_o(off), .armed_o(armed), .ramp_up_o(ramp_up), .ramp_down_o(ramp_down), .stopping_o(stopping),
+        .alive_o(alive), .shut_o(shut),
+        .fault_o(fault), .fault_count_o(fault_count), .fault_time_o(fault_time), .underruns_o(underruns),
+        .emissions_o(emissions),
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
 
+    assign ready_o = ready;
+    assign fault_o = fault != 16'd0;
+
     // The answer
     wire [15:0] state;
-    assign state[`STATE_ARMED]        = armed;
-    assign state[`STATE_RAMPING]      = ramp_up || ramp_down;
-    assign state[`STATE_PLAYING]      = playing;
-    assign state[`STATE_REPEATING]    = repeating;
-    assign state[`STATE_PENDING]      = pending;
-    assign state[`STATE_LANDING_BUSY] = landing_busy;
-    assign state[`STATE_RUN_PERMIT]   = run_permit;
-    assign state[`STATE_HEARTBEAT]    = alive;
-    assign state[`STATE_HV_ENABLE]    = hv_enable_o;
-    assign state[15:`STATE_HV_ENABLE+1] = 7'd0;
+    assign state[`STATE_ARMED]            = armed;
+    assign state[`STATE_RAMPING]          = ramp_up || ramp_down || stopping;
+    assign state[`STATE_PLAYING]          = playing;
+    assign state[`STATE_REPEATING]        = repeating;
+    assign state[`STATE_PENDING]          = queued != 4'd0;
+    assign state[`STATE_LANDING_BUSY]     = landing_busy;
+    assign state[`STATE_RUN_PERMIT]       = run_permit;
+    assign state[`STATE_HEARTBEAT]        = alive;
+    assign state[`STATE_HV_ENABLE]        = hv_enable_o;
+    assign state[`STATE_TEMPERATURE_GOOD] = temperature_ok;
+    assign state[`STATE_CHECKING]         = checking;
+    assign state[`STATE_DELAYED]          = delayed;
+    assign state[`STATE_READY]            = ready;
+    assign state[15:`STATE_READY+1]       = 3'd0;
 
     status_encoder status_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(select), .take_i(answer_take), .byte_o(answer),
-        .result_i(result_q), .sequence_i(sequence_q), .state_i(state), .fault_i(fault), .data_i(data),
-        .triggers_i(triggers), .timestamp_i(timestamp_q), .emissions_i(emissions)
+        .result_i(result_q), .sequence_i(sequence_q), .state_i(state), .fault_i(fault), .data_i(data_q),
+        .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
+        .queued_i({4'd0, queued}), .chunks_i(chunks), .ignored_i(ignored[15:0]),
+        .echo_i(kind == `TYPE_TEST), .byte_valid_i(byte_valid), .byte_i(byte_in)
     );
 endmodule
 

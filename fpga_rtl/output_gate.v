@@ -1,5 +1,6 @@
 // The only way from a waveform to a pin.
-// Channels move only while armed, permitted and fed by the host; else they are low, as is the high-voltage enable.
+// Channels move only while armed, permitted, cool, within the limits and fed by the host; else they are low, as is
+// the high-voltage enable.
 // A fault is kept, with its cause, until it is cleared by command; arming is refused until then.
 `default_nettype none
 `include "registers.vh"
@@ -15,30 +16,41 @@ module output_gate #(
     input  wire        heartbeat_i,        // pulse for every accepted frame
     input  wire [31:0] heartbeat_ticks_i,
     input  wire        run_permit_i,       // synchronised; low stops
+    input  wire        temperature_good_i, // synchronised; low stops
+    input  wire        underrun_i,
+    input  wire [4:0]  limits_i,           // causes from stage_limits
     input  wire        ramp_done_i,
+    input  wire        settled_i,          // nothing sounds, and the idle word has been held long enough to leave it
     input  wire [31:0] channel_mask_i,
     input  wire [15:0] bit_ticks_i,
-    input  wire [31:0] drive_i,            // two clocks after the state it belongs to
+    input  wire [31:0] drive_i,            // three clocks after the state it belongs to
+    input  wire [63:0] now_i,
     input  wire        ended_i,            // pulse: in the next clock the pins have ended an emission
     output wire        off_o,
     output wire        armed_o,
     output wire        ramp_up_o,
     output wire        ramp_down_o,
+    output wire        stopping_o,         // disarming waits for the word that plays
     output wire        alive_o,            // the host was heard in time
     output wire        shut_o,             // a fault is shutting the outputs in this clock
     output wire [15:0] fault_o,            // causes, kept
+    output wire [31:0] fault_count_o,
+    output wire [63:0] fault_time_o,
+    output wire [31:0] underruns_o,
     output wire [31:0] emissions_o,
     output wire [31:0] channel_o,
     output wire        hv_enable_o,
     output wire        hv_alive_o,
     output wire        focus_o
 );
-    localparam [1:0] OFF = 2'd0, RAMP_UP = 2'd1, ON = 2'd2, RAMP_DOWN = 2'd3;
+    localparam [2:0] OFF = 3'd0, RAMP_UP = 3'd1, ON = 3'd2, STOPPING = 3'd3, RAMP_DOWN = 3'd4;
 
-    reg [1:0]  state_q;
+    reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
-    reg [1:0]  fault_q;
-    reg        on_later_q, on_latest_q;    // state, in step with drive_i
+    reg [8:0]  fault_q;
+    reg [31:0] fault_count_q, underruns_q;
+    reg [63:0] fault_time_q;
+    reg [2:0]  on_later_q;                 // state, until it is in step with drive_i
     reg [31:0] channel_q;
     reg        hv_enable_q;
     reg        focus_q;
@@ -48,28 +60,38 @@ module output_gate #(
     reg        hv_alive_q;
 
     wire       host_silent = silence_q == 32'd0;
-    wire [1:0] cause;
-    assign cause[`FAULT_NO_PERMIT]   = state_q != OFF && !run_permit_i;
-    assign cause[`FAULT_HOST_SILENT] = state_q != OFF && host_silent;
-    wire       shut = cause != 2'b00;
-    wire       open = on_latest_q && !shut;
+    wire       on          = state_q != OFF;
+    wire [8:0] cause;
+    assign cause[`FAULT_NO_PERMIT]        = on && !run_permit_i;
+    assign cause[`FAULT_HOST_SILENT]      = on && host_silent;
+    assign cause[`FAULT_OVER_TEMPERATURE] = on && !temperature_good_i;
+    assign cause[`FAULT_UNDERRUN]         = on && underrun_i;
+    assign cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i & {5{on}};
+    wire       shut = cause != 9'd0;
+    wire       open = on_later_q[2] && !shut;
 
     always @(posedge clk_i) begin
         if (heartbeat_i)       silence_q <= heartbeat_ticks_i;
         else if (!host_silent) silence_q <= silence_q - 32'd1;
 
-        fault_q <= (clear_i ? 2'b00 : fault_q) | cause;
+        fault_q <= (clear_i ? 9'd0 : fault_q) | cause;
+        if (shut) begin
+            fault_count_q <= fault_count_q + 32'd1;
+            fault_time_q  <= now_i;
+        end
+        if (on && underrun_i) underruns_q <= underruns_q + 32'd1;
 
         case (state_q)
             OFF:       if (arm_i) state_q <= RAMP_UP;
             RAMP_UP:   if (disarm_i) state_q <= RAMP_DOWN; else if (ramp_done_i) state_q <= ON;
-            ON:        if (disarm_i) state_q <= RAMP_DOWN;
+            ON:        if (disarm_i) state_q <= STOPPING;
+            STOPPING:  if (settled_i) state_q <= RAMP_DOWN;
             RAMP_DOWN: if (ramp_done_i) state_q <= OFF;
+            default:   state_q <= OFF;
         endcase
         if (shut) state_q <= OFF;
 
-        on_later_q  <= state_q != OFF && !shut;
-        on_latest_q <= on_later_q && !shut;
+        on_later_q  <= {on_later_q[1:0], on} & {3{!shut}};
         channel_q   <= open ? drive_i & channel_mask_i : 32'd0;
         hv_enable_q <= open;
 
@@ -97,9 +119,11 @@ module output_gate #(
         if (rst_i) begin
             state_q      <= OFF;
             silence_q    <= 32'd0;
-            fault_q      <= 2'b00;
-            on_later_q   <= 1'b0;
-            on_latest_q  <= 1'b0;
+            fault_q       <= 9'd0;
+            fault_count_q <= 32'd0;
+            fault_time_q  <= 64'd0;
+            underruns_q   <= 32'd0;
+            on_later_q   <= 3'b000;
             channel_q    <= 32'd0;
             hv_enable_q  <= 1'b0;
             focus_q      <= 1'b0;
@@ -116,7 +140,11 @@ module output_gate #(
     assign ramp_down_o = state_q == RAMP_DOWN;
     assign alive_o     = !host_silent;
     assign shut_o      = shut;
-    assign fault_o     = {14'd0, fault_q};
+    assign stopping_o  = state_q == STOPPING;
+    assign fault_o     = {7'd0, fault_q};
+    assign fault_count_o = fault_count_q;
+    assign fault_time_o  = fault_time_q;
+    assign underruns_o   = underruns_q;
     assign emissions_o = emissions_q;
     assign channel_o   = channel_q;
     assign hv_enable_o = hv_enable_q;

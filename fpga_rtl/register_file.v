@@ -1,4 +1,5 @@
-// Settings, identity and counters by address; CONTROL turns into pulses.
+// Settings, identity and telemetry by address; CONTROL turns into pulses.
+// A 64-bit time is read LOW first, which holds its HIGH.
 `default_nettype none
 `include "registers.vh"
 
@@ -6,141 +7,253 @@ module register_file #(
     parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
     parameter [31:0] SLOTS               = 32'd4,
     parameter [31:0] BUILD_HASH          = 32'd0,
-    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd20_000_000
+    parameter [31:0] BOARD               = 32'd0,
+    parameter [31:0] EDGE_WINDOW_TICKS   = 32'd20_000_000,
+    // limits of the limits
+    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd20_000_000,
+    parameter [31:0] PULSE_TICKS_MIN     = 32'd4,
+    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd16_777_215,
+    parameter [31:0] TOTAL_EDGES_MAX     = 32'd536_870_911,
+    parameter [31:0] EMISSION_TICKS_MAX  = 32'd800_000,
+    parameter [31:0] DUTY_SHARE_MAX      = 32'd65_536,
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd80_000_000
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
     // accepted READ and WRITE frames
+    input  wire        accept_i,           // pulse: any frame
     input  wire        read_i,             // pulse
     input  wire        write_i,            // pulse
     input  wire [15:0] address_i,
-    input  wire [31:0] word0_i,
-    input  wire [31:0] word1_i,
-    input  wire [31:0] word2_i,
+    input  wire [127:0] words_i,
     output wire [7:0]  read_result_o,
     output wire [7:0]  write_result_o,
-    output wire [31:0] data_o,             // value of the last READ
+    output wire [31:0] data_o,             // of the register that is asked for
     // state
     input  wire        off_i,
-    input  wire        run_permit_i,
+    input  wire        quiet_i,            // nothing plays or waits
+    input  wire        permitted_i,        // run permit and temperature
     input  wire        refused_i,          // pulse: a frame was refused
+    input  wire        gap_i,              // pulse: numbers of accepted frames skip
     input  wire [15:0] fault_i,
-    input  wire [31:0] ignored_i,
+    input  wire [31:0] fault_channels_i, fault_count_i,
+    input  wire [63:0] fault_time_i,
+    input  wire [2:0]  inputs_i,
+    input  wire [63:0] input_time_i,
+    input  wire [31:0] triggers_i, ignored_i,
+    input  wire [63:0] trigger_time_i,
     input  wire [31:0] emissions_i,
-    input  wire [31:0] loaded_i,
+    input  wire [63:0] emission_time_i,
+    input  wire [31:0] missed_i, underruns_i, loaded_i,
+    input  wire [3:0]  queued_i,
+    input  wire [31:0] duty_level_i,
     // settings and commands
-    output wire [31:0] idle_word_o,
-    output wire [15:0] bit_ticks_o,
+    output wire [31:0] idle_word_o, channel_mask_o, bit_period_o,
     output wire [17:0] ramp_samples_o,
     output wire [31:0] heartbeat_ticks_o,
-    output wire [31:0] channel_mask_o,
+    output wire [15:0] pulse_ticks_o,
+    output wire [31:0] channel_edges_o, total_edges_o, emission_ticks_o,
+    output wire [16:0] duty_share_o,
+    output wire [31:0] duty_ticks_o,
     output wire        arm_o,              // pulses
     output wire        disarm_o,
     output wire        clear_o,
-    output wire        stop_o
+    output wire        stop_o,
+    output wire        trigger_o
 );
-    localparam [31:0] BIT_TICKS_WANTED = CLOCK_HZ / `BIT_CLOCK_HZ_RESET;
-    localparam [31:0] BIT_TICKS_RESET  = BIT_TICKS_WANTED < `BIT_TICKS_MIN ? `BIT_TICKS_MIN : BIT_TICKS_WANTED;
+    localparam [31:0] FEWEST           = CLOCK_HZ / `BIT_CLOCK_HZ_MAX;
+    localparam [31:0] BIT_TICKS_LOW    = FEWEST < `BIT_TICKS_MIN ? `BIT_TICKS_MIN : FEWEST;
+    localparam [31:0] MOST             = CLOCK_HZ / `BIT_CLOCK_HZ_MIN;
+    localparam [31:0] BIT_TICKS_HIGH   = MOST < BIT_TICKS_LOW ? BIT_TICKS_LOW : MOST;
+    localparam [31:0] WANTED           = CLOCK_HZ / `BIT_CLOCK_HZ_RESET;
+    localparam [31:0] BIT_TICKS_RESET  = WANTED < BIT_TICKS_LOW ? BIT_TICKS_LOW : WANTED;
+    localparam [31:0] BIT_PERIOD_LOW   = {BIT_TICKS_LOW[15:0], 16'd0};
+    localparam [31:0] BIT_PERIOD_HIGH  = {BIT_TICKS_HIGH[15:0], 16'd0};
+    localparam [31:0] BIT_PERIOD_RESET = {BIT_TICKS_RESET[15:0], 16'd0};
     localparam [31:0] RAMP_RESET       = `RAMP_SAMPLES_RESET;
     localparam [31:0] GEOMETRY         = {`CHANNELS, 5'd0, `WAVEFORM_WORDS, SLOTS[7:0]};
+    localparam [31:0] PARAMETERS       = {8'd0, `FILTER_TICKS, `TRIGGER_LATENCY_TICKS, `QUEUE_PLAYS};
 
-    reg [31:0] data_q;
-    reg [31:0] idle_word_q;
-    reg [15:0] bit_ticks_q;
+    wire [31:0] word0 = words_i[31:0];
+    wire [31:0] word1 = words_i[63:32];
+    wire [31:0] word2 = words_i[95:64];
+    wire [31:0] word3 = words_i[127:96];
+
+    reg [31:0] idle_word_q, channel_mask_q, bit_period_q;
     reg [17:0] ramp_samples_q;
     reg [31:0] heartbeat_ticks_q;
-    reg [31:0] channel_mask_q;
-    reg [31:0] frame_errors_q;
+    reg [15:0] pulse_ticks_q;
+    reg [23:0] channel_edges_q;
+    reg [28:0] total_edges_q;
+    reg [31:0] emission_ticks_q;
+    reg [16:0] duty_share_q;
+    reg [31:0] duty_ticks_q;
+    reg [31:0] frame_errors_q, gaps_q;
+    reg [31:0] high_q;             // half of the time whose LOW was read last
+    reg        unlocked_q;         // by the frame before
 
-    wire known = address_i <= `REGISTER_SLOTS_LOADED;
+    wire known = address_i <= `REGISTER_DUTY_LEVEL;
 
     reg [31:0] value;
     always @* begin
         case (address_i)
-            `REGISTER_IDENTITY:         value = `IDENTITY_MAGIC;
-            `REGISTER_PROTOCOL:         value = `PROTOCOL_VERSION;
-            `REGISTER_BUILD_HASH:       value = BUILD_HASH;
-            `REGISTER_CLOCK_HZ:         value = CLOCK_HZ;
-            `REGISTER_GEOMETRY:         value = GEOMETRY;
-            `REGISTER_IDLE_WORD:        value = idle_word_q;
-            `REGISTER_BIT_TICKS:        value = {16'd0, bit_ticks_q};
-            `REGISTER_RAMP_SAMPLES:     value = {14'd0, ramp_samples_q};
-            `REGISTER_HEARTBEAT_TICKS:  value = heartbeat_ticks_q;
-            `REGISTER_CHANNEL_MASK:     value = channel_mask_q;
-            `REGISTER_FAULT:            value = {16'd0, fault_i};
-            `REGISTER_TRIGGERS_IGNORED: value = ignored_i;
-            `REGISTER_EMISSIONS:        value = emissions_i;
-            `REGISTER_FRAME_ERRORS:     value = frame_errors_q;
-            `REGISTER_SLOTS_LOADED:     value = loaded_i;
-            default:                    value = 32'd0;
+            `REGISTER_IDENTITY:          value = `IDENTITY_MAGIC;
+            `REGISTER_PROTOCOL:          value = `PROTOCOL_VERSION;
+            `REGISTER_BUILD_HASH:        value = BUILD_HASH;
+            `REGISTER_BOARD:             value = BOARD;
+            `REGISTER_CLOCK_HZ:          value = CLOCK_HZ;
+            `REGISTER_GEOMETRY:          value = GEOMETRY;
+            `REGISTER_PARAMETERS:        value = PARAMETERS;
+            `REGISTER_EDGE_WINDOW_TICKS: value = EDGE_WINDOW_TICKS;
+            `REGISTER_IDLE_WORD:         value = idle_word_q;
+            `REGISTER_CHANNEL_MASK:      value = channel_mask_q;
+            `REGISTER_BIT_PERIOD:        value = bit_period_q;
+            `REGISTER_RAMP_SAMPLES:      value = {14'd0, ramp_samples_q};
+            `REGISTER_HEARTBEAT_TICKS:   value = heartbeat_ticks_q;
+            `REGISTER_PULSE_TICKS:       value = {16'd0, pulse_ticks_q};
+            `REGISTER_CHANNEL_EDGES:     value = {8'd0, channel_edges_q};
+            `REGISTER_TOTAL_EDGES:       value = {3'd0, total_edges_q};
+            `REGISTER_EMISSION_TICKS:    value = emission_ticks_q;
+            `REGISTER_DUTY_SHARE:        value = {15'd0, duty_share_q};
+            `REGISTER_DUTY_TICKS:        value = duty_ticks_q;
+            `REGISTER_FAULT:             value = {16'd0, fault_i};
+            `REGISTER_FAULT_CHANNELS:    value = fault_channels_i;
+            `REGISTER_FAULT_COUNT:       value = fault_count_i;
+            `REGISTER_FAULT_TIME_LOW:    value = fault_time_i[31:0];
+            `REGISTER_INPUTS:            value = {29'd0, inputs_i};
+            `REGISTER_INPUT_TIME_LOW:    value = input_time_i[31:0];
+            `REGISTER_TRIGGERS:          value = triggers_i;
+            `REGISTER_TRIGGERS_IGNORED:  value = ignored_i;
+            `REGISTER_TRIGGER_TIME_LOW:  value = trigger_time_i[31:0];
+            `REGISTER_EMISSIONS:         value = emissions_i;
+            `REGISTER_EMISSION_TIME_LOW: value = emission_time_i[31:0];
+            `REGISTER_FAULT_TIME_HIGH, `REGISTER_INPUT_TIME_HIGH, `REGISTER_TRIGGER_TIME_HIGH,
+            `REGISTER_EMISSION_TIME_HIGH: value = high_q;
+            `REGISTER_PLAYS_MISSED:      value = missed_i;
+            `REGISTER_UNDERRUNS:         value = underruns_i;
+            `REGISTER_FRAME_ERRORS:      value = frame_errors_q;
+            `REGISTER_SEQUENCE_GAPS:     value = gaps_q;
+            `REGISTER_SLOTS_LOADED:      value = loaded_i;
+            `REGISTER_QUEUE:             value = {28'd0, queued_i};
+            `REGISTER_DUTY_LEVEL:        value = duty_level_i;
+            default:                     value = 32'd0;
         endcase
     end
 
-    wire key_good = word1_i == `PROTOCOL_VERSION && word2_i == BUILD_HASH;
+    reg [31:0] high;
+    reg        low;                // a time's LOW is asked for, whose other half this is
+    always @* begin
+        low = 1'b1;
+        case (address_i)
+            `REGISTER_FAULT_TIME_LOW:    high = fault_time_i[63:32];
+            `REGISTER_INPUT_TIME_LOW:    high = input_time_i[63:32];
+            `REGISTER_TRIGGER_TIME_LOW:  high = trigger_time_i[63:32];
+            `REGISTER_EMISSION_TIME_LOW: high = emission_time_i[63:32];
+            default: begin
+                high = 32'd0;
+                low  = 1'b0;
+            end
+        endcase
+    end
+
+    wire key_good = word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
     reg [7:0] control_result;
     always @* begin
-        case (word0_i)
-            `CONTROL_ARM: control_result = !key_good ? `RESULT_BAD_KEY : !off_i ? `RESULT_ARMED
+        case (word0)
+            `CONTROL_UNLOCK: control_result = key_good ? `RESULT_OK : `RESULT_BAD_KEY;
+            `CONTROL_ARM: control_result = !unlocked_q ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
                                          : fault_i != 16'd0 ? `RESULT_FAULTED
-                                         : !run_permit_i ? `RESULT_NO_PERMIT : `RESULT_OK;
-            `CONTROL_DISARM, `CONTROL_CLEAR, `CONTROL_STOP: control_result = `RESULT_OK;
+                                         : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
+            `CONTROL_DISARM, `CONTROL_CLEAR, `CONTROL_STOP, `CONTROL_TRIGGER: control_result = `RESULT_OK;
             default: control_result = `RESULT_BAD_VALUE;
         endcase
     end
 
-    reg setting, in_range;  // address_i is a setting; word0_i is a value for it
+    reg setting, in_range;  // address_i is a setting; word0 is a value for it
     always @* begin
         setting  = 1'b1;
         in_range = 1'b1;
         case (address_i)
             `REGISTER_IDLE_WORD, `REGISTER_CHANNEL_MASK: ;
-            `REGISTER_BIT_TICKS:       in_range = word0_i >= `BIT_TICKS_MIN && word0_i <= `BIT_TICKS_MAX;
-            `REGISTER_RAMP_SAMPLES:    in_range = word0_i != 32'd0 && word0_i <= `RAMP_SAMPLES_MAX;
-            `REGISTER_HEARTBEAT_TICKS: in_range = word0_i != 32'd0 && word0_i <= HEARTBEAT_TICKS_MAX;
+            `REGISTER_BIT_PERIOD:      in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH
+                                                  && word0[31:16] >= pulse_ticks_q;
+            `REGISTER_RAMP_SAMPLES:    in_range = word0 != 32'd0 && word0 <= `RAMP_SAMPLES_MAX;
+            `REGISTER_HEARTBEAT_TICKS: in_range = word0 != 32'd0 && word0 <= HEARTBEAT_TICKS_MAX;
+            `REGISTER_PULSE_TICKS:     in_range = word0 >= PULSE_TICKS_MIN && word0 <= {16'd0, bit_period_q[31:16]};
+            `REGISTER_CHANNEL_EDGES:   in_range = word0 <= CHANNEL_EDGES_MAX;
+            `REGISTER_TOTAL_EDGES:     in_range = word0 <= TOTAL_EDGES_MAX;
+            `REGISTER_EMISSION_TICKS:  in_range = word0 <= EMISSION_TICKS_MAX;
+            `REGISTER_DUTY_SHARE:      in_range = word0 <= DUTY_SHARE_MAX;
+            `REGISTER_DUTY_TICKS:      in_range = word0 <= DUTY_TICKS_MAX;
             default:                   setting = 1'b0;
         endcase
     end
 
-    wire control = address_i == `REGISTER_CONTROL;
-    wire command = write_i && control && control_result == `RESULT_OK;
-    wire change  = write_i && setting && off_i && in_range;
+    wire control  = address_i == `REGISTER_CONTROL;
+    wire command  = write_i && control && control_result == `RESULT_OK;
+    wire is_idle  = address_i == `REGISTER_BIT_PERIOD;   // written while nothing plays or waits; all others while disarmed
+    wire free     = is_idle ? quiet_i : off_i;
+    wire change   = write_i && setting && free && in_range;
 
     always @(posedge clk_i) begin
-        if (read_i && known) data_q <= value;
+        if (read_i && low) high_q <= high;
         if (refused_i) frame_errors_q <= frame_errors_q + 32'd1;
+        if (gap_i) gaps_q <= gaps_q + 32'd1;
+        if (accept_i || refused_i) unlocked_q <= command && word0 == `CONTROL_UNLOCK;
         if (change) begin
             case (address_i)
-                `REGISTER_IDLE_WORD:       idle_word_q       <= word0_i;
-                `REGISTER_BIT_TICKS:       bit_ticks_q       <= word0_i[15:0];
-                `REGISTER_RAMP_SAMPLES:    ramp_samples_q    <= word0_i[17:0];
-                `REGISTER_HEARTBEAT_TICKS: heartbeat_ticks_q <= word0_i;
-                default:                   channel_mask_q    <= word0_i;
+                `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
+                `REGISTER_CHANNEL_MASK:    channel_mask_q    <= word0;
+                `REGISTER_BIT_PERIOD:      bit_period_q      <= word0;
+                `REGISTER_RAMP_SAMPLES:    ramp_samples_q    <= word0[17:0];
+                `REGISTER_HEARTBEAT_TICKS: heartbeat_ticks_q <= word0;
+                `REGISTER_PULSE_TICKS:     pulse_ticks_q     <= word0[15:0];
+                `REGISTER_CHANNEL_EDGES:   channel_edges_q   <= word0[23:0];
+                `REGISTER_TOTAL_EDGES:     total_edges_q     <= word0[28:0];
+                `REGISTER_EMISSION_TICKS:  emission_ticks_q  <= word0;
+                `REGISTER_DUTY_SHARE:      duty_share_q      <= word0[16:0];
+                default:                   duty_ticks_q      <= word0;
             endcase
         end
         if (rst_i) begin
-            data_q            <= 32'd0;
             idle_word_q       <= 32'd0;
-            bit_ticks_q       <= BIT_TICKS_RESET[15:0];
+            channel_mask_q    <= 32'hFFFFFFFF;
+            bit_period_q      <= BIT_PERIOD_RESET;
             ramp_samples_q    <= RAMP_RESET[17:0];
             heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
-            channel_mask_q    <= 32'hFFFFFFFF;
+            pulse_ticks_q     <= PULSE_TICKS_MIN[15:0];
+            channel_edges_q   <= CHANNEL_EDGES_MAX[23:0];
+            total_edges_q     <= TOTAL_EDGES_MAX[28:0];
+            emission_ticks_q  <= EMISSION_TICKS_MAX;
+            duty_share_q      <= DUTY_SHARE_MAX[16:0];
+            duty_ticks_q      <= DUTY_TICKS_MAX;
             frame_errors_q    <= 32'd0;
+            gaps_q            <= 32'd0;
+            high_q            <= 32'd0;
+            unlocked_q        <= 1'b0;
         end
     end
 
     assign read_result_o  = known ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;
     assign write_result_o = !known ? `RESULT_UNKNOWN_REGISTER : control ? control_result : !setting ? `RESULT_READ_ONLY
-                          : !off_i ? `RESULT_ARMED : !in_range ? `RESULT_BAD_VALUE : `RESULT_OK;
-    assign data_o            = data_q;
+                          : !free ? (is_idle ? `RESULT_BUSY : `RESULT_ARMED) : !in_range ? `RESULT_BAD_VALUE : `RESULT_OK;
+    assign data_o            = value;
     assign idle_word_o       = idle_word_q;
-    assign bit_ticks_o       = bit_ticks_q;
+    assign channel_mask_o    = channel_mask_q;
+    assign bit_period_o      = bit_period_q;
     assign ramp_samples_o    = ramp_samples_q;
     assign heartbeat_ticks_o = heartbeat_ticks_q;
-    assign channel_mask_o    = channel_mask_q;
-    assign arm_o    = command && word0_i == `CONTROL_ARM;
-    assign disarm_o = command && word0_i == `CONTROL_DISARM;
-    assign clear_o  = command && word0_i == `CONTROL_CLEAR;
-    assign stop_o   = command && word0_i == `CONTROL_STOP;
+    assign pulse_ticks_o     = pulse_ticks_q;
+    assign channel_edges_o   = {8'd0, channel_edges_q};
+    assign total_edges_o     = {3'd0, total_edges_q};
+    assign emission_ticks_o  = emission_ticks_q;
+    assign duty_share_o      = duty_share_q;
+    assign duty_ticks_o      = duty_ticks_q;
+    assign arm_o     = command && word0 == `CONTROL_ARM;
+    assign disarm_o  = command && word0 == `CONTROL_DISARM;
+    assign clear_o   = command && word0 == `CONTROL_CLEAR;
+    assign stop_o    = command && word0 == `CONTROL_STOP;
+    assign trigger_o = command && word0 == `CONTROL_TRIGGER;
 endmodule
 
 `default_nettype wire

@@ -1,6 +1,7 @@
 // What the channels should do: the idle word, the ramp to it, or the words of an emission.
-// One accepted play command waits for the trigger; one trigger starts exactly one.
-// From state to drive_o it takes two clocks (memory, selection), to the pins three.
+// The play at the head of the queue begins with a trigger, when nothing sounds, or at its time; one trigger starts
+// exactly one. Behind an emission the idle word is held for a bit period at least, so that no pulse is short.
+// From state to drive_o it takes three clocks (memory, register, selection), to the pins four.
 `default_nettype none
 `include "registers.vh"
 
@@ -11,157 +12,240 @@ module waveform_player #(
     input  wire                   rst_i,
     // settings
     input  wire [31:0]            idle_word_i,
-    input  wire [15:0]            bit_ticks_i,
+    input  wire [31:0]            bit_period_i,
     // commands
-    input  wire                   play_i,          // pulse: accepted PLAY frame, judged here
-    input  wire [31:0]            count_i,         // 0: endless
-    input  wire [31:0]            period_ticks_i,
-    input  wire                   slot_good_i,
-    input  wire [BUFFER_BITS-1:0] slot_buffer_i,
-    input  wire [9:0]             slot_words_i,
     input  wire                   armed_i,
-    input  wire                   faulted_i,
-    output wire [7:0]             play_result_o,
-    input  wire                   stop_i,          // pulse
-    input  wire                   drop_i,          // disarming or a fault
+    input  wire                   stop_i,          // pulse: drop what waits, end with this emission
+    input  wire                   disarm_i,        // pulse: drop what waits, end with this word
     input  wire                   fault_i,         // outputs are being shut: nothing on its way counts
     input  wire                   trigger_i,       // pulse
+    input  wire [63:0]            now_i,
+    // the head of the queue
+    input  wire                   head_i,
+    input  wire [BUFFER_BITS-1:0] head_buffer_i,
+    input  wire [9:0]             head_first_i,
+    input  wire [9:0]             head_length_i,
+    input  wire [15:0]            head_count_i,    // 0: endless
+    input  wire [1:0]             head_start_i,
+    input  wire                   head_polarity_i,
+    input  wire [31:0]            head_period_ticks_i,
+    input  wire [31:0]            head_mask_i,
+    input  wire [63:0]            head_when_i,     // delay or time
+    input  wire                   head_live_i,
+    output wire                   pop_o,
     // buffers
     input  wire [BUFFER_BITS-1:0] landing_i,
-    output wire                   landing_busy_o,
+    output wire                   landing_used_o,  // and not live
+    output wire                   live_o,          // what plays is still arriving
     output wire [BUFFER_BITS-1:0] read_buffer_o,
     output wire [9:0]             read_word_o,
-    input  wire [31:0]            read_data_i,     // one clock later
+    output wire [2:0]             read_chunk_o,
+    output wire [6:0]             read_within_o,
+    input  wire                   missing_i,       // that word has not arrived
+    input  wire [31:0]            read_data_i,     // two clocks later
+    output wire                   underrun_o,
     // ramp
     input  wire                   ramping_i,
     input  wire                   ramp_bit_i,      // one clock later
     // out
     output wire [31:0]            drive_o,
+    output wire                   start_o,         // pulse: an emission begins in the next clock
     output wire                   ended_o,         // pulse: in the next clock the pins have ended an emission
     output wire                   playing_o,
+    output wire                   delayed_o,
     output wire                   repeating_o,
-    output wire                   pending_o,
+    output wire                   settled_o,       // nothing sounds, and the idle word is a bit period old
+    output wire                   quiet_o,         // nor waits in a delay or repeats
+    output wire                   ready_o,         // the head waits for a trigger
     output wire [31:0]            triggers_o,
-    output wire [31:0]            ignored_o
+    output wire [31:0]            ignored_o,
+    output wire [31:0]            missed_o,
+    output wire [63:0]            trigger_time_o,
+    output wire [63:0]            emission_time_o
 );
-    reg                   pending_q;
-    reg [BUFFER_BITS-1:0] pending_buffer_q;
-    reg [9:0]             pending_words_q;
-    reg [31:0]            pending_count_q, pending_period_q;
-
-    reg                   playing_q;
-    reg                   endless_q;
-    reg [31:0]            remaining_q;     // emissions after this one
+    reg                   playing_q, delayed_q, endless_q, halting_q;
+    reg [15:0]            remaining_q;     // emissions after this one
     reg [BUFFER_BITS-1:0] buffer_q;
-    reg [9:0]             words_q;         // of the waveform
-    reg [9:0]             word_q;          // being played
+    reg                   live_q, polarity_q;
+    reg [31:0]            mask_q;
+    reg [9:0]             first_q, length_q;
+    reg [9:0]             word_q, left_q;  // being played; behind it
+    reg [2:0]             chunk_q;         // the same word, while it plays from the first
+    reg [6:0]             within_q;
     reg [15:0]            hold_q;          // ticks left of it
-    reg [31:0]            period_q;
-    reg [31:0]            until_next_q;    // ticks left until the next emission may begin
+    reg [15:0]            fraction_q;      // of a tick by which it begins early
+    reg [31:0]            period_q, until_next_q, delay_left_q;
+    reg [15:0]            rest_q;
 
-    reg [9:0]             asked_words_q;
-    reg [25:0]            shortest_q;      // ticks of the emission asked for; settled long before its frame ends
-
-    reg                   playing_later_q, ramping_later_q;
+    reg [63:0]            ahead_q;         // what now_i will be when a play decided on in the next clock is on the pins
+    reg                   due_q, missed_q; // the time of the head has come; has passed
+    reg [1:0]             playing_later_q, ramping_later_q;
+    reg                   ramp_bit_q;
     reg [31:0]            drive_q;
-    reg [2:0]             ended_q;
-    reg [31:0]            triggers_q, ignored_q;
+    reg [3:0]             ended_q;
+    reg [31:0]            triggers_q, ignored_q, missed_count_q;
+    reg [63:0]            trigger_time_q, emission_time_q;
 
-    wire repeating = endless_q || remaining_q != 32'd0;
-    wire last      = playing_q && hold_q == 16'd0 && word_q == words_q - 10'd1;
-    wire due       = repeating && until_next_q == 32'd0;
-    wire start     = trigger_i && pending_q && !playing_q;
-    wire too_short = count_i != 32'd1 && period_ticks_i < {6'd0, shortest_q};
-    wire play_good = slot_good_i && !faulted_i && armed_i && slot_words_i != 10'd0 && !pending_q && !too_short;
+    wire repeating = endless_q || remaining_q != 16'd0;
+    wire resting   = rest_q != 16'd0;
+    wire halted    = stop_i || disarm_i || fault_i;  // nothing begins in this clock
+    wire free      = armed_i && !playing_q && !delayed_q && !resting && !halted;
+    wire by_trigger = head_i && head_start_i == `START_TRIGGER && trigger_i;
+    wire by_time    = head_i && head_start_i == `START_TIME && due_q;
+    wire at_once    = head_i && head_start_i == `START_NOW && remaining_q == 16'd0;
+    wire begins    = free && (by_trigger || by_time || at_once);
+    wire missed    = head_i && missed_q;
+    wire delay     = head_start_i != `START_TIME && head_when_i[31:0] != 32'd0;
+
+    wire boundary  = playing_q && hold_q == 16'd0;
+    wire last      = boundary && left_q == 10'd0;
+    wire due       = repeating && !delayed_q && until_next_q == 32'd0 && !begins && !halted;
+    wire released  = delayed_q && delay_left_q == 32'd0 && !halted;
+    wire from_head = begins && !delay;
+    wire start     = due || released || from_head;
+    wire [16:0] next_fraction = {1'b0, fraction_q} + {1'b0, bit_period_i[15:0]};
 
     always @(posedge clk_i) begin
-        asked_words_q <= slot_words_i;
-        shortest_q    <= asked_words_q * bit_ticks_i;
+        if (trigger_i) begin
+            triggers_q     <= triggers_q + 32'd1;
+            trigger_time_q <= now_i;
+        end
+        if (trigger_i && !(begins && by_trigger)) ignored_q <= ignored_q + 32'd1;
+        if (missed) missed_count_q <= missed_count_q + 32'd1;
+        ahead_q  <= ahead_q + 64'd1;
+        due_q    <= head_i && head_when_i == ahead_q;
+        missed_q <= head_i && head_start_i == `START_TIME && head_when_i < ahead_q && !pop_o;
 
-        if (trigger_i)           triggers_q <= triggers_q + 32'd1;
-        if (trigger_i && !start) ignored_q  <= ignored_q + 32'd1;
-
-        if (hold_q == 16'd0) begin
-            hold_q <= bit_ticks_i - 16'd1;
-            word_q <= word_q + 10'd1;
+        // words of an emission
+        if (boundary) begin
+            hold_q     <= bit_period_i[31:16] - 16'd1 + {15'd0, next_fraction[16]};
+            fraction_q <= next_fraction[15:0];
+            word_q     <= word_q + 10'd1;
+            left_q     <= left_q - 10'd1;
+            within_q   <= within_q == 7'd124 ? 7'd0 : within_q + 7'd1;
+            if (within_q == 7'd124) chunk_q <= chunk_q + 3'd1;
         end else hold_q <= hold_q - 16'd1;
+        if (last || (boundary && halting_q)) begin
+            playing_q <= 1'b0;
+            halting_q <= 1'b0;
+        end
         if (until_next_q != 32'd0) until_next_q <= until_next_q - 32'd1;
+        if (delayed_q) delay_left_q <= delay_left_q - 32'd1;
+        if (playing_q || ramping_i) rest_q <= bit_period_i[31:16];
+        else if (resting) rest_q <= rest_q - 16'd1;
 
-        if (last) playing_q <= 1'b0;
-        if (due) remaining_q <= endless_q ? 32'd0 : remaining_q - 32'd1;
+        if (begins) begin
+            buffer_q     <= head_buffer_i;
+            first_q      <= head_first_i;
+            length_q     <= head_length_i;
+            period_q     <= head_period_ticks_i;
+            mask_q       <= head_mask_i;
+            polarity_q   <= head_polarity_i;
+            live_q       <= head_live_i;
+            endless_q    <= head_count_i == 16'd0;
+            remaining_q  <= head_count_i == 16'd0 ? 16'd0 : head_count_i - 16'd1;
+            delayed_q    <= delay;
+            delay_left_q <= head_when_i[31:0] - 32'd1;
+        end else if (due && !endless_q) remaining_q <= remaining_q - 16'd1;
+        if (released) delayed_q <= 1'b0;
         if (start) begin
-            pending_q   <= 1'b0;
-            buffer_q    <= pending_buffer_q;
-            words_q     <= pending_words_q;
-            period_q    <= pending_period_q;
-            endless_q   <= pending_count_q == 32'd0;
-            remaining_q <= pending_count_q == 32'd0 ? 32'd0 : pending_count_q - 32'd1;
+            playing_q       <= 1'b1;
+            word_q          <= from_head ? head_first_i : first_q;
+            left_q          <= (from_head ? head_length_i : length_q) - 10'd1;
+            chunk_q         <= 3'd0;
+            within_q        <= 7'd0;
+            hold_q          <= bit_period_i[31:16] - 16'd1;
+            fraction_q      <= bit_period_i[15:0];
+            until_next_q    <= (from_head ? head_period_ticks_i : period_q) - 32'd1;
+            emission_time_q <= ahead_q - 64'd1;
         end
-        if (due || start) begin
-            playing_q    <= 1'b1;
-            word_q       <= 10'd0;
-            hold_q       <= bit_ticks_i - 16'd1;
-            until_next_q <= (start ? pending_period_q : period_q) - 32'd1;
-        end
-        if (play_i && play_good) begin
-            pending_q        <= 1'b1;
-            pending_buffer_q <= slot_buffer_i;
-            pending_words_q  <= slot_words_i;
-            pending_count_q  <= count_i;
-            pending_period_q <= period_ticks_i;
-        end
-        if (stop_i || drop_i) begin
-            pending_q   <= 1'b0;
+        if (stop_i || disarm_i) begin
             endless_q   <= 1'b0;
-            remaining_q <= 32'd0;
+            remaining_q <= 16'd0;
+            delayed_q   <= 1'b0;
         end
-        if (drop_i) playing_q <= 1'b0;
+        if (disarm_i && playing_q) begin
+            halting_q <= !boundary;
+            if (boundary) playing_q <= 1'b0;
+        end
+        if (fault_i) begin
+            playing_q   <= 1'b0;
+            halting_q   <= 1'b0;
+            delayed_q   <= 1'b0;
+            endless_q   <= 1'b0;
+            remaining_q <= 16'd0;
+            rest_q      <= 16'd0;
+        end
 
-        playing_later_q <= playing_q;
-        ramping_later_q <= ramping_i;
-        drive_q <= ramping_later_q ? idle_word_i & {32{ramp_bit_i}} : playing_later_q ? read_data_i : idle_word_i;
-        ended_q <= fault_i ? 3'b000 : {ended_q[1:0], last};
+        playing_later_q <= {playing_later_q[0], playing_q};
+        ramping_later_q <= {ramping_later_q[0], ramping_i};
+        ramp_bit_q      <= ramp_bit_i;
+        drive_q <= ramping_later_q[1] ? idle_word_i & {32{ramp_bit_q}}
+                 : playing_later_q[1] ? (mask_q & (read_data_i ^ {32{polarity_q}})) | (~mask_q & idle_word_i) : idle_word_i;
+        ended_q <= fault_i ? 4'b0000 : {ended_q[2:0], last};
 
         if (rst_i) begin
-            pending_q        <= 1'b0;
-            pending_buffer_q <= {BUFFER_BITS{1'b0}};
-            pending_words_q  <= 10'd0;
-            pending_count_q  <= 32'd0;
-            pending_period_q <= 32'd0;
-            playing_q        <= 1'b0;
-            endless_q        <= 1'b0;
-            remaining_q      <= 32'd0;
-            buffer_q         <= {BUFFER_BITS{1'b0}};
-            words_q          <= 10'd0;
-            word_q           <= 10'd0;
-            hold_q           <= 16'd0;
-            period_q         <= 32'd0;
-            until_next_q     <= 32'd0;
-            asked_words_q    <= 10'd0;
-            shortest_q       <= 26'd0;
-            playing_later_q  <= 1'b0;
-            ramping_later_q  <= 1'b0;
-            drive_q          <= 32'd0;
-            ended_q          <= 3'b000;
-            triggers_q       <= 32'd0;
-            ignored_q        <= 32'd0;
+            playing_q       <= 1'b0;
+            delayed_q       <= 1'b0;
+            endless_q       <= 1'b0;
+            halting_q       <= 1'b0;
+            remaining_q     <= 16'd0;
+            buffer_q        <= {BUFFER_BITS{1'b0}};
+            live_q          <= 1'b0;
+            polarity_q      <= 1'b0;
+            mask_q          <= 32'd0;
+            first_q         <= 10'd0;
+            length_q        <= 10'd0;
+            word_q          <= 10'd0;
+            left_q          <= 10'd0;
+            chunk_q         <= 3'd0;
+            within_q        <= 7'd0;
+            hold_q          <= 16'd0;
+            fraction_q      <= 16'd0;
+            period_q        <= 32'd0;
+            until_next_q    <= 32'd0;
+            delay_left_q    <= 32'd0;
+            rest_q          <= 16'd0;
+            ahead_q         <= 64'd6;
+            due_q           <= 1'b0;
+            missed_q        <= 1'b0;
+            playing_later_q <= 2'b00;
+            ramping_later_q <= 2'b00;
+            ramp_bit_q      <= 1'b0;
+            drive_q         <= 32'd0;
+            ended_q         <= 4'b0000;
+            triggers_q      <= 32'd0;
+            ignored_q       <= 32'd0;
+            missed_count_q  <= 32'd0;
+            trigger_time_q  <= 64'd0;
+            emission_time_q <= 64'd0;
         end
     end
 
-    assign play_result_o  = !slot_good_i ? `RESULT_BAD_SLOT : faulted_i ? `RESULT_FAULTED : !armed_i ? `RESULT_NOT_ARMED
-                          : slot_words_i == 10'd0 ? `RESULT_EMPTY_SLOT : pending_q ? `RESULT_BUSY
-                          : too_short ? `RESULT_BAD_VALUE : `RESULT_OK;
-    assign landing_busy_o = ((playing_q || repeating) && buffer_q == landing_i)
-                         || (pending_q && pending_buffer_q == landing_i);
-    assign read_buffer_o  = buffer_q;
-    assign read_word_o    = word_q;
-    assign drive_o        = drive_q;
-    assign ended_o        = ended_q[2];
-    assign playing_o      = playing_q;
-    assign repeating_o    = repeating;
-    assign pending_o      = pending_q;
-    assign triggers_o     = triggers_q;
-    assign ignored_o      = ignored_q;
+    wire running = playing_q || delayed_q || repeating;
+
+    assign pop_o           = begins || missed;
+    assign landing_used_o  = running && buffer_q == landing_i && !live_q;
+    assign live_o          = running && live_q;
+    assign read_buffer_o   = buffer_q;
+    assign read_word_o     = word_q;
+    assign read_chunk_o    = chunk_q;
+    assign read_within_o   = within_q;
+    assign underrun_o      = playing_q && live_q && missing_i;
+    assign drive_o         = drive_q;
+    assign start_o         = start;
+    assign ended_o         = ended_q[3];
+    assign playing_o       = playing_q;
+    assign delayed_o       = delayed_q;
+    assign repeating_o     = repeating;
+    assign settled_o       = !playing_q && !resting;
+    assign quiet_o         = !running && !resting;
+    assign ready_o         = head_i && head_start_i == `START_TRIGGER && free;
+    assign triggers_o      = triggers_q;
+    assign ignored_o       = ignored_q;
+    assign missed_o        = missed_count_q;
+    assign trigger_time_o  = trigger_time_q;
+    assign emission_time_o = emission_time_q;
 endmodule
 
 `default_nettype wire

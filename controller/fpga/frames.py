@@ -5,7 +5,7 @@ bytes before it:
 
     u16 sync | u8 type | u8 sequence | u16 payload bytes | u16 argument | payload | u32 CRC-32
 
-Every frame but LOAD is 32 bytes, as is the status that comes back meanwhile. Nothing here works
+Every frame but LOAD and TEST is 36 bytes, as is the status that comes back meanwhile. Nothing here works
 byte by byte: header, payload and CRC are one C call each, and a waveform is copied once.
 """
 
@@ -17,9 +17,11 @@ from typing import NamedTuple
 
 from controller.errors import LinkError
 from controller.fpga.registers import (
+    CHANNELS,
     CHUNK_WORDS,
     CHUNKS,
     FRAME_SYNC,
+    IDENTITY_MAGIC,
     LOAD_PAYLOAD_MAX_BYTES,
     LOAD_PAYLOAD_MIN_BYTES,
     PROTOCOL_VERSION,
@@ -31,15 +33,19 @@ from controller.fpga.registers import (
     FrameType,
     Register,
     Result,
+    Start,
     State,
 )
 
 HEADER = struct.Struct("<HBBHH")
-SHORT = struct.Struct("<HBBHH5I")  # a short frame but for its CRC
-STATUS = struct.Struct("<HBBHHIIQII")
+SHORT = struct.Struct("<HBBHH6I")  # a short frame but for its CRC
+PLAY = struct.Struct("<HBBHHHHHBBIIQ")
+STATUS = struct.Struct("<HBBHHIIQIBBHI")
 CRC = struct.Struct("<I")
 
-FRAME_BYTES = 32  # of a status and of every frame but LOAD
+FRAME_BYTES = 36  # of a status and of every frame but LOAD and TEST
+ALL_CHANNELS = (1 << CHANNELS) - 1
+ECHO_DELAY_BYTES = 2  # behind the status, the answer to a TEST is what it brought, so much later
 LOAD_FRAME_BYTES = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size  # of a full chunk
 UPLOAD_BYTES = CHUNKS * LOAD_FRAME_BYTES  # of the longest waveform
 
@@ -58,10 +64,13 @@ class Status(NamedTuple):
     trigger_count: int  # all rising edges seen, modulo 2**32
     timestamp_ticks: int  # clocks since reset
     emissions: int  # that ran to their end, modulo 2**32
+    queued: int = 0  # plays accepted and not yet begun
+    chunks: int = 0  # bit k: chunk k of the upload under way was accepted
+    ignored: int = 0  # triggers that found nothing to start, modulo 2**16
 
 
 def pack_short(buffer: WritableBuffer, offset: int, kind: FrameType, sequence: int, argument: int, *words: int) -> int:
-    """Pack a frame of 32 bytes at `offset`; payload words not given are 0.
+    """Pack a short frame at `offset`; payload words not given are 0.
 
     Returns
     -------
@@ -87,24 +96,83 @@ def pack_write(buffer: WritableBuffer, offset: int, sequence: int, register: int
     return pack_short(buffer, offset, FrameType.WRITE, sequence, register, value)
 
 
-def pack_arm(buffer: WritableBuffer, offset: int, sequence: int, build_hash: int) -> int:
-    """Pack the command that ramps to the idle word, sent once identity and build are known; returns its end."""
-    return pack_short(buffer, offset, FrameType.WRITE, sequence, Register.CONTROL, Control.ARM, PROTOCOL_VERSION, build_hash)
+def pack_unlock(buffer: WritableBuffer, offset: int, sequence: int, build_hash: int) -> int:
+    """Pack the command that has to come directly before ARM, sent once identity and build are known; returns its end."""
+    words = (Control.UNLOCK, IDENTITY_MAGIC, PROTOCOL_VERSION, build_hash)
+    return pack_short(buffer, offset, FrameType.WRITE, sequence, Register.CONTROL, *words)
 
 
 def pack_control(buffer: WritableBuffer, offset: int, sequence: int, command: Control) -> int:
-    """Pack DISARM, CLEAR or STOP; returns its end."""
+    """Pack ARM, DISARM, CLEAR, STOP or TRIGGER; returns its end."""
     return pack_short(buffer, offset, FrameType.WRITE, sequence, Register.CONTROL, command)
 
 
-def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, length_words: int) -> int:
-    """Pack the command that makes the chunks loaded before the waveform of a slot; returns its end."""
-    return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words)
+def pack_store(buffer: WritableBuffer, offset: int, sequence: int, slot: int, length_words: int, crc: int) -> int:
+    """Pack the command that makes the chunks loaded before the waveform of a slot, if its bytes have this CRC; returns its end."""
+    return pack_short(buffer, offset, FrameType.STORE, sequence, slot, length_words, crc)
 
 
-def pack_play(buffer: WritableBuffer, offset: int, sequence: int, slot: int, *, count: int = 1, period_ticks: int = 0) -> int:
-    """Pack a play of `count` emissions (0: endless), begun by the next trigger; returns its end."""
-    return pack_short(buffer, offset, FrameType.PLAY, sequence, slot, count, period_ticks)
+def pack_play(
+    buffer: WritableBuffer,
+    offset: int,
+    sequence: int,
+    slot: int,
+    *,
+    first: int = 0,
+    length: int = 0,
+    count: int = 1,
+    period_ticks: int = 0,
+    start: Start = Start.TRIGGER,
+    when_ticks: int = 0,
+    mask: int = ALL_CHANNELS,
+    inverted: bool = False,
+) -> int:
+    """Pack a play of a slot's waveform; returns its end.
+
+    Parameters
+    ----------
+    slot : int
+        Or PLAY_LANDING: what is still arriving, from its first word.
+    first, length : int
+        Words of the waveform; length 0: to its end.
+    count, period_ticks : int
+        Emissions (0: endless, at most 65535) and ticks from start to start.
+    start : Start
+        By the next trigger, as soon as nothing sounds, or at a time.
+    when_ticks : int
+        The time at which the first word is on the pins; for the other starts the delay behind them.
+    mask : int
+        Bit q: channel q plays; the others keep their idle level.
+    inverted : bool
+        Play ones as zeros.
+    """
+    PLAY.pack_into(
+        buffer,
+        offset,
+        FRAME_SYNC,
+        FrameType.PLAY,
+        sequence & 0xFF,
+        SHORT_PAYLOAD_BYTES,
+        slot,
+        first,
+        length,
+        count,
+        start,
+        inverted,
+        period_ticks,
+        mask,
+        when_ticks,
+    )
+    return _seal(buffer, offset, offset + PLAY.size)
+
+
+def pack_test(buffer: WritableBuffer, offset: int, sequence: int, payload: ReadableBuffer) -> int:
+    """Pack 20 to 500 bytes, a multiple of 4, that come back behind the status; returns its end."""
+    start = offset + HEADER.size
+    end = start + len(payload)
+    buffer[start:end] = payload
+    HEADER.pack_into(buffer, offset, FRAME_SYNC, FrameType.TEST, sequence & 0xFF, len(payload), 0)
+    return _seal(buffer, offset, end)
 
 
 def pack_load(buffer: WritableBuffer, offset: int, sequence: int, chunk: int, words: memoryview) -> int:
@@ -155,8 +223,7 @@ def upload_slices(length_words: int) -> tuple[slice, ...]:
 
 def pack_status(buffer: WritableBuffer, offset: int, status: Status) -> int:
     """Pack what the FPGA answers; returns its end."""
-    result, sequence, state, faults, *counters = status
-    STATUS.pack_into(buffer, offset, STATUS_SYNC, result, sequence, state, faults, *counters, 0)
+    STATUS.pack_into(buffer, offset, STATUS_SYNC, *status, 0)
     return _seal(buffer, offset, offset + FRAME_BYTES - CRC.size)
 
 
@@ -168,12 +235,12 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     LinkError
         If it has no sync word or a wrong CRC, or a code this version does not know.
     """
-    result, sequence, state, faults, data, triggers, timestamp, emissions = _checked(buffer, offset)
+    result, sequence, state, faults, *counters = _checked(buffer, offset)
     try:
         code = Result(result)
     except ValueError:
         raise LinkError(f"status has result code {result}, which this version does not know") from None
-    return Status(code, sequence, State(state), Fault(faults), data, triggers, timestamp, emissions)
+    return Status(code, sequence, State(state), Fault(faults), *counters)
 
 
 def answered_well(buffer: ReadableBuffer, offset: int, sequence: int) -> bool:
@@ -196,7 +263,7 @@ def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
     return tuple(fields)
 
 
-_ZEROS = tuple((0,) * (5 - given) for given in range(6))
+_ZEROS = tuple((0,) * (6 - given) for given in range(7))
 
 
 def _seal(buffer: WritableBuffer, start: int, end: int) -> int:

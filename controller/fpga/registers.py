@@ -8,28 +8,38 @@ from __future__ import annotations
 from enum import IntEnum, IntFlag
 from typing import Final, NamedTuple
 
-PROTOCOL_VERSION: Final = 1
+PROTOCOL_VERSION: Final = 2
 IDENTITY_MAGIC: Final = int.from_bytes(b"HPNL", "little")
 
 FRAME_SYNC: Final = 0xA55A
 STATUS_SYNC: Final = 0x5AA5
 CRC_RESIDUE: Final = 0xDEBB20E3
 
-SHORT_PAYLOAD_BYTES: Final = 20
+SHORT_PAYLOAD_BYTES: Final = 24
 LOAD_PAYLOAD_MIN_BYTES: Final = 20
 LOAD_PAYLOAD_MAX_BYTES: Final = 500
 CHUNKS: Final = 8
 CHUNK_WORDS: Final = 125
 WAVEFORM_WORDS: Final = 1000
 CHANNELS: Final = 32
+QUEUE_PLAYS: Final = 8
 
 BIT_TICKS_MIN: Final = 4
-BIT_TICKS_MAX: Final = 65535
+BIT_CLOCK_HZ_MAX: Final = 2_000_000
+BIT_CLOCK_HZ_MIN: Final = 100_000
+BIT_CLOCK_HZ_RESET: Final = 500_000
 RAMP_SAMPLES_MAX: Final = 262143
 RAMP_SAMPLES_RESET: Final = 5000
-BIT_CLOCK_HZ_RESET: Final = 500_000
+DUTY_FULL: Final = 65536
 
-TRIGGER_LATENCY_TICKS: Final = 5
+FILTER_TICKS: Final = 3
+TRIGGER_LATENCY_TICKS: Final = 8
+TIME_LEAD_TICKS: Final = 30
+
+PLAY_LANDING: Final = 0xFFFF
+READ_SLOT_CRC: Final = 0x0100
+READ_QUEUE: Final = 0x0200
+READ_MEMORY: Final = 0x8000
 
 
 class FrameType(IntEnum):
@@ -41,6 +51,24 @@ class FrameType(IntEnum):
     LOAD = 3
     STORE = 4
     PLAY = 5
+    TEST = 6
+
+
+class Start(IntEnum):
+    """What a play waits for, once it is at the head of the queue."""
+
+    TRIGGER = 0
+    NOW = 1
+    TIME = 2
+
+
+class Description(NamedTuple):
+    """One register: `access` is RO, WO, RW (written only while disarmed) or RW idle (written while nothing plays or waits)."""
+
+    access: str
+    bits: str
+    reset: str
+    text: str
 
 
 class Register(IntEnum):
@@ -49,47 +77,117 @@ class Register(IntEnum):
     IDENTITY = 0
     PROTOCOL = 1
     BUILD_HASH = 2
-    CLOCK_HZ = 3
-    GEOMETRY = 4
-    CONTROL = 5
-    IDLE_WORD = 6
-    BIT_TICKS = 7
-    RAMP_SAMPLES = 8
-    HEARTBEAT_TICKS = 9
+    BOARD = 3
+    CLOCK_HZ = 4
+    GEOMETRY = 5
+    PARAMETERS = 6
+    EDGE_WINDOW_TICKS = 7
+    CONTROL = 8
+    IDLE_WORD = 9
     CHANNEL_MASK = 10
-    FAULT = 11
-    TRIGGERS_IGNORED = 12
-    EMISSIONS = 13
-    FRAME_ERRORS = 14
-    SLOTS_LOADED = 15
-
-
-class Description(NamedTuple):
-    """How a register is used: `access` is RO, RW (written only while disarmed) or WO."""
-
-    access: str
-    text: str
+    BIT_PERIOD = 11
+    RAMP_SAMPLES = 12
+    HEARTBEAT_TICKS = 13
+    PULSE_TICKS = 14
+    CHANNEL_EDGES = 15
+    TOTAL_EDGES = 16
+    EMISSION_TICKS = 17
+    DUTY_SHARE = 18
+    DUTY_TICKS = 19
+    FAULT = 20
+    FAULT_CHANNELS = 21
+    FAULT_COUNT = 22
+    FAULT_TIME_LOW = 23
+    FAULT_TIME_HIGH = 24
+    INPUTS = 25
+    INPUT_TIME_LOW = 26
+    INPUT_TIME_HIGH = 27
+    TRIGGERS = 28
+    TRIGGERS_IGNORED = 29
+    TRIGGER_TIME_LOW = 30
+    TRIGGER_TIME_HIGH = 31
+    EMISSIONS = 32
+    EMISSION_TIME_LOW = 33
+    EMISSION_TIME_HIGH = 34
+    PLAYS_MISSED = 35
+    UNDERRUNS = 36
+    FRAME_ERRORS = 37
+    SEQUENCE_GAPS = 38
+    SLOTS_LOADED = 39
+    QUEUE = 40
+    DUTY_LEVEL = 41
 
 
 REGISTERS: Final[dict[Register, Description]] = {
-    Register.IDENTITY: Description("RO", "'HPNL': this is a haptic panel"),
-    Register.PROTOCOL: Description("RO", "version of these frames and registers"),
-    Register.BUILD_HASH: Description("RO", "CRC-32 of the Verilog it was built from"),
-    Register.CLOCK_HZ: Description("RO", "clocks per second: what a tick is"),
-    Register.GEOMETRY: Description("RO", "slots, words per slot (from bit 8), channels (from bit 24)"),
-    Register.CONTROL: Description("WO", "1 ARM (version, build hash), 2 DISARM, 3 CLEAR faults, 4 STOP"),
-    Register.IDLE_WORD: Description("RW", "level of each channel while armed and not playing; 0 after reset"),
-    Register.BIT_TICKS: Description("RW", "clocks one drive word is held, 4 to 65535; 500 kHz after reset"),
-    Register.RAMP_SAMPLES: Description("RW", "drive words in the glide between 0 and idle, 1 to 262143; 5000 after reset"),
-    Register.HEARTBEAT_TICKS: Description(
-        "RW", "clocks without a good frame until HOST_SILENT; at most, and after reset, the limit built in"
+    Register.IDENTITY: Description("RO", "31:0", "0x4C4E5048", "'HPNL': this is a haptic panel"),
+    Register.PROTOCOL: Description("RO", "31:0", "2", "version of these frames and registers"),
+    Register.BUILD_HASH: Description("RO", "31:0", "built in", "CRC-32 of the Verilog it was built from"),
+    Register.BOARD: Description("RO", "31:0", "built in", "four letters that name the board"),
+    Register.CLOCK_HZ: Description("RO", "31:0", "built in", "clocks per second: what a tick is"),
+    Register.GEOMETRY: Description("RO", "7:0 slots, 23:8 words per slot, 31:24 channels", "built in", "what it holds and drives"),
+    Register.PARAMETERS: Description(
+        "RO",
+        "7:0 plays in the queue, 15:8 ticks from trigger to first word, 23:16 ticks of the glitch filter",
+        "built in",
+        "what it can do",
     ),
-    Register.CHANNEL_MASK: Description("RW", "channels that may move; all after reset"),
-    Register.FAULT: Description("RO", "causes of the fault, kept until CLEAR"),
-    Register.TRIGGERS_IGNORED: Description("RO", "trigger edges that found nothing to start"),
-    Register.EMISSIONS: Description("RO", "emissions that ran to their end"),
-    Register.FRAME_ERRORS: Description("RO", "frames refused for sync word, length or CRC"),
-    Register.SLOTS_LOADED: Description("RO", "bit k: slot k holds a waveform"),
+    Register.EDGE_WINDOW_TICKS: Description("RO", "31:0", "built in", "ticks over which edges are counted"),
+    Register.CONTROL: Description(
+        "WO",
+        "31:0",
+        "-",
+        "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; ARM comes directly behind it), 6 TRIGGER",
+    ),
+    Register.IDLE_WORD: Description("RW", "31:0", "0", "level of each channel while armed and not playing"),
+    Register.CHANNEL_MASK: Description("RW", "31:0", "0xFFFFFFFF", "channels that may move; the others are low"),
+    Register.BIT_PERIOD: Description(
+        "RW idle",
+        "31:16 ticks, 15:0 parts of 65536",
+        "500 kHz",
+        "time one drive word is held; 2 MHz to 100 kHz, and 4 ticks or more",
+    ),
+    Register.RAMP_SAMPLES: Description("RW", "17:0", "5000", "drive words in the glide between 0 and idle"),
+    Register.HEARTBEAT_TICKS: Description(
+        "RW", "31:0", "largest", "ticks without a good frame until HOST_SILENT; at most what is built in"
+    ),
+    Register.PULSE_TICKS: Description(
+        "RW", "15:0", "smallest", "shortest time between two changes of one channel; at least what is built in, at most BIT_PERIOD"
+    ),
+    Register.CHANNEL_EDGES: Description("RW", "23:0", "largest", "edges of one channel in a window; at most what is built in"),
+    Register.TOTAL_EDGES: Description("RW", "28:0", "largest", "edges of all channels in a window; at most what is built in"),
+    Register.EMISSION_TICKS: Description("RW", "31:0", "largest", "longest emission; at most what is built in"),
+    Register.DUTY_SHARE: Description(
+        "RW", "16:0", "largest", "65536ths of the time that may be emission or ramp in the long run; at most what is built in"
+    ),
+    Register.DUTY_TICKS: Description(
+        "RW", "31:0", "largest", "ticks of emission that may run ahead of DUTY_SHARE; at most what is built in"
+    ),
+    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR"),
+    Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
+    Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
+    Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
+    Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW was read last"),
+    Register.INPUTS: Description("RO", "0 run permit, 1 temperature good, 2 trigger", "pins", "levels of the input pins"),
+    Register.INPUT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last change of run permit or temperature; holds its HIGH"),
+    Register.INPUT_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
+    Register.TRIGGERS: Description("RO", "31:0", "0", "trigger edges and TRIGGER commands"),
+    Register.TRIGGERS_IGNORED: Description("RO", "31:0", "0", "those that found nothing to start"),
+    Register.TRIGGER_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them, when it was decided on; holds its HIGH"),
+    Register.TRIGGER_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
+    Register.EMISSIONS: Description("RO", "31:0", "0", "emissions that ran to their end"),
+    Register.EMISSION_TIME_LOW: Description(
+        "RO", "31:0", "0", "tick of the first word of the last emission on the pins; holds its HIGH"
+    ),
+    Register.EMISSION_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
+    Register.PLAYS_MISSED: Description(
+        "RO", "31:0", "0", "scheduled plays dropped because their time had passed or something sounded"
+    ),
+    Register.UNDERRUNS: Description("RO", "31:0", "0", "emissions that overtook their upload"),
+    Register.FRAME_ERRORS: Description("RO", "31:0", "0", "frames refused for sync word, length or CRC"),
+    Register.SEQUENCE_GAPS: Description("RO", "31:0", "0", "accepted frames whose number did not follow the one before"),
+    Register.SLOTS_LOADED: Description("RO", "15:0", "0", "bit k: slot k holds a waveform whose CRC matches"),
+    Register.QUEUE: Description("RO", "7:0", "0", "plays accepted and not yet begun"),
+    Register.DUTY_LEVEL: Description("RO", "31:0", "0", "ticks of emission that have run ahead of DUTY_SHARE"),
 }
 
 
@@ -100,6 +198,8 @@ class Control(IntEnum):
     DISARM = 2
     CLEAR = 3
     STOP = 4
+    UNLOCK = 5
+    TRIGGER = 6
 
 
 class State(IntFlag):
@@ -114,6 +214,10 @@ class State(IntFlag):
     RUN_PERMIT = 1 << 6
     HEARTBEAT = 1 << 7
     HV_ENABLE = 1 << 8
+    TEMPERATURE_GOOD = 1 << 9
+    CHECKING = 1 << 10
+    DELAYED = 1 << 11
+    READY = 1 << 12
 
 
 class Fault(IntFlag):
@@ -121,6 +225,13 @@ class Fault(IntFlag):
 
     NO_PERMIT = 1 << 0
     HOST_SILENT = 1 << 1
+    OVER_TEMPERATURE = 1 << 2
+    UNDERRUN = 1 << 3
+    SHORT_PULSE = 1 << 4
+    CHANNEL_EDGES = 1 << 5
+    TOTAL_EDGES = 1 << 6
+    LONG_EMISSION = 1 << 7
+    DUTY = 1 << 8
 
     @property
     def sentence(self) -> str:
@@ -149,6 +260,15 @@ class Result(IntEnum):
     FAULTED = 15
     NO_PERMIT = 16
     BAD_KEY = 17
+    LOCKED = 18
+    QUEUE_FULL = 19
+    BAD_RANGE = 20
+    BAD_PERIOD = 21
+    TOO_LONG = 22
+    TOO_LATE = 23
+    OVERLAP = 24
+    SLOT_DAMAGED = 25
+    LINK_SLOW = 26
 
     @property
     def sentence(self) -> str:
@@ -159,6 +279,13 @@ class Result(IntEnum):
 _FAULT_SENTENCES: Final = {
     Fault.NO_PERMIT: "The run permit went away while the outputs were on.",
     Fault.HOST_SILENT: "No good frame came from the host within the heartbeat time.",
+    Fault.OVER_TEMPERATURE: "The temperature input went low while the outputs were on.",
+    Fault.UNDERRUN: "An emission reached words that had not arrived yet.",
+    Fault.SHORT_PULSE: "A channel changed twice within the shortest pulse allowed.",
+    Fault.CHANNEL_EDGES: "A channel had more edges in a window than its stage may be given.",
+    Fault.TOTAL_EDGES: "All channels together had more edges in a window than the supply may be asked for.",
+    Fault.LONG_EMISSION: "An emission lasted longer than allowed.",
+    Fault.DUTY: "There was more emission than the duty limit allows.",
 }
 
 _RESULT_SENTENCES: Final = {
@@ -174,10 +301,19 @@ _RESULT_SENTENCES: Final = {
     Result.BAD_CHUNK: "A waveform has no chunk of this number.",
     Result.INCOMPLETE: "Not all chunks of the waveform have arrived.",
     Result.EMPTY_SLOT: "Nothing has been stored in this slot.",
-    Result.BUSY: "What is needed is still in use: try again after the current emission.",
+    Result.BUSY: "What is needed is still in use: try again a little later.",
     Result.NOT_ARMED: "The outputs are not armed.",
     Result.ARMED: "This can be done only while disarmed.",
     Result.FAULTED: "A fault is latched: read its cause and clear it first.",
     Result.NO_PERMIT: "The run permit is not given.",
-    Result.BAD_KEY: "Protocol version or build hash are not those of this FPGA.",
+    Result.BAD_KEY: "Identity, protocol version or build hash are not those of this FPGA.",
+    Result.LOCKED: "Arming was not unlocked by the frame directly before.",
+    Result.QUEUE_FULL: "The queue of plays is full.",
+    Result.BAD_RANGE: "The words asked for reach beyond the waveform.",
+    Result.BAD_PERIOD: "The period is neither the emission's length nor leaves the idle word room behind it.",
+    Result.TOO_LONG: "The emission is longer than allowed.",
+    Result.TOO_LATE: "The time of the play has passed, or is too near.",
+    Result.OVERLAP: "The play would begin before the one scheduled before it has ended.",
+    Result.SLOT_DAMAGED: "The slot's waveform in the FPGA's memory does not match its CRC: upload it again.",
+    Result.LINK_SLOW: "The link is too slow to play a waveform that is still arriving.",
 }

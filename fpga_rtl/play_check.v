@@ -1,0 +1,132 @@
+// Whether a PLAY may be accepted. Its lengths in ticks are multiplied out bit by bit while its frame arrives, from the
+// word with the period on; that takes 28 clocks, and 16 bytes are still to come.
+`default_nettype none
+`include "registers.vh"
+
+module play_check #(
+    parameter BUFFER_BITS = 3
+) (
+    input  wire                   clk_i,
+    input  wire                   rst_i,
+    input  wire                   begin_i,          // pulse: words 0 to 2 of the frame are there
+    input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY
+    input  wire                   forget_i,         // pulse: nothing scheduled counts any more
+    input  wire [15:0]            argument_i,
+    input  wire [9:0]             first_i, asked_i, // words of the waveform; 0: to its end
+    input  wire [15:0]            count_i,
+    input  wire [1:0]             start_i,
+    input  wire [31:0]            period_i,
+    input  wire [63:0]            when_i,
+    input  wire [31:0]            bit_period_i,
+    input  wire [31:0]            emission_ticks_i, // longest
+    input  wire [63:0]            now_i,
+    // what the slot holds
+    input  wire                   slot_good_i,
+    input  wire [BUFFER_BITS-1:0] slot_buffer_i,
+    input  wire [9:0]             slot_words_i,
+    input  wire                   slot_intact_i,
+    input  wire                   slot_checking_i,
+    input  wire [BUFFER_BITS-1:0] landing_i,
+    input  wire                   arriving_i,       // its first chunk is there
+    input  wire                   fast_i,           // the last chunk came as fast as it would play
+    // state
+    input  wire                   armed_i,
+    input  wire                   faulted_i,
+    input  wire [3:0]             queued_i,
+    input  wire                   full_i,
+    output wire [7:0]             result_o,
+    output wire                   live_o,
+    output wire [BUFFER_BITS-1:0] buffer_o,
+    output wire [9:0]             length_o
+);
+    wire        live   = argument_i == `PLAY_LANDING;
+    wire [9:0]  held   = live ? 10'd1000 : slot_words_i;
+    wire [9:0]  length = asked_i == 10'd0 ? held - first_i : asked_i;
+    wire        range_good = first_i < held && {1'b0, first_i} + {1'b0, length} <= {1'b0, held} && !(live && first_i != 10'd0);
+
+    // length x BIT_PERIOD, then (count - 1) x period
+    reg [5:0]  step_q;               // 63: done
+    reg [15:0] bits_q;               // of the multiplier, highest first
+    reg [47:0] product_q;
+    reg [31:0] sounding_q;           // ticks from the first word to the end of the last
+    reg [48:0] span_q;               // ticks from the first word of all to where another play may begin
+    reg        long_q, back_to_back_q, roomy_q;
+    reg [63:0] lead_q, free_q;       // earliest time that can still be met, that is not taken
+    reg        late_q, overlap_q;
+
+    wire [31:0] rest    = {16'd0, bit_period_i[31:16]};
+    wire [47:0] doubled = {product_q[46:0], 1'b0};
+    wire        second  = step_q >= 6'd12;
+
+    always @(posedge clk_i) begin
+        if (begin_i) begin
+            step_q    <= 6'd0;
+            bits_q    <= {length, 6'd0};
+            product_q <= 48'd0;
+        end else if (step_q == 6'd10) begin
+            step_q     <= 6'd12;
+            sounding_q <= product_q[47:16];
+            bits_q     <= count_i == 16'd0 ? 16'd0 : count_i - 16'd1;
+            product_q  <= 48'd0;
+        end else if (step_q == 6'd28) begin
+            step_q <= 6'd63;
+            span_q <= {1'b0, product_q} + {17'd0, sounding_q} + {17'd0, rest};
+        end else if (step_q != 6'd63) begin
+            step_q    <= step_q + 6'd1;
+            bits_q    <= {bits_q[14:0], 1'b0};
+            product_q <= doubled + (bits_q[15] ? {16'd0, second ? period_i : bit_period_i} : 48'd0);
+        end
+
+        long_q         <= sounding_q > emission_ticks_i;
+        back_to_back_q <= period_i == sounding_q;
+        roomy_q        <= {1'b0, period_i} >= {1'b0, sounding_q} + {1'b0, rest};
+        lead_q         <= now_i + `TIME_LEAD_TICKS;
+        late_q         <= when_i < lead_q;
+        overlap_q      <= when_i < free_q;
+
+        if (accept_i && result_o == `RESULT_OK && start_i == `START_TIME) free_q <= when_i + {15'd0, span_q};
+        if (forget_i) free_q <= 64'd0;
+        if (rst_i) begin
+            step_q         <= 6'd63;
+            bits_q         <= 16'd0;
+            product_q      <= 48'd0;
+            sounding_q     <= 32'd0;
+            span_q         <= 49'd0;
+            long_q         <= 1'b0;
+            back_to_back_q <= 1'b0;
+            roomy_q        <= 1'b0;
+            lead_q         <= 64'd0;
+            free_q         <= 64'd0;
+            late_q         <= 1'b0;
+            overlap_q      <= 1'b0;
+        end
+    end
+
+    reg [7:0] result;
+    always @* begin
+        if (!live && !slot_good_i)                           result = `RESULT_BAD_SLOT;
+        else if (faulted_i)                                  result = `RESULT_FAULTED;
+        else if (!armed_i)                                   result = `RESULT_NOT_ARMED;
+        else if (!live && slot_words_i == 10'd0)             result = `RESULT_EMPTY_SLOT;
+        else if (!live && slot_checking_i)                   result = `RESULT_BUSY;
+        else if (!live && !slot_intact_i)                    result = `RESULT_SLOT_DAMAGED;
+        else if (live && !arriving_i)                       result = `RESULT_INCOMPLETE;
+        else if (live && !fast_i)                            result = `RESULT_LINK_SLOW;
+        else if (live && queued_i != 4'd0)                   result = `RESULT_BUSY;
+        else if (!range_good)                                result = `RESULT_BAD_RANGE;
+        else if (start_i == 2'd3)                              result = `RESULT_BAD_VALUE;
+        else if (long_q)                                     result = `RESULT_TOO_LONG;
+        else if (count_i != 16'd1 && !back_to_back_q && !roomy_q) result = `RESULT_BAD_PERIOD;
+        else if (full_i)                                     result = `RESULT_QUEUE_FULL;
+        else if (start_i == `START_TIME && late_q)             result = `RESULT_TOO_LATE;
+        else if (start_i == `START_TIME && overlap_q)          result = `RESULT_OVERLAP;
+        else                                                 result = `RESULT_OK;
+    end
+
+    assign result_o = result;
+    assign live_o   = live;
+    assign buffer_o = live ? landing_i : slot_buffer_i;
+    assign length_o = length;
+endmodule
+
+`default_nettype wire
