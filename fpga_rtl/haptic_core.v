@@ -242,8 +242,8 @@ module haptic_core #(
 
     play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
         .clk_i(clk_i), .rst_i(rst_i), .begin_i(lengths_q), .accept_i(play_accept), .forget_i(stop || disarm || shut),
-        .argument_i(argument), .first_i(words[9:0]), .asked_i(words[25:16]), .count_i(words[47:32]), .start_i(words[49:48]),
-        .period_i(words[95:64]), .when_i(words[191:128]),
+        .argument_i(argument), .first_i(words[15:0]), .asked_i(words[31:16]), .count_i(words[47:32]), .start_i(words[55:48]),
+        .polarity_i(words[63:56]), .period_i(words[95:64]), .when_i(words[191:128]),
         .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now_q),
         .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),

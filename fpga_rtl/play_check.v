@@ -12,9 +12,9 @@ module play_check #(
     input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY
     input  wire                   forget_i,         // pulse: nothing scheduled counts any more
     input  wire [15:0]            argument_i,
-    input  wire [9:0]             first_i, asked_i, // words of the waveform; 0: to its end
+    input  wire [15:0]            first_i, asked_i, // words of the waveform; 0: to its end
     input  wire [15:0]            count_i,
-    input  wire [1:0]             start_i,
+    input  wire [7:0]             start_i, polarity_i,
     input  wire [31:0]            period_i,
     input  wire [63:0]            when_i,
     input  wire [31:0]            bit_period_i,
@@ -41,8 +41,9 @@ module play_check #(
 );
     wire        live   = argument_i == `PLAY_LANDING;
     wire [9:0]  held   = live ? 10'd1000 : slot_words_i;
-    wire [9:0]  length = asked_i == 10'd0 ? held - first_i : asked_i;
-    wire        range_good = first_i < held && {1'b0, first_i} + {1'b0, length} <= {1'b0, held} && !(live && first_i != 10'd0);
+    wire [9:0]  length = asked_i == 16'd0 ? held - first_i[9:0] : asked_i[9:0];
+    wire        range_good = first_i < {6'd0, held} && {1'b0, first_i} + {1'b0, asked_i} <= {7'd0, held}
+                             && !(live && first_i != 16'd0);
 
     // length x BIT_PERIOD, then (count - 1) x period
     reg [5:0]  step_q;               // 63: done
@@ -84,7 +85,7 @@ module play_check #(
         late_q         <= when_i < lead_q;
         overlap_q      <= when_i < free_q;
 
-        if (accept_i && result_o == `RESULT_OK && start_i == `START_TIME) free_q <= when_i + {15'd0, span_q};
+        if (accept_i && result_o == `RESULT_OK && start_i == {6'd0, `START_TIME}) free_q <= when_i + {15'd0, span_q};
         if (forget_i) free_q <= 64'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
@@ -114,12 +115,12 @@ module play_check #(
         else if (live && !fast_i)                            result = `RESULT_LINK_SLOW;
         else if (live && queued_i != 4'd0)                   result = `RESULT_BUSY;
         else if (!range_good)                                result = `RESULT_BAD_RANGE;
-        else if (start_i == 2'd3)                              result = `RESULT_BAD_VALUE;
+        else if (start_i > {6'd0, `START_TIME} || polarity_i > 8'd1) result = `RESULT_BAD_VALUE;
         else if (long_q)                                     result = `RESULT_TOO_LONG;
         else if (count_i != 16'd1 && !back_to_back_q && !roomy_q) result = `RESULT_BAD_PERIOD;
         else if (full_i)                                     result = `RESULT_QUEUE_FULL;
-        else if (start_i == `START_TIME && late_q)             result = `RESULT_TOO_LATE;
-        else if (start_i == `START_TIME && overlap_q)          result = `RESULT_OVERLAP;
+        else if (start_i == {6'd0, `START_TIME} && late_q)             result = `RESULT_TOO_LATE;
+        else if (start_i == {6'd0, `START_TIME} && overlap_q)          result = `RESULT_OVERLAP;
         else                                                 result = `RESULT_OK;
     end
 
