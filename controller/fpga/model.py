@@ -72,8 +72,8 @@ class GatewareModel:
         while (change := self.next_change()) is not None and change < tick:
             self._step(change)
             self._now = change + 1
+            self._gate.limits.settle(change - PIN_TICKS)
         self._now = max(self._now, tick)
-        self._gate.limits.settle(self._now - PIN_TICKS)
 
     def next_change(self) -> int | None:
         """The next tick in which something happens without further input; None if nothing will."""
