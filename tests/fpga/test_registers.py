@@ -4,7 +4,7 @@ import pytest
 
 from controller.board import FEWEST_BIT_TICKS, data_folder
 from controller.fpga import registers
-from controller.fpga.registers import REGISTERS, Control, Description, Fault, FrameType, Register, Result, State
+from controller.fpga.registers import REGISTERS, Control, Description, Fault, FrameType, Register, Result, Start, State
 from controller.offline.register_table import ACCESS, insert, table
 
 README = data_folder("fpga_rtl") / "README.md"
@@ -20,7 +20,7 @@ def verilog():
 def python_constants():
     """Every constant of registers.py under the name it has in registers.vh."""
     constants = {name: value for name, value in vars(registers).items() if name.isupper() and isinstance(value, int)}
-    for prefix, codes in (("TYPE", FrameType), ("RESULT", Result), ("REGISTER", Register), ("CONTROL", Control)):
+    for prefix, codes in (("TYPE", FrameType), ("RESULT", Result), ("REGISTER", Register), ("CONTROL", Control), ("START", Start)):
         constants |= {f"{prefix}_{code.name}": int(code) for code in codes}
     for prefix, bits in (("STATE", State), ("FAULT", Fault)):
         constants |= {f"{prefix}_{bit.name}": bit.bit_length() - 1 for bit in bits}
@@ -56,7 +56,7 @@ def test_the_readme_has_the_table_of_the_code():
 
 
 def test_the_readme_describes_every_register_as_the_code_does():
-    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \| ([A-Z]+) \|(?:.*\|)? ([^|]+) \|$", README.read_text(), re.MULTILINE)
+    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \| ([A-Z]+(?: idle)?) \|(?:.*\|)? ([^|]+) \|$", README.read_text(), re.MULTILINE)
     described = [(str(int(register)), register.name, entry.access, entry.text) for register, entry in REGISTERS.items()]
     assert [row for row in rows if row[2] in ACCESS] == described
 
