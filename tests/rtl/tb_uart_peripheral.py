@@ -260,3 +260,16 @@ async def after_a_reset_in_the_middle_nothing_counts_until_a_zero(dut):
         await wire.bits(5)
         assert link.frames == [(b"whole", False)]
         await silence(wire)
+
+
+@cocotb.test(timeout_time=2, timeout_unit="ms")
+async def a_line_that_is_low_when_reset_ends_is_no_byte(dut):
+    await after_reset(dut, uart_rx_i=0)
+    wire, link = Wire(dut), ByteLink(dut, ANSWER)
+    await wire.bits(30)
+    dut.uart_rx_i.value = 1
+    await wire.bits(1)
+    await wire.frame(b"no zero was seen yet")
+    await wire.frame(b"whole")
+    await silence(wire)
+    assert link.frames == [(b"whole", False)]

@@ -8,6 +8,7 @@ import pytest
 from cocotb_tools.runner import get_runner
 
 from controller.bank.grid import Grid
+from controller.fpga.frames import FRAME_BYTES
 from controller.offline.bank_builder import build_bank
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
@@ -38,12 +39,12 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-def run_bench(module, parameters, simulator, folder, **which):
-    """Build a module and run its bench; `which` of its tests, as the runner names them."""
+def run_bench(module, parameters, simulator, folder, beside=(), **which):
+    """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
     runner.build(
-        sources=sorted(RTL.glob("*.v")),
+        sources=[*sorted(RTL.glob("*.v")), *beside],
         includes=[RTL],
         hdl_toplevel=module,
         parameters=parameters,
@@ -72,3 +73,8 @@ def test_bench(module, simulator, one_entry_bank, tmp_path, monkeypatch):
 @pytest.mark.parametrize(("clock_hz", "baud"), [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)])
 def test_uart_at_other_rates(clock_hz, baud, simulator, tmp_path):
     run_bench("uart_peripheral", {"CLOCK_HZ": clock_hz, "BAUD": baud}, simulator, tmp_path, test_filter=r"rate|percent|answered")
+
+
+def test_the_serial_link_and_the_gateware_understand_each_other(simulator, tmp_path):
+    parameters = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
+    run_bench("uart_panel", parameters, simulator, tmp_path, [Path(__file__).parent / "uart_panel.v"])

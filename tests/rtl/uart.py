@@ -24,6 +24,7 @@ class Wire:
     def __init__(self, dut):
         self.dut, self.bit_ns, self.rate = dut, bit_ns(dut), 1.0
         self.answers, self.starts_ns = [], []  # frames read, decoded; when each of their bytes' start bits fell
+        self.heard = bytearray()  # all bytes read
         self._reading = cocotb.start_soon(self._read())
 
     def forget(self):
@@ -59,6 +60,7 @@ class Wire:
                 await Timer(round(1000 * self.bit_ns), "ps")
             assert self.dut.uart_tx_o.value == 1, "stop bit"
             line.append(byte)
+            self.heard.append(byte)
             if byte == 0:
                 self.answers.append(cobs.decode(bytes(line[:-1])))
                 line.clear()
