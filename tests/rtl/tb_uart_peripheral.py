@@ -154,7 +154,7 @@ async def a_missing_stop_bit_refuses_the_frame_wherever_it_is(dut):
     wire, link = await begin(dut)
     frame = payload(20, 0.3)
     line = cobs.encode(frame)
-    for damaged in (0, 1, 10, len(line) - 1):
+    for damaged in (0, 1, 10, len(line) - 1, len(line)):
         link.frames.clear()
         for number, byte in enumerate(line + b"\0"):
             await wire.send_byte(byte, stop=int(number != damaged))
@@ -255,11 +255,13 @@ async def after_a_reset_in_the_middle_nothing_counts_until_a_zero(dut):
         wire.forget()
         await sending
         assert link.frames == [], "the rest of a frame is not one"
+        assert not wire.heard, "nor does the rest of an answer follow"
         await wire.send(b"\0")
         await wire.frame(b"whole")
         await wire.bits(5)
         assert link.frames == [(b"whole", False)]
         await silence(wire)
+        assert wire.answers == link.given[-1:]
 
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")

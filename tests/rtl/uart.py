@@ -30,6 +30,8 @@ class Wire:
     def forget(self):
         """The gateware was reset: what it was sending ends here."""
         self._reading.cancel()
+        self.answers.clear()
+        self.heard.clear()
         self._reading = cocotb.start_soon(self._read())
 
     async def bits(self, count):
