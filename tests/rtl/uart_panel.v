@@ -31,11 +31,12 @@ module uart_panel #(
     frame_decoder frame_decoder (
         .clk_i(clk_i), .rst_i(rst_i),
         .select_i(select), .release_i(release_frame), .partial_i(partial),
-        .byte_valid_i(byte_valid), .byte_i(byte_in), .landing_busy_i(1'b0),
+        .byte_valid_i(byte_valid), .byte_i(byte_in),
+        .landing_busy_i(1'b0), .landing_live_i(1'b0), .bit_period_i(32'd0),
         .accept_o(accept_o), .refuse_o(refuse_o), .refusal_o(refusal),
         .type_o(), .sequence_o(sequence_number), .argument_o(),
-        .word0_o(), .word1_o(), .word2_o(), .landing_busy_o(), .payload_words_o(),
-        .write_o(write_o), .write_chunk_o(), .write_word_o(), .write_data_o(write_data_o)
+        .words_o(), .landing_busy_o(), .landing_live_o(), .payload_words_o(), .fast_o(),
+        .word_valid_o(), .word_number_o(), .word_o(write_data_o), .load_word_o(write_o)
     );
     /* verilator lint_on PINCONNECTEMPTY */
 
@@ -56,7 +57,9 @@ module uart_panel #(
     status_encoder status_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(select), .take_i(take), .byte_o(answer),
         .result_i(result_q), .sequence_i(sequence_q), .state_i(16'h0040), .fault_i(16'd0), .data_i(32'h00FF0001),
-        .triggers_i(32'd0), .timestamp_i(timestamp_q), .emissions_i(32'd0)
+        .triggers_i(32'd0), .timestamp_i(timestamp_q), .emissions_i(32'd0),
+        .queued_i(8'd0), .chunks_i(8'd0), .ignored_i(16'd0),
+        .echo_i(1'b0), .byte_valid_i(byte_valid), .byte_i(byte_in)
     );
 endmodule
 
