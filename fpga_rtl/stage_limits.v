@@ -1,0 +1,230 @@
+// Protection of the 60 V stages: watches the register that drives the pins, whoever set it.
+//
+// c[t]: the pins in tick t, counted from reset; change[t] = c[t] ^ c[t - 1], c[-1] = 0. Window k is the ticks
+// k * WINDOW_TICKS to (k + 1) * WINDOW_TICKS - 1. A cause is looked for at changes only: pins at rest trip nothing.
+//   short pulse    a channel changes less than pulse_ticks_i after the last change of anything, and has changed since
+//                  the pins last rested that long: exact but for chains of close changes, where it is strict. Tick t + 2.
+//   channel edges  a channel changes that has channel_edges_i changes in this window already; such a change is
+//                  not counted. Limits above 2**24 - 1 count as that. Tick t + 2.
+//   total edges    with this change all channels have more than total_edges_i together in this window. Tick t + 3.
+//   long emission  an emission has sounded for more than emission_ticks_i ticks, tick t the latest: level in t + 1.
+//   duty           active in tick t with more than duty_ticks_i in the bucket, into which flow 65536 / 65536 in each active
+//                  tick before t, and out of which, down to 0, duty_share_i / 65536 in every tick: level in t + 1.
+// A limit that is written holds from 40 ticks later on: the pins must rest meanwhile.
+//
+// Counting edges exactly with 32 counters and comparators of 24 bits would take 1500 LUTs. Here each channel has a purse
+// of up to 63 edges it may still make, and an account in a memory, what it had and was given. One channel a clock has its
+// turn: the account gives what the limit still allows. A purse that lasts for 63 clocks never runs dry between turns.
+`default_nettype none
+
+module stage_limits #(
+    parameter [31:0] WINDOW_TICKS = 32'd20_000_000  // at most 2**26
+) (
+    input  wire        clk_i,
+    input  wire        rst_i,
+    input  wire [31:0] channel_i,         // the output register
+    input  wire        active_i,          // playing or ramping
+    input  wire        emission_i,        // an emission sounds
+    input  wire        start_i,           // pulse: an emission begins in the next clock
+    input  wire        clear_i,           // pulse: forget channels_o
+    input  wire [15:0] pulse_ticks_i,     // shortest time between two changes of one channel
+    input  wire [31:0] channel_edges_i,   // most edges of one channel in a window
+    input  wire [31:0] total_edges_i,     // most edges of all channels together in a window
+    input  wire [31:0] emission_ticks_i,  // longest emission
+    input  wire [16:0] duty_share_i,      // 65536: always active allowed
+    input  wire [31:0] duty_ticks_i,      // what the bucket holds
+    output wire [4:0]  cause_o,           // duty, long emission, total edges, channel edges, short pulse
+    output wire [31:0] channels_o,        // which made the first short pulse or edge too many since clear_i
+    output wire [31:0] duty_level_o       // ticks in the bucket
+);
+    localparam        WINDOW_BITS = $clog2(WINDOW_TICKS);
+    localparam [31:0] LAST_TICK   = WINDOW_TICKS - 32'd1;
+    localparam [5:0]  PURSE       = 6'd63;
+    localparam [23:0] MOST        = 24'hFFFFFF;
+
+    // Changes, one clock late, and the windows they belong to
+    reg [31:0] pins_q, change_q;
+    reg        moved_q;
+    reg [WINDOW_BITS-1:0] window_q;
+    reg        begins_q;                         // the next clock judges the first change of a window
+    wire       ends    = window_q == LAST_TICK[WINDOW_BITS-1:0];
+    wire [31:0] change  = channel_i ^ pins_q;
+
+    always @(posedge clk_i) begin
+        pins_q   <= channel_i;
+        change_q <= change;
+        moved_q  <= change != 32'd0;
+        window_q <= ends ? {WINDOW_BITS{1'b0}} : window_q + 1'b1;
+        begins_q <= ends;
+        if (rst_i) begin
+            pins_q   <= 32'd0;
+            change_q <= 32'd0;
+            moved_q  <= 1'b0;
+            window_q <= {WINDOW_BITS{1'b0}};
+            begins_q <= 1'b1;
+        end
+    end
+
+    // Short pulses
+    reg [15:0] since_q;                          // ticks from the last change to the one in change_q
+    reg [31:0] recent_q;                         // channels that changed since the pins last rested
+    wire        close = since_q < pulse_ticks_i;
+    wire [31:0] kept  = close ? recent_q : 32'd0;
+    wire [31:0] short_pulse = change_q & kept;
+
+    always @(posedge clk_i) begin
+        if (moved_q) begin
+            since_q  <= 16'd1;
+            recent_q <= kept | change_q;
+        end else if (since_q != 16'hFFFF) since_q <= since_q + 16'd1;
+        if (rst_i) begin
+            since_q  <= 16'hFFFF;
+            recent_q <= 32'd0;
+        end
+    end
+
+    // Edges of each channel: purses
+    wire [31:0]  edge_too_many;
+    wire [191:0] purses;
+    reg  [31:0]  filled_q;                       // whose purse is filled: all as a window begins, then one after the other
+    reg  [5:0]   given;                          // into them
+    genvar number;
+
+    generate
+        for (number = 0; number < 32; number = number + 1) begin : channel
+            reg  [5:0] purse_q;
+            wire       zero_4 = purse_q[3:0] == 4'd0;        // by hand: an adder would take twice the LUTs
+            wire       zero_5 = zero_4 && !purse_q[4];
+            wire       empty  = zero_5 && !purse_q[5];
+            wire [5:0] less   = purse_q ^ {zero_5, zero_4, purse_q[2:0] == 3'd0, purse_q[1:0] == 2'd0, !purse_q[0], 1'b1};
+            always @(posedge clk_i)
+                if (filled_q[number] || (change_q[number] && !empty)) purse_q <= filled_q[number] ? given : less;
+            assign edge_too_many[number] = change_q[number] && empty;
+            assign purses[6*number +: 6] = purse_q;
+        end
+    endgenerate
+
+    // Their accounts: looked up, judged by the limit, settled
+    reg [23:0] accounts [0:31];                  // edges made and in the purse; not of this window until the first round is over
+    reg [5:0]  scan_q;                           // first round 0 to 31, later ones 32 to 63
+    reg [23:0] limit_q;
+    reg [5:0]  first_q;                          // what the purses held when the window began
+    reg [23:0] account_q;
+    reg [4:0]  looked_q, judged_q, settled_q;    // the channel in each step
+    reg        looked_valid_q, looked_first_q;
+    reg        looked_change_q, judged_change_q; // its bit of change_q
+    reg [23:0] judged_account_q, settled_account_q;
+    reg [5:0]  judged_purse_q, settled_purse_q, settled_given_q;
+    reg        plenty_q, nothing_q;
+    reg [6:0]  more_q;                           // limit less account less one, signed, unless plenty or nothing
+
+    wire [23:0] account = looked_first_q ? {18'd0, first_q} : account_q;
+    wire [24:0] more    = {1'b0, limit_q} + {1'b1, ~account};
+    wire [5:0]  purse   = purses[6*looked_q +: 6];
+    wire        spent   = judged_change_q && judged_purse_q != 6'd0;
+    wire [7:0]  allowed = {more_q[6], more_q} + {2'b00, judged_purse_q} + {7'd0, !spent};
+    wire [5:0]  first   = limit_q > {18'd0, PURSE} ? PURSE : limit_q[5:0];
+
+    always @* begin
+        if (begins_q)                     given = first;
+        else if (plenty_q)                given = PURSE;
+        else if (nothing_q || allowed[7]) given = 6'd0;
+        else if (allowed[6])              given = PURSE;
+        else                              given = allowed[5:0];
+    end
+
+    always @(posedge clk_i) begin
+        limit_q <= channel_edges_i > {8'd0, MOST} ? MOST : channel_edges_i[23:0];
+        if (begins_q) first_q <= first;
+        filled_q <= {32{ends}} | {begins_q ? 31'd0 : filled_q[30:0], looked_valid_q && !begins_q && looked_q == 5'd0};
+
+        scan_q          <= begins_q ? 6'd0 : scan_q == 6'd63 ? 6'd32 : scan_q + 6'd1;
+        account_q       <= accounts[scan_q[4:0]];
+        looked_q        <= scan_q[4:0];
+        looked_first_q  <= !scan_q[5];
+        looked_valid_q  <= !begins_q;
+        looked_change_q <= change[scan_q[4:0]];
+
+        judged_q         <= looked_q;
+        judged_change_q  <= change[looked_q];
+        judged_account_q <= account;
+        judged_purse_q   <= purse - {5'd0, looked_change_q && purse != 6'd0};
+        plenty_q         <= !more[24] && more[23:6] != 18'd0;
+        nothing_q        <= more[24] && more[23:6] != {18{1'b1}};
+        more_q           <= more[6:0];
+
+        settled_q         <= judged_q;
+        settled_account_q <= judged_account_q;
+        settled_purse_q   <= judged_purse_q - {5'd0, spent};
+        settled_given_q   <= given;
+        accounts[settled_q] <= settled_account_q + {18'd0, settled_given_q} - {18'd0, settled_purse_q};
+        if (rst_i) begin
+            filled_q       <= {32{1'b1}};
+            scan_q         <= 6'd0;
+            looked_valid_q <= 1'b0;
+        end
+    end
+
+    // Edges of all
+    reg [5:0]  moves_q;
+    reg        begun_q, first_moves_q;           // begins_q, in step with change_q and with moves_q
+    reg [31:0] total_q;
+    wire [31:0] total = (first_moves_q ? 32'd0 : total_q) + {26'd0, moves_q};
+
+    function [2:0] ones_4(input [3:0] bits);
+        ones_4 = {2'd0, bits[0]} + {2'd0, bits[1]} + {2'd0, bits[2]} + {2'd0, bits[3]};
+    endfunction
+
+    function [3:0] ones_8(input [7:0] bits);
+        ones_8 = {1'b0, ones_4(bits[7:4])} + {1'b0, ones_4(bits[3:0])};
+    endfunction
+
+    function [5:0] ones_32(input [31:0] bits);
+        ones_32 = ({2'd0, ones_8(bits[31:24])} + {2'd0, ones_8(bits[23:16])}) + ({2'd0, ones_8(bits[15:8])} + {2'd0, ones_8(bits[7:0])});
+    endfunction
+
+    // Time
+    reg [31:0] age_q;                            // ticks the emission has sounded before this one
+    reg [47:0] level_q;                          // 16.16 ticks of activity
+    wire        late    = emission_i && age_q >= emission_ticks_i;
+    wire [17:0] flow    = {1'b0, active_i, 16'd0} - {1'b0, duty_share_i};
+    wire [49:0] level   = {2'b00, level_q} + {{32{flow[17]}}, flow};
+
+    reg [4:0]  cause_q;
+    reg [31:0] channels_q;
+    wire [31:0] culprits = short_pulse | edge_too_many;
+
+    always @(posedge clk_i) begin
+        begun_q       <= begins_q;
+        first_moves_q <= begun_q;
+        moves_q       <= ones_32(change_q);
+        total_q       <= total;
+
+        age_q <= start_i || !emission_i ? 32'd0 : late ? age_q : age_q + 32'd1;
+        level_q <= level[49] ? 48'd0 : level[48] ? {48{1'b1}} : level[47:0];
+
+        cause_q[0] <= short_pulse != 32'd0;
+        cause_q[1] <= edge_too_many != 32'd0;
+        cause_q[2] <= moves_q != 6'd0 && total > total_edges_i;
+        cause_q[3] <= late;
+        cause_q[4] <= active_i && level_q > {duty_ticks_i, 16'd0};
+        if (clear_i || channels_q == 32'd0) channels_q <= culprits;
+
+        if (rst_i) begin
+            begun_q       <= 1'b0;
+            first_moves_q <= 1'b0;
+            moves_q       <= 6'd0;
+            total_q       <= 32'd0;
+            age_q         <= 32'd0;
+            level_q       <= 48'd0;
+            cause_q       <= 5'd0;
+            channels_q    <= 32'd0;
+        end
+    end
+
+    assign cause_o      = cause_q;
+    assign channels_o   = channels_q;
+    assign duty_level_o = level_q[47:16];
+endmodule
+
+`default_nettype wire
