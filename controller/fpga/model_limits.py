@@ -217,15 +217,14 @@ class StageLimits:
             return plan
         ticks, changes = ticks[moved], changes[moved]
         last_change, recent = self._judge_pulses(plan, ticks, changes)
-        windows = ticks[[0, -1]] // self._window_ticks
         window, counts, total = before.window, before.counts, before.total
-        bounds = np.searchsorted(ticks, np.arange(windows[0] + 1, windows[1] + 1) * self._window_ticks).tolist()
-        for start, end in zip([0, *bounds], [*bounds, len(ticks)], strict=True):
-            if start == end:
-                continue
-            if int(ticks[start]) // self._window_ticks != window:
-                window, counts, total = int(ticks[start]) // self._window_ticks, np.zeros(CHANNELS, np.int64), 0
-            counts, total = self._judge_edges(plan, ticks[start:end], changes[start:end], counts, total)
+        while ticks.size:
+            if (here := int(ticks[0]) // self._window_ticks) != window:
+                window, counts, total = here, np.zeros(CHANNELS, np.int64), 0
+            end = (window + 1) * self._window_ticks
+            inside = len(ticks) if ticks[-1] < end else int(np.searchsorted(ticks, end))
+            counts, total = self._judge_edges(plan, ticks[:inside], changes[:inside], counts, total)
+            ticks, changes = ticks[inside:], changes[inside:]
         plan.after = _State(int(words[-1]), last_change, recent, window, counts, total)
         return plan
 
