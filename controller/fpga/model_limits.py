@@ -250,7 +250,7 @@ class StageLimits:
         """Note edges too many within one window; the counts afterwards."""
         limit = min(self._settings.channel_edges, CHANNEL_EDGES_MAX)
         bits = np.unpackbits(changes.astype("<u4", copy=False).view(np.uint8), bitorder="little").reshape(-1, CHANNELS)
-        eights = np.add.reduceat(bits.view(np.uint64), range(0, len(bits), 255))  # eight sums at once, ten times faster
+        eights = np.add.reduceat(bits.view(np.uint64), np.arange(0, len(bits), 255))  # eight sums at once, ten times faster
         made = eights.view(np.uint8).sum(axis=0, dtype=np.int64)
         after = counts + made
         total_after = total + int(made.sum())

@@ -124,6 +124,16 @@ def test_each_limit_holds_at_its_value_and_trips_one_below(less, cause, at):
         assert limits_.cause(at) == (cause if expected else 0)
 
 
+def test_a_new_share_counts_from_the_tick_it_is_told():
+    limits_ = StageLimits(LimitSettings(duty_share=0, duty_ticks=100), 1000)
+    limits_.activity(10, active=True)
+    limits_.activity(50, active=False)
+    assert limits_.duty_level(200) == 40
+    limits_._settings.duty_share = 32768
+    limits_.activity(200, active=False)
+    assert [limits_.duty_level(tick) for tick in (199, 200, 202, 280, 300)] == [40, 40, 39, 0, 0]
+
+
 def test_memory_stays_bounded_through_an_endless_repetition():
     limits_ = StageLimits(LimitSettings(**NO_LIMITS), 1_000_000)
     waveform = np.arange(1000, dtype=np.uint32)
