@@ -12,7 +12,7 @@
 //                  tick before t, and out of which, down to 0, duty_share_i / 65536 in every tick: level in t + 1.
 // A limit that is written holds from 40 ticks later on: the pins must rest meanwhile.
 //
-// Counting edges exactly with 32 counters and comparators of 24 bits would take 1500 LUTs. Here each channel has a purse
+// 32 counters and comparators of 24 bits would take 1500 LUTs for the edges alone. Instead each channel has a purse
 // of up to 63 edges it may still make, and an account in a memory, what it had and was given. One channel a clock has its
 // turn: the account gives what the limit still allows. A purse that lasts for 63 clocks never runs dry between turns.
 `default_nettype none

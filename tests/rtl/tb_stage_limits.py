@@ -99,6 +99,22 @@ async def windows_begin_anew_at_their_multiples(dut):
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_limit_written_while_the_pins_rest_holds_for_what_was_counted_already(dut):
+    for first, then in ((2**32 - 1, 31), (100, 31), (30, 31), (31, 33), (90, 93), (100, 20), (5, 6)):
+        await after_reset(dut, **{f"{name}_i": value for name, value in NO_LIMITS.items()} | {"channel_edges_i": first})
+        counted = min(first, 30) if first < 90 else 90
+        trips = []
+        for tick in range(199):
+            if tick < counted or (tick >= 135 and tick % 2):
+                dut.channel_i.value = int(dut.channel_i.value) ^ 0x80
+            if tick == 94:
+                dut.channel_edges_i.value = then
+            trips.append(int(dut.cause_o.value) == CHANNEL_EDGES)
+            await clocks(dut)
+        assert trips.index(True) == 135 + 2 * max(then - counted, 0) + 2
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
 async def all_channels_together_have_a_limit(dut):
     at = {10: ALL, 20: 0x0000FFFF, 30: 0}  # 32 + 16 + 16
     assert causes(await follow(dut, pins(at, 60), total_edges=64)) == {}
