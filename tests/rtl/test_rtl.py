@@ -24,6 +24,7 @@ BENCHES = {
     "idle_ramp": {},
     "waveform_player": {},
     "output_gate": {"ALIVE_HALF_TICKS": 7},
+    "stage_limits": {"WINDOW_TICKS": 200},
 }
 PITCH_M = 5e-3
 SEED = 2015  # of the random numbers in benches and of the initial state
