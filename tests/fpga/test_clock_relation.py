@@ -51,7 +51,7 @@ DELAYS = {
 
 
 def run(panel, delays, seconds=SETTLED_S, every_s=0.06, ahead_s=(0.0, 0.01, 0.1, 1.0)):
-    """Exchange heartbeats; at every twentieth, the error over its bound, of ticks and of host time, ahead and behind: all of them."""
+    """Exchange heartbeats; at every twentieth, the error over its bound, of ticks and of host time, ahead and behind."""
     relation = ClockRelation(CLOCK_HZ)
     shares, bounds = [], []
     t_s = 0.0
@@ -116,6 +116,13 @@ def test_the_bound_is_near_what_the_delays_allow():
     assert now < second < 25e-6  # a second from now the drift's own error counts
     _, _, _, (late, *_) = run(Panel(100e-6), DELAYS["two in a hundred late by milliseconds"])
     assert 10e-6 < late < 15e-6
+
+
+def test_there_and_back_is_the_same_tick():
+    relation, t_s, *_ = run(Panel(100e-6), DELAYS["exponential"], seconds=10)
+    for ahead_s in (-5.0, 0.0, 0.1, 30.0):
+        tick = relation.ticks_at(UPTIME_S + t_s + ahead_s)
+        assert relation.ticks_at(relation.host_s_at(tick)) == pytest.approx(tick, abs=1)
 
 
 def test_known_time_on_the_wire_narrows_the_bound():
@@ -189,6 +196,13 @@ def test_starts_anew_when_the_fpga_was_reset():
         relation.add(UPTIME_S + at_s, UPTIME_S + at_s + 1e-4, int(panel.ticks(at_s)) - offset)
     assert (relation.restarts, relation.pairs) == (1, FEWEST_PAIRS)
     assert abs(relation.ticks_at(UPTIME_S + at_s) - (panel.ticks(at_s) - offset)) / CLOCK_HZ <= relation.error_s(UPTIME_S + at_s)
+
+
+def test_resets_in_a_row_are_not_a_wrong_clock():
+    relation = ClockRelation(CLOCK_HZ)
+    for at_s, ticks in ((1.0, 9000), (2.0, 5000), (3.0, 4000), (4.0, 3000)):
+        relation.add(UPTIME_S + at_s, UPTIME_S + at_s + 1e-4, ticks)
+    assert relation.restarts == 3
 
 
 @pytest.mark.parametrize("jump_s", [-2e-3, 2e-3, 3600.0])
