@@ -173,8 +173,18 @@ def focus(options: argparse.Namespace) -> int:
     if options.figures:
         _show(options, figures(board, options.seed), plain_table)
         return 0
+    if options.idle_figures:
+        from controller.offline.idle_figures import idle_figures
+
+        found = idle_figures(board, options.seed)
+        if picture:
+            from controller.offline.plot_idle import plot_idle
+
+            plot_idle(picture, board, found)
+        _show(options, found, plain_table)
+        return 0
     if not options.at:
-        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures")
+        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, or --idle-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:
@@ -327,6 +337,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
     point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
+    point.add_argument(
+        "--idle-figures", action="store_true", help="measure what the idle word and its ramp are worth instead; --plot draws it"
+    )
     point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
