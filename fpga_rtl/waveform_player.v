@@ -131,7 +131,7 @@ module waveform_player #(
         end
         if (until_next_q != 32'd0) until_next_q <= until_next_q - 32'd1;
         if (delayed_q) delay_left_q <= delay_left_q - 32'd1;
-        if (playing_q || ramping_i) rest_q <= bit_period_i[31:16];
+        if (playing_q || ramping_i) rest_q <= bit_period_i[31:16] - 16'd1;
         else if (resting) rest_q <= rest_q - 16'd1;
 
         if (begins) begin
