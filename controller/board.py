@@ -26,6 +26,7 @@ T = TypeVar("T")
 CHANNELS = 32
 LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
 FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
+FEWEST_SCK_TICKS = 3  # of the gateware: gateware.SCK_TICKS
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
 
 Positive = Annotated[float, Meta(gt=0)]
@@ -142,22 +143,31 @@ class Touch(Record, frozen=True):
 class LinkSettings(Record, frozen=True):
     """How drive words reach the FPGA."""
 
-    kind: Literal["simulated"]
+    kind: Literal["simulated", "serial"]
     clock_hz: Annotated[int, Meta(ge=1_000_000, le=400_000_000)]
     sck_hz: Annotated[int, Meta(ge=100_000, le=100_000_000)]
     slots: Annotated[int, Meta(ge=1, le=16)]
+    device: str = ""  # of a serial link
+    baud: Annotated[int, Meta(ge=9600, le=12_000_000)] = 1_000_000
 
     def __post_init__(self) -> None:
-        if self.sck_hz * 6 > self.clock_hz:
-            raise ValueError(f"sck_hz = {self.sck_hz} is above a sixth of clock_hz = {self.clock_hz}")
+        if self.sck_hz * FEWEST_SCK_TICKS > self.clock_hz:
+            raise ValueError(f"sck_hz = {self.sck_hz} is above a third of clock_hz = {self.clock_hz}")
+        if self.kind == "serial" and not self.device:
+            raise ValueError("device is missing: the serial port of the FPGA, such as /dev/ttyUSB0")
 
 
 class Limits(Record, frozen=True):
-    """What the panel may be asked for."""
+    """What the panel may be asked for; the FPGA keeps them, and has its own limits for all but the last."""
 
     heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
     ramp_ms: Annotated[float, Meta(gt=0, le=100)]
     max_duty: Share
+    duty_budget_ms: Annotated[float, Meta(ge=20, le=1000)]
+    longest_emission_ms: Annotated[float, Meta(gt=0, le=10)]
+    min_pulse_us: Annotated[float, Meta(ge=0.4, le=10)]
+    max_channel_edge_rate_hz: Annotated[float, Meta(gt=0, le=500e3)]
+    max_total_edge_rate_hz: Annotated[float, Meta(gt=0, le=16e6)]
     max_edge_rate_hz: Positive
 
 
@@ -207,8 +217,13 @@ class Board(Record, frozen=True):
         return sum(1 << a.channel for a in self.actuators)
 
     @property
+    def bit_period(self) -> int:
+        """Time for which one drive word is held, in 65536ths of a clock of the FPGA."""
+        return round(self.link.clock_hz / self.waveform.bit_clock_hz * 65536)
+
+    @property
     def bit_ticks(self) -> int:
-        """Clocks of the FPGA for which one drive word is held."""
+        """The same in whole clocks."""
         return round(self.link.clock_hz / self.waveform.bit_clock_hz)
 
     def digest(self) -> bytes:
@@ -232,11 +247,20 @@ def load_board(path: Path) -> Board:
     """
     file = path / "board.toml" if path.is_dir() else path
     board = load_toml(file, Board)
-    if board.bit_ticks * board.waveform.bit_clock_hz != board.link.clock_hz or board.bit_ticks < FEWEST_BIT_TICKS:
-        bit_clock_hz, clock_hz = board.waveform.bit_clock_hz, board.link.clock_hz
+    if board.link.clock_hz < FEWEST_BIT_TICKS * board.waveform.bit_clock_hz:
         raise ConfigError(
-            f"{file}: waveform.bit_clock_hz = {bit_clock_hz} is not"
-            f" link.clock_hz = {clock_hz} over a whole number >= {FEWEST_BIT_TICKS}"
+            f"{file}: waveform.bit_clock_hz = {board.waveform.bit_clock_hz} is above"
+            f" a {FEWEST_BIT_TICKS}th of link.clock_hz = {board.link.clock_hz}"
+        )
+    if board.limits.min_pulse_us * 1e-6 * board.waveform.bit_clock_hz > 1:
+        raise ConfigError(
+            f"{file}: limits.min_pulse_us = {board.limits.min_pulse_us:g} is longer than a drive word,"
+            f" {1e6 / board.waveform.bit_clock_hz:g} us at waveform.bit_clock_hz = {board.waveform.bit_clock_hz}"
+        )
+    if board.waveform.duration_ms > board.limits.longest_emission_ms:
+        raise ConfigError(
+            f"{file}: waveform.duration_ms = {board.waveform.duration_ms:g} is longer than"
+            f" limits.longest_emission_ms = {board.limits.longest_emission_ms:g}"
         )
     frame_ms = LONGEST_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
     if frame_ms > board.limits.heartbeat_timeout_ms / 2:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from controller.board import Board, data_folder
 from controller.fpga.build_hash import build_hash
-from controller.fpga.gateware import HEARTBEAT_LIMIT_S, GatewareFactory
+from controller.fpga.gateware import GatewareFactory, Parameters
 from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
@@ -28,8 +28,7 @@ def open_fpga(board: Board, now_s: Callable[[], float], gateware: GatewareFactor
     """
     built_from = build_hash(data_folder("fpga_rtl"))
     settings = board.link
-    limit_ticks = round(HEARTBEAT_LIMIT_S * settings.clock_hz)
-    link = SimulatedLink(settings, now_s, gateware(settings.clock_hz, settings.slots, built_from, limit_ticks))
+    link = SimulatedLink(settings, now_s, gateware(Parameters.of(settings.clock_hz, settings.slots, built_from)))
     return link, Session(link, board, built_from, now_s)
 
 

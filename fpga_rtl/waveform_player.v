@@ -89,7 +89,8 @@ module waveform_player #(
     wire repeating = endless_q || remaining_q != 16'd0;
     wire resting   = rest_q != 16'd0;
     wire halted    = stop_i || disarm_i || fault_i;  // nothing begins in this clock
-    wire free      = armed_i && !playing_q && !delayed_q && !resting && !halted;
+    wire room      = armed_i && !playing_q && !delayed_q && !resting;
+    wire free      = room && !halted;
     wire by_trigger = head_i && head_start_i == `START_TRIGGER && trigger_i;
     wire by_time    = head_i && head_start_i == `START_TIME && due_q;
     wire at_once    = head_i && head_start_i == `START_NOW && remaining_q == 16'd0;
@@ -240,7 +241,7 @@ module waveform_player #(
     assign repeating_o     = repeating;
     assign settled_o       = !playing_q && !resting;
     assign quiet_o         = !running && !resting;
-    assign ready_o         = head_i && head_start_i == `START_TRIGGER && free;
+    assign ready_o         = head_i && head_start_i == `START_TRIGGER && room;
     assign triggers_o      = triggers_q;
     assign ignored_o       = ignored_q;
     assign missed_o        = missed_count_q;

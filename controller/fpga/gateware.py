@@ -7,16 +7,67 @@ ends tick t.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from dataclasses import asdict, dataclass
+from enum import IntEnum
+from typing import Protocol, Self
 
 from controller.fpga.capture import Capture
+from controller.fpga.registers import DUTY_FULL
 
-READY_TICKS = 4  # from reset to the first frame and the first trigger: inputs pass through registers
+READY_TICKS = 8  # from reset to the first frame and the first trigger: inputs pass through registers
 SELECT_TO_SCK_TICKS = 5  # chip select falls at least this long before the first SCK edge
-SCK_TICKS = 6  # shortest period of SCK, whose pins are oversampled
+SCK_TICKS = 3  # shortest period of SCK
 SELECT_HIGH_TICKS = 4  # chip select stays high at least this long between frames
-TRIGGER_PERIOD_TICKS = 4  # between rises of the trigger: high for two clocks, low for two
+TRIGGER_HIGH_TICKS = 4  # of a trigger, as it is given here
+TRIGGER_PERIOD_TICKS = 8  # between rises of the trigger: high for four clocks, low for four
 HEARTBEAT_LIMIT_S = 0.25  # the longest heartbeat timeout, fixed when the gateware is built
+
+
+class Permit(IntEnum):
+    """Inputs that have to be high for the outputs to be on."""
+
+    RUN = 0
+    TEMPERATURE = 1
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """What is fixed when the gateware is built; names are those of `haptic_core.v` in lower case."""
+
+    clock_hz: int
+    slots: int
+    build_hash: int
+    board: int
+    heartbeat_ticks_max: int
+    edge_window_ticks: int
+    pulse_ticks_min: int
+    channel_edges_max: int
+    total_edges_max: int
+    emission_ticks_max: int
+    duty_share_max: int
+    duty_ticks_max: int
+
+    @classmethod
+    def of(cls, clock_hz: int, slots: int, build_hash: int) -> Self:
+        """With the limits that `haptic_core.v` has by itself."""
+        return cls(
+            clock_hz=clock_hz,
+            slots=slots,
+            build_hash=build_hash,
+            board=int.from_bytes(b"SIM ", "little"),
+            heartbeat_ticks_max=round(clock_hz * HEARTBEAT_LIMIT_S),
+            edge_window_ticks=clock_hz // 4,
+            pulse_ticks_min=max(clock_hz // 2_500_000, 4),
+            channel_edges_max=125_000,
+            total_edges_max=4_000_000,
+            emission_ticks_max=clock_hz // 100,
+            duty_share_max=DUTY_FULL,
+            duty_ticks_max=clock_hz,
+        )
+
+    def verilog(self) -> dict[str, int]:
+        """Parameters of the Verilog module."""
+        return {name.upper(): value for name, value in asdict(self).items()}
 
 
 class Gateware(Protocol):
@@ -33,11 +84,11 @@ class Gateware(Protocol):
     def advance(self, tick: int) -> None:
         """Go to `tick`; a tick already passed changes nothing."""
 
-    def permit(self, tick: int, level: bool) -> None:
-        """Drive the run permit pin to `level` at `tick`; it is low at tick 0."""
+    def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
+        """Drive a permit pin to `level` at `tick`; both are low at tick 0."""
 
-    def trigger(self, tick: int) -> None:
-        """Raise the trigger pin at `tick`, for two clocks; the next rise comes 4 clocks later or after."""
+    def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
+        """Raise the trigger pin at `tick`; less than 3 clocks are a glitch. The next rise comes 8 clocks later or after."""
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
         """One chip-select assertion: the pin falls at `select_tick` and rises at `release_tick`.
@@ -47,15 +98,15 @@ class Gateware(Protocol):
         mosi : bytes-like
             What the host sends.
         miso : writable memoryview of as many bytes
-            What comes back meanwhile: the status as of the fall, then zeros.
+            What comes back meanwhile: the status as of the fall, then zeros, or the echo of a TEST.
         """
 
     def take_capture(self) -> Capture:
         """Everything that happened on the output pins since the last capture, up to now."""
 
 
-GatewareFactory = Callable[[int, int, int, int], Gateware]
-"""Gateware just out of reset, of: clock in Hz, slots, build hash, longest heartbeat timeout in ticks."""
+GatewareFactory = Callable[[Parameters], Gateware]
+"""Gateware just out of reset."""
 
 
 class InputTiming:
@@ -74,8 +125,10 @@ class InputTiming:
             raise ValueError(f"{size_bytes} bytes need {shortest} ticks, not {release_tick - select_tick}")
         self._select_from = release_tick + SELECT_HIGH_TICKS
 
-    def trigger(self, tick: int) -> None:
+    def trigger(self, tick: int, high_ticks: int) -> None:
         """Take note of a rise of the trigger; one that comes too early could not be seen."""
         if tick < self._trigger_from:
             raise ValueError(f"the trigger rises at tick {tick}, before tick {self._trigger_from}")
+        if not 1 <= high_ticks <= TRIGGER_HIGH_TICKS:
+            raise ValueError(f"the trigger is high for {high_ticks} ticks, not 1 to {TRIGGER_HIGH_TICKS}")
         self._trigger_from = tick + TRIGGER_PERIOD_TICKS

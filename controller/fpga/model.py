@@ -8,60 +8,59 @@ everything is decided from the state as it was, as flip-flops do.
 from __future__ import annotations
 
 from bisect import insort
-from collections.abc import Callable
 from enum import Enum
-from functools import partial
 from typing import NamedTuple
 
 from controller.fpga.capture import Capture
-from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status
-from controller.fpga.gateware import InputTiming
+from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER, Status, pack_status
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit
+from controller.fpga.model_commands import Commands
 from controller.fpga.model_decoder import Frame, judge
-from controller.fpga.model_gate import PIN_TICKS, Gate, OutputGate
-from controller.fpga.model_player import Buffers, Play, Player
-from controller.fpga.model_registers import RegisterFile
-from controller.fpga.registers import CHUNKS, PROTOCOL_VERSION, Control, FrameType, Register, Result, State
+from controller.fpga.model_gate import PIN_TICKS, Gate
+from controller.fpga.model_player import DECISION_TICKS, Play
+from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
 
 INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
+TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough
 JUDGE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
+RATE_TICKS = 1  # beyond the time between the edges of chip select, for which a LOAD is found to have lasted
 
 
 class _Kind(Enum):
     PERMIT = 0
-    TRIGGER = 1
-    ENDED = 2
-    FRAME = 3
+    PERMIT_NOTED = 1
+    TRIGGER = 2
+    ENDED = 3
+    FRAME = 4
 
 
 class _Event(NamedTuple):
     tick: int
     kind: _Kind
+    permit: Permit = Permit.RUN
     level: bool = False  # of the permit
     frame: Frame = Frame(Result.OK)
-    landing_busy: bool = False  # when the frame began
-
-
-Effect = Callable[[int], None]
+    ticks: int = 0  # that the frame took
+    landing_busy: bool = False  # when it began
+    landing_live: bool = False
+    queue_full: bool = False
 
 
 class GatewareModel:
     """`haptic_core.v` with its pins: a `Gateware`."""
 
-    def __init__(self, clock_hz: int, slots: int, build_hash: int, heartbeat_ticks_max: int) -> None:
-        self._registers = RegisterFile(clock_hz, slots, build_hash, heartbeat_ticks_max)
-        self._gate = OutputGate(self._registers)
-        self._buffers = Buffers(slots)
-        self._player = Player()
+    def __init__(self, parameters: Parameters) -> None:
+        self._commands = Commands(parameters)
+        self._gate = self._commands.gate
+        self._player = self._commands.player
+        self._queue = self._commands.queue
+        self._buffers = self._commands.buffers
+        self._registers = self._commands.registers
+        self._telemetry = self._commands.telemetry
         self._now = 0
         self._timing = InputTiming()
         self._events: list[_Event] = []
-        self._result = Result.OK
-        self._sequence = 0
-        self._data = 0
-        self._triggers = 0
-        self._ignored = 0
-        self._emissions = 0
-        self._frame_errors = 0
+        self._permit_pins = dict.fromkeys(Permit, False)
 
     @property
     def now(self) -> int:
@@ -73,22 +72,28 @@ class GatewareModel:
         while (change := self.next_change()) is not None and change < tick:
             self._step(change)
             self._now = change + 1
+            self._gate.limits.settle(change - PIN_TICKS)
         self._now = max(self._now, tick)
 
     def next_change(self) -> int | None:
         """The next tick in which something happens without further input; None if nothing will."""
         event = self._events[0].tick if self._events else None
-        ticks = (event, self._player.next_change(), self._gate.next_change(self._now))
+        ticks = (event, self._player.next_change(), self._gate.next_change(self._now), self._head_tick(), self._arrival_tick())
         return min((tick for tick in ticks if tick is not None), default=None)
 
-    def permit(self, tick: int, level: bool) -> None:
-        """Drive the run permit pin to `level` at `tick`; it is low at tick 0."""
-        self._expect(_Event(tick + INPUT_TICKS - 1, _Kind.PERMIT, level=level))
+    def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
+        """Drive a permit pin to `level` at `tick`; both are low at tick 0."""
+        self._expect(_Event(tick + INPUT_TICKS - 1, _Kind.PERMIT, which, level))
+        if level != self._permit_pins[which]:
+            self._permit_pins[which] = level
+            self._expect(_Event(tick + INPUT_TICKS, _Kind.PERMIT_NOTED))
 
-    def trigger(self, tick: int) -> None:
+    def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
         """Raise the trigger pin at `tick`."""
-        self._timing.trigger(tick)
-        self._expect(_Event(tick + INPUT_TICKS, _Kind.TRIGGER))
+        self._timing.trigger(tick, high_ticks)
+        self._telemetry.trigger_pin.append((tick + INPUT_TICKS, tick + INPUT_TICKS + high_ticks))
+        if high_ticks >= FILTER_TICKS:
+            self._expect(_Event(tick + TRIGGER_TICKS, _Kind.TRIGGER))
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
         """One chip-select assertion; see `Gateware`."""
@@ -98,15 +103,29 @@ class GatewareModel:
         self.advance(select_tick + INPUT_TICKS)
         answer = bytearray(max(FRAME_BYTES, len(miso)))
         pack_status(answer, 0, self.status())
-        miso[:] = answer[: len(miso)]
         sent = memoryview(mosi).cast("B")
+        if len(sent) > FRAME_BYTES and sent[2] == FrameType.TEST:
+            answer[FRAME_BYTES : len(sent)] = sent[FRAME_BYTES - ECHO_DELAY_BYTES : -ECHO_DELAY_BYTES]
+        miso[:] = answer[: len(miso)]
         if not len(sent):
             return
         frame = judge(sent)
-        landing_busy = self._player.uses(self._buffers.landing)
-        if frame.loaded_words and not landing_busy:
+        commands = self._commands
+        busy, live = commands.landing_busy, commands.landing_live
+        if frame.loaded_words and not busy and not (live and self._buffers.chunk_words[frame.argument]):
             self._buffers.write(frame.argument, sent[HEADER.size : HEADER.size + 4 * frame.loaded_words])
-        self._expect(_Event(release_tick + JUDGE_TICKS, _Kind.FRAME, frame=frame, landing_busy=landing_busy))
+        ticks = release_tick - select_tick + RATE_TICKS
+        self._expect(
+            _Event(
+                release_tick + JUDGE_TICKS,
+                _Kind.FRAME,
+                frame=frame,
+                ticks=ticks,
+                landing_busy=busy,
+                landing_live=live,
+                queue_full=self._queue.full,
+            )
+        )
 
     def take_capture(self) -> Capture:
         """Everything that happened on the pins since the last capture, up to now."""
@@ -119,167 +138,175 @@ class GatewareModel:
 
     def status(self) -> Status:
         """What a frame whose chip select fell two ticks ago would be answered."""
-        gate, player = self._gate, self._player
+        gate, player, telemetry, now = self._gate, self._player, self._telemetry, self._now
         bits = (
             (State.ARMED, gate.state is Gate.ON),
             (State.RAMPING, gate.ramping),
             (State.PLAYING, player.playing),
             (State.REPEATING, player.repeating),
-            (State.PENDING, player.pending is not None),
-            (State.LANDING_BUSY, player.uses(self._buffers.landing)),
-            (State.RUN_PERMIT, gate.permit),
-            (State.HEARTBEAT, self._now < gate.silent_from),
-            (State.HV_ENABLE, gate.pins.hv_at(self._now)),
+            (State.PENDING, bool(self._queue.plays)),
+            (State.LANDING_BUSY, self._commands.landing_busy),
+            (State.RUN_PERMIT, gate.permits[Permit.RUN]),
+            (State.HEARTBEAT, now < gate.silent_from),
+            (State.HV_ENABLE, gate.pins.hv_at(now)),
+            (State.TEMPERATURE_GOOD, gate.permits[Permit.TEMPERATURE]),
+            (State.CHECKING, self._buffers.checking(now)),
+            (State.DELAYED, player.delayed),
+            (State.READY, self._ready()),
         )
         state = State(sum(bit for bit, holds in bits if holds))
         return Status(
-            self._result,
-            self._sequence,
+            telemetry.result,
+            telemetry.sequence,
             state,
             gate.faults,
-            self._data,
-            self._triggers & 0xFFFFFFFF,
-            self._now,
-            self._emissions & 0xFFFFFFFF,
+            telemetry.data,
+            telemetry.triggers & 0xFFFFFFFF,
+            now,
+            telemetry.emissions & 0xFFFFFFFF,
+            len(self._queue.plays),
+            self._buffers.chunks(),
+            telemetry.ignored & 0xFFFF,
         )
+
+    def _ready(self) -> bool:
+        head = self._queue.head(self._now)
+        return head is not None and head.start is Start.TRIGGER and self._free(self._now)
+
+    def _free(self, tick: int) -> bool:
+        """A play at the head may begin."""
+        return self._gate.state is Gate.ON and self._player.settled(tick) and not self._player.delayed
+
+    def _head_tick(self) -> int | None:
+        """The next tick in which the head may begin, or be missed, without a trigger."""
+        queue, player = self._queue, self._player
+        if not queue.plays or queue.plays[0].start is Start.TRIGGER:
+            return None
+        head = queue.plays[0]
+        if head.start is Start.TIME:
+            return max(queue.head_from + 1, head.when - DECISION_TICKS, self._now)
+        if player.playing or player.delayed or player.remaining or self._gate.state is not Gate.ON:
+            return None
+        return max(queue.head_from, player.free_from, self._now)
+
+    def _arrival_tick(self) -> int | None:
+        """The tick in which a live emission comes to a word that was not there when it was looked for last."""
+        player = self._player
+        if not player.playing or not player.live or player.running is None or player.known_words >= player.running.length:
+            return None
+        return max(player.start + (player.known_words * self._registers.bit_period >> 16), self._now)
+
+    def _arrive(self) -> bool:
+        """Give words to the pins that have arrived since; False if the one that is due has not."""
+        player, known = self._player, self._player.known_words
+        assert player.running
+        chunk, within = divmod(known, CHUNK_WORDS)
+        there = self._buffers.chunk_words[chunk]
+        if within >= there:
+            return False
+        end = min(known - within + there, player.running.length)
+        waveform = self._buffers.waveform(player.running.buffer)
+        # copied: a later chunk is written into the same buffer while this one is shown
+        words = player.running.words(waveform, self._registers.idle_word, known, end).copy()
+        self._gate.play(player.start, words, known)
+        player.known_words = end
+        return True
 
     def _step(self, tick: int) -> None:
         """All that happens in one tick; what comes later here wins, as in the Verilog."""
         cause = self._gate.cause(tick)
-        effect: Effect | None = None
-        permit = self._gate.permit
-        trigger = False
-        ended = False
+        if tick == self._arrival_tick() and not self._arrive():
+            cause |= Fault.UNDERRUN
+        trigger = ended = noted = False
+        frame: _Event | None = None
+        permits = dict(self._gate.permits)
         while self._events and self._events[0].tick == tick:
             event = self._events.pop(0)
             if event.kind is _Kind.PERMIT:
-                permit = event.level
+                permits[event.permit] = event.level
+            elif event.kind is _Kind.PERMIT_NOTED:
+                noted = True
             elif event.kind is _Kind.FRAME:
-                effect = self._judged(tick, event)
+                frame = event
             else:
                 trigger |= event.kind is _Kind.TRIGGER
                 ended |= event.kind is _Kind.ENDED
+        effect = None
+        if frame is not None:
+            effect = self._commands.carry_out(
+                tick,
+                frame.frame,
+                frame.ticks,
+                landing_busy=frame.landing_busy,
+                landing_live=frame.landing_live,
+                queue_full=frame.queue_full,
+            )
         if ended and not cause:
-            self._emissions += 1
+            self._telemetry.emissions += 1
             self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
-        self._move_player(tick, trigger)
-        self._gate.end_ramp(tick)
-        if effect:
-            effect(tick)
+        halted = bool(cause) or (effect is not None and effect.halts)
+        self._move_player(tick, trigger, halted)
+        if effect is not None:
+            effect.take(tick)
+            if effect.triggers:
+                self._expect(_Event(tick + 1, _Kind.TRIGGER))
+        if self._gate.move_ramp(tick):
+            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks
+        if noted:
+            self._telemetry.input_tick = tick
         if cause:
+            self._telemetry.underruns += Fault.UNDERRUN in cause
             self._gate.shut(tick, cause)
-            self._player.drop()
+            self._commands.drop(tick)
+            self._player.drop(tick)
             self._events = [event for event in self._events if event.kind is not _Kind.ENDED]
-        self._gate.permit = permit
+        self._gate.permits = permits
 
-    def _judged(self, tick: int, event: _Event) -> Effect | None:
-        """Result of a frame from the state as it was; its effect comes after everything else of the tick."""
-        frame = event.frame
-        effect: Effect | None = None
-        self._result = frame.refusal
-        if frame.refusal is not Result.OK:
-            self._frame_errors += 1
-            return None
-        self._sequence = frame.sequence
-        self._gate.hear(tick)
-        if frame.kind == FrameType.READ:
-            self._result = self._read(frame.argument)
-        elif frame.kind == FrameType.WRITE and frame.argument == Register.CONTROL:
-            self._result, effect = self._control(frame.words)
-        elif frame.kind == FrameType.WRITE:
-            disarmed = self._gate.state is Gate.OFF
-            self._result = self._registers.write(frame.argument, frame.words[0], disarmed=disarmed)
-        elif frame.kind == FrameType.LOAD:
-            self._result = self._load(event)
-        elif frame.kind == FrameType.STORE:
-            self._result = self._buffers.store(frame.argument, frame.words[0])
-        elif frame.kind == FrameType.PLAY:
-            self._result, effect = self._play(frame)
-        elif frame.kind != FrameType.NOP:
-            self._result = Result.UNKNOWN_TYPE
-        return effect
-
-    def _read(self, address: int) -> Result:
-        counters = {
-            Register.CONTROL: 0,
-            Register.FAULT: self._gate.faults,
-            Register.TRIGGERS_IGNORED: self._ignored,
-            Register.EMISSIONS: self._emissions,
-            Register.FRAME_ERRORS: self._frame_errors,
-            Register.SLOTS_LOADED: self._buffers.loaded(),
-        }
-        if address not in set(Register):
-            return Result.UNKNOWN_REGISTER
-        value = self._registers.read(address)
-        self._data = (counters[Register(address)] if value is None else value) & 0xFFFFFFFF
-        return Result.OK
-
-    def _control(self, words: tuple[int, ...]) -> tuple[Result, Effect | None]:
-        command, version, build_hash = words[:3]
-        if command == Control.ARM:
-            if (version, build_hash) != (PROTOCOL_VERSION, self._registers.build_hash):
-                return Result.BAD_KEY, None
-            if self._gate.state is not Gate.OFF:
-                return Result.ARMED, None
-            if self._gate.faults:
-                return Result.FAULTED, None
-            return (Result.OK, self._gate.arm) if self._gate.permit else (Result.NO_PERMIT, None)
-        effects: dict[int, Effect] = {
-            Control.DISARM: self._disarm,
-            Control.CLEAR: lambda _: self._gate.clear(),
-            Control.STOP: lambda _: self._player.stop(),
-        }
-        effect = effects.get(command)
-        return (Result.OK if effect else Result.BAD_VALUE), effect
-
-    def _load(self, event: _Event) -> Result:
-        if event.frame.argument >= CHUNKS:
-            return Result.BAD_CHUNK
-        if event.landing_busy:
-            return Result.BUSY
-        self._buffers.count(event.frame.argument, event.frame.loaded_words)
-        return Result.OK
-
-    def _play(self, frame: Frame) -> tuple[Result, Effect | None]:
-        slot, (count, period_ticks) = frame.argument, frame.words[:2]
-        if slot >= len(self._buffers.slot_buffer):
-            return Result.BAD_SLOT, None
-        if self._gate.faults:
-            return Result.FAULTED, None
-        if self._gate.state is not Gate.ON:
-            return Result.NOT_ARMED, None
-        length_words = self._buffers.slot_words[slot]
-        if not length_words:
-            return Result.EMPTY_SLOT, None
-        if self._player.pending:
-            return Result.BUSY, None
-        if count != 1 and period_ticks < length_words * self._registers.bit_ticks:
-            return Result.BAD_VALUE, None
-        play = Play(self._buffers.slot_buffer[slot], length_words, count, period_ticks)
-        return Result.OK, partial(self._await_trigger, play)
-
-    def _await_trigger(self, play: Play, _tick: int) -> None:
-        self._player.pending = play
-
-    def _move_player(self, tick: int, trigger: bool) -> None:
-        """Ends, next emissions of a repetition and triggers of one tick."""
-        player = self._player
-        last, due = player.is_last(tick), player.is_due(tick)
-        ready = player.pending if trigger and not player.playing else None
-        if last:
-            player.end()
-            self._expect(_Event(tick + PIN_TICKS, _Kind.ENDED))
-            self._gate.idle(tick + 1)
+    def _move_player(self, tick: int, trigger: bool, halted: bool) -> None:
+        """Ends, next emissions of a repetition, triggers and scheduled starts of one tick."""
+        player, telemetry = self._player, self._telemetry
+        head = self._queue.head(tick)
+        free = self._free(tick) and not halted
+        begins: Play | None = None
+        if head is not None:
+            seen = tick > self._queue.head_from  # its time is looked at one tick after it is fetched
+            due = head.start is Start.TIME and seen and head.when == tick + DECISION_TICKS
+            at_once = head.start is Start.NOW and not player.remaining
+            if free and (due or at_once or (trigger and head.start is Start.TRIGGER)):
+                begins = self._queue.pop(tick)
+            elif head.start is Start.TIME and seen and head.when < tick + DECISION_TICKS:
+                self._queue.pop(tick)
+                telemetry.missed += 1
         if trigger:
-            self._triggers += 1
-            self._ignored += ready is None
-        play = ready or (player.running if due else None)
-        if ready:
-            player.pending = None
-        if play:
-            player.start(play, tick, self._registers.bit_ticks, again=ready is None)
-            self._gate.play(tick + 1, self._buffers.waveform(play.buffer, play.length_words))
+            telemetry.triggers += 1
+            telemetry.trigger_tick = tick
+            telemetry.ignored += begins is None or begins.start is not Start.TRIGGER
+        repeats = player.repeating and not player.delayed and tick == player.due_tick and begins is None and not halted
+        released = player.release_tick == tick and not halted
+        if player.playing and tick == player.end - 1:
+            if not player.halting:
+                self._expect(_Event(tick + PIN_TICKS, _Kind.ENDED))
+            player.finish(tick, self._registers.bit_ticks)
+            self._gate.idle(tick + 1)
+            self._gate.limits.emission(tick + 1, sounding=False)
+            self._gate.limits.activity(tick + 1, active=False)
+        if begins is not None:
+            player.begin(begins, tick)
+        if repeats and player.running is not None:
+            player.remaining = max(player.remaining - 1, 0)
+        if repeats or released or (begins is not None and not player.delayed):
+            self._sound(tick)
 
-    def _disarm(self, tick: int) -> None:
-        self._player.drop()
-        self._gate.disarm(tick)
+    def _sound(self, tick: int) -> None:
+        """The running play sounds from the next tick on."""
+        player, gate = self._player, self._gate
+        player.sound(tick, self._registers.bit_period)
+        assert player.running
+        self._telemetry.emission_tick = tick + DECISION_TICKS
+        gate.limits.emission(tick + 1, sounding=True)
+        gate.limits.activity(tick + 1, active=True)
+        if not player.running.live:
+            waveform = self._buffers.waveform(player.running.buffer)
+            words = player.running.words(waveform, self._registers.idle_word, 0, player.running.length)
+            gate.play(tick + 1, words)
+            player.known_words = player.running.length

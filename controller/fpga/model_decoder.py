@@ -26,7 +26,7 @@ class Frame(NamedTuple):
     kind: int = 0
     sequence: int = 0
     argument: int = 0
-    words: tuple[int, ...] = (0, 0, 0, 0, 0)
+    words: tuple[int, ...] = (0, 0, 0, 0, 0, 0)
     loaded_words: int = 0  # that entered the landing buffer, at chunk `argument`
 
 
@@ -38,7 +38,8 @@ def judge(mosi: memoryview) -> Frame:
         return Frame(Result.BAD_LENGTH if sync_good else Result.BAD_SYNC)
     _, kind, sequence, length, argument = HEADER.unpack_from(mosi)
     is_load = kind == FrameType.LOAD
-    if is_load:
+    is_long = is_load or kind == FrameType.TEST
+    if is_long:
         length_good = LOAD_PAYLOAD_MIN_BYTES <= length <= LOAD_PAYLOAD_MAX_BYTES and length % 4 == 0
     else:
         length_good = length == SHORT_PAYLOAD_BYTES

@@ -7,11 +7,14 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.fpga.model_pins import Pins, ramp_bits, turned_ramp_bits
+from controller.fpga.gateware import Permit
+from controller.fpga.model_limits import StageLimits
+from controller.fpga.model_pins import Pins, Stretch, ramp_bits, turned_ramp_bits
 from controller.fpga.model_registers import RegisterFile
 from controller.fpga.registers import Fault
 
-PIN_TICKS = 3  # from the state of player and ramp to the pins: memory, selection, gate
+PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
+_LIMITS_SHIFT = int(Fault.SHORT_PULSE).bit_length() - 1
 
 
 class Gate(Enum):
@@ -20,7 +23,8 @@ class Gate(Enum):
     OFF = 0
     RAMP_UP = 1
     ON = 2
-    RAMP_DOWN = 3
+    STOPPING = 3
+    RAMP_DOWN = 4
 
 
 class OutputGate:
@@ -28,31 +32,46 @@ class OutputGate:
 
     def __init__(self, registers: RegisterFile) -> None:
         self._registers = registers
-        self.pins = Pins()
+        self.limits = StageLimits(registers.limits, registers.parameters.edge_window_ticks)
+        self.pins = Pins(self.limits)
         self.state = Gate.OFF
         self.faults = Fault(0)
-        self.permit = False
+        self.fault_count = 0
+        self.fault_tick = 0
+        self.permits = dict.fromkeys(Permit, False)
         self.silent_from = 0  # the tick from which on the host counts as silent
+        self.ramp_end = 0
         self._ramp_start = 0
-        self._ramp_end = 0
+        self._ramp_from = 0  # the tick of STOPPING from which on the way down may begin
 
     @property
     def ramping(self) -> bool:
-        """Gliding up or down."""
-        return self.state in (Gate.RAMP_UP, Gate.RAMP_DOWN)
+        """Gliding up or down, or about to."""
+        return self.state in (Gate.RAMP_UP, Gate.STOPPING, Gate.RAMP_DOWN)
 
     def next_change(self, now: int) -> int | None:
         """The tick of the next end of a ramp or of the next fault that can be foreseen."""
         if self.state is Gate.OFF:
             return None
-        fault = self.silent_from if self.permit else now
-        return min(fault, self._ramp_end - 1) if self.ramping else fault
+        ticks = [self.silent_from if all(self.permits.values()) else now]
+        limit = self.limits.next_change(now)
+        if limit is not None:
+            ticks.append(limit)
+        if self.state is Gate.STOPPING:
+            ticks.append(self._ramp_from)
+        elif self.ramping:
+            ticks.append(self.ramp_end - 1)
+        return max(min(ticks), now)
 
     def cause(self, tick: int) -> Fault:
-        """Why the outputs have to go off in this tick."""
+        """Why the outputs have to go off in this tick, but for an underrun."""
         if self.state is Gate.OFF:
             return Fault(0)
-        cause = Fault(0) if self.permit else Fault.NO_PERMIT
+        cause = Fault(self.limits.cause(tick) << _LIMITS_SHIFT)
+        if not self.permits[Permit.RUN]:
+            cause |= Fault.NO_PERMIT
+        if not self.permits[Permit.TEMPERATURE]:
+            cause |= Fault.OVER_TEMPERATURE
         return cause | Fault.HOST_SILENT if tick >= self.silent_from else cause
 
     def hear(self, tick: int) -> None:
@@ -63,49 +82,61 @@ class OutputGate:
         """Glide to the idle word."""
         self._ramp(tick + 1, Gate.RAMP_UP, ramp_bits(self._registers.ramp_samples, up=True))
 
-    def disarm(self, tick: int) -> None:
-        """Glide to 0, from full scale or back from where the way up has come to."""
+    def disarm(self, tick: int, settled_from: int) -> None:
+        """Glide to 0, once the idle word is old enough, or back from where the way up has come to."""
         samples, bit_ticks = self._registers.ramp_samples, self._registers.bit_ticks
         if self.state is Gate.ON:
+            self.state = Gate.STOPPING
+            self._ramp_from = max(tick + 1, settled_from)
+        elif self.state is Gate.RAMP_UP and tick == self.ramp_end - 1:
             self._ramp(tick + 1, Gate.RAMP_DOWN, ramp_bits(samples, up=False))
         elif self.state is Gate.RAMP_UP:
             reached = (tick - self._ramp_start) // bit_ticks + 1
             turn = self._ramp_start + reached * bit_ticks  # at the next drive word
             self._ramp(turn, Gate.RAMP_DOWN, turned_ramp_bits(samples, reached))
 
-    def end_ramp(self, tick: int) -> None:
-        """Go on or off if the ramp ends with this tick."""
-        if self.ramping and tick == self._ramp_end - 1:
+    def move_ramp(self, tick: int) -> bool:
+        """Begin or end a ramp with this tick; True if one ends."""
+        if self.state is Gate.STOPPING and tick == self._ramp_from:
+            self._ramp(tick + 1, Gate.RAMP_DOWN, ramp_bits(self._registers.ramp_samples, up=False))
+        elif self.state in (Gate.RAMP_UP, Gate.RAMP_DOWN) and tick == self.ramp_end - 1:
             up = self.state is Gate.RAMP_UP
             self.state = Gate.ON if up else Gate.OFF
-            self._put_word(self._ramp_end + PIN_TICKS, self._registers.idle_word if up else 0, hv=int(up))
+            self.pins.put_word(self.ramp_end + PIN_TICKS, self._registers.idle_word if up else 0, hv=int(up))
+            self.limits.activity(self.ramp_end, active=False)
+            return True
+        return False
 
-    def play(self, tick: int, waveform: NDArray[np.uint32]) -> None:
-        """The words of an emission, from state tick `tick` on."""
-        words = waveform & np.uint32(self._registers.channel_mask)
-        self.pins.put(tick + PIN_TICKS, words, self._registers.bit_ticks, 1)
+    def play(self, tick: int, words: NDArray[np.uint32], first: int = 0) -> None:
+        """Words of an emission that began at state tick `tick`, of which they are those from the `first` on."""
+        masked = words & np.uint32(self._registers.channel_mask)
+        self.pins.put(Stretch(tick + PIN_TICKS, masked, self._registers.bit_period, 1, first))
 
     def idle(self, tick: int) -> None:
         """The idle word, from state tick `tick` on."""
-        self._put_word(tick + PIN_TICKS, self._registers.idle_word, hv=1)
+        self.pins.put_word(tick + PIN_TICKS, self._registers.idle_word, hv=1)
 
     def shut(self, tick: int, cause: Fault) -> None:
         """Outputs low with the next tick, whatever is still on its way to them."""
         self.faults |= cause
+        self.fault_count += 1
+        self.fault_tick = tick
         self.state = Gate.OFF
-        self._put_word(tick + 1, 0, hv=0)
+        self.pins.put_word(tick + 1, 0, hv=0)
         self.pins.cut_focus()
+        self.limits.activity(tick + 1, active=False)
+        self.limits.emission(tick + 1, sounding=False)
 
-    def clear(self) -> None:
+    def clear(self, tick: int) -> None:
         """Forget the causes of a fault."""
         self.faults = Fault(0)
+        self.limits.clear(tick)
 
     def _ramp(self, tick: int, state: Gate, bits: NDArray[np.bool_]) -> None:
         bit_ticks = self._registers.bit_ticks
         self.state = state
         self._ramp_start = tick
-        self._ramp_end = tick + len(bits) * bit_ticks
-        self.pins.put(tick + PIN_TICKS, bits * np.uint32(self._registers.idle_word), bit_ticks, 1)
-
-    def _put_word(self, tick: int, word: int, *, hv: int) -> None:
-        self.pins.put(tick, np.array([word], np.uint32), 1, hv)
+        self.ramp_end = tick + len(bits) * bit_ticks
+        words = bits * np.uint32(self._registers.idle_word)
+        self.pins.put(Stretch(tick + PIN_TICKS, words, bit_ticks << 16, 1))
+        self.limits.activity(tick, active=True)

@@ -1,8 +1,8 @@
 """The output pins of the gateware model as a list of stretches, turned into ticks and words when asked for.
 
-A stretch is a row of words, each held for the same number of ticks, the last one until the next
-stretch begins. What happens later but begins earlier (a fault cuts what is still in the pipeline)
-replaces what was foreseen, so nothing has to be computed before it is known.
+A stretch is a row of words, each held for a bit period, the last one until the next stretch begins.
+What happens later but begins earlier (a fault cuts what is still in the pipeline) replaces what was
+foreseen, so nothing has to be computed before it is known.
 """
 
 from __future__ import annotations
@@ -14,39 +14,61 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
+from controller.fpga.model_limits import StageLimits
 
 Words = NDArray[np.uint32]
 
 
+WHOLE = 1 << 16  # one tick, in parts of a tick
+
+
 class Stretch(NamedTuple):
-    """`words[i]` on the pins from `start + i * word_ticks`."""
+    """`words[i]` on the pins from `start + floor((first + i) * period / 65536)`."""
 
     start: int
     words: Words
-    word_ticks: int
+    period: int  # in 65536ths of a tick
     hv: int
+    first: int = 0
+
+    def ticks(self) -> NDArray[np.int64]:
+        """When each word comes to the pins."""
+        numbers = np.arange(self.first, self.first + len(self.words), dtype=np.int64)
+        return self.start + (numbers * self.period >> 16)
+
+    @property
+    def begin(self) -> int:
+        """When the first word comes to the pins."""
+        return self.start + (self.first * self.period >> 16)
 
 
 class Pins:
-    """Channel pins, high-voltage enable and focus pin since the last capture."""
+    """Channel pins, high-voltage enable and focus pin since the last capture; the stage limits see them too."""
 
-    def __init__(self) -> None:
-        self._stretches = [Stretch(0, np.zeros(1, np.uint32), 1, 0)]
+    def __init__(self, limits: StageLimits) -> None:
+        self._limits = limits
+        self._stretches = [Stretch(0, np.zeros(1, np.uint32), WHOLE, 0)]
         self._shown = 1  # words of the first stretch that earlier captures had
         self._last = (0, 0)  # word and enable at the end of the last capture
         self._focus_ticks: list[int] = []
         self._focus_until = 0
 
-    def put(self, start: int, words: Words, word_ticks: int, hv: int) -> None:
-        """From tick `start` on, play `words`."""
-        while self._stretches[-1].start >= start and len(self._stretches) > 1:
+    def put(self, stretch: Stretch) -> None:
+        """Play a stretch, instead of what was to come from its beginning on."""
+        begin = stretch.begin
+        while self._stretches[-1].begin >= begin and len(self._stretches) > 1:
             self._stretches.pop()
-        self._stretches.append(Stretch(start, words, word_ticks, hv))
+        self._stretches.append(stretch)
+        self._limits.show(stretch.ticks(), stretch.words)
+
+    def put_word(self, tick: int, word: int, *, hv: int) -> None:
+        """Hold one word from a tick on."""
+        self.put(Stretch(tick, np.array([word], np.uint32), WHOLE, hv))
 
     def hv_at(self, tick: int) -> int:
         """The high-voltage enable at a tick not before the last capture."""
         for stretch in reversed(self._stretches):
-            if stretch.start <= tick:
+            if stretch.begin <= tick:
                 return stretch.hv
         return 0
 
@@ -62,19 +84,18 @@ class Pins:
 
     def take(self, now: int) -> Capture:
         """Everything up to tick `now` that no earlier capture had."""
-        ticks: list[NDArray[np.uint64]] = []
+        ticks: list[NDArray[np.int64]] = []
         words: list[Words] = []
         levels: list[NDArray[np.uint8]] = []
         first = self._shown
-        known = [stretch for stretch in self._stretches if stretch.start <= now]
+        known = [stretch for stretch in self._stretches if stretch.begin <= now]
         for stretch, following in zip(known, [*known[1:], None], strict=True):
-            until = following.start if following else now + 1
-            end = min(len(stretch.words), -(-(until - stretch.start) // stretch.word_ticks))
-            count = max(end - first, 0)
-            begin = stretch.start + first * stretch.word_ticks
-            ticks.append(np.uint64(begin) + np.arange(count, dtype=np.uint64) * np.uint64(stretch.word_ticks))
-            words.append(stretch.words[first : first + count])
-            levels.append(np.full(count, stretch.hv, np.uint8))
+            until = following.begin if following else now + 1
+            all_ticks = stretch.ticks()
+            end = int(np.searchsorted(all_ticks, until))
+            ticks.append(all_ticks[first:end])
+            words.append(stretch.words[first:end])
+            levels.append(np.full(max(end - first, 0), stretch.hv, np.uint8))
             self._shown = max(end, first)
             first = 0
         self._stretches = self._stretches[len(known) - 1 :]
@@ -88,7 +109,7 @@ class Pins:
             self._last = (int(all_words[-1]), int(all_levels[-1]))
         focus_ticks = np.array(self._focus_ticks, np.uint64)
         self._focus_ticks = []
-        return Capture(np.concatenate(ticks)[changed], all_words[changed], all_levels[changed], focus_ticks)
+        return Capture(np.concatenate(ticks)[changed].astype(np.uint64), all_words[changed], all_levels[changed], focus_ticks)
 
 
 def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -> tuple[list[bool], tuple[int, int]]:

@@ -1,57 +1,25 @@
-"""Buffers and player of the gateware model: `waveform_buffer.v` and `waveform_player.v`, from change to change."""
+"""Queue and player of the gateware model: `play_queue.v`, `play_check.v` and `waveform_player.v`, from change to change.
+
+Ticks are those of the player's state, before the output pipeline.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.fpga.registers import CHUNK_WORDS, CHUNKS, WAVEFORM_WORDS, Result
+from controller.fpga.model_gate import PIN_TICKS
+from controller.fpga.registers import QUEUE_PLAYS, Start
+
+FETCH_TICKS = 9  # from the tick in which a play is accepted, or the one before it is taken, until it is at the head
+DECISION_TICKS = PIN_TICKS + 1  # from the tick in which a play is begun to its first word on the pins
 
 
-class Buffers:
-    """One waveform buffer more than there are slots, behind a map: the odd one out is where uploads land."""
-
-    def __init__(self, slots: int) -> None:
-        self._words = np.zeros((slots + 1, WAVEFORM_WORDS), np.uint32)
-        self.slot_buffer = list(range(slots))
-        self.slot_words = [0] * slots  # 0: nothing stored
-        self.landing = slots
-        self._chunk_words = [0] * CHUNKS
-
-    def waveform(self, buffer: int, length_words: int) -> NDArray[np.uint32]:
-        """View of the first words of a buffer."""
-        return self._words[buffer, :length_words]
-
-    def write(self, chunk: int, payload: memoryview) -> None:
-        """Words of a LOAD enter the landing buffer; its chunk does not count until the frame is accepted."""
-        first = chunk * CHUNK_WORDS
-        words = np.frombuffer(payload, "<u4")
-        self._words[self.landing, first : first + len(words)] = words
-        self._chunk_words[chunk] = 0
-
-    def count(self, chunk: int, words: int) -> None:
-        """The frame that brought a chunk is accepted."""
-        self._chunk_words[chunk] = words
-
-    def store(self, slot: int, length_words: int) -> Result:
-        """Give the landing buffer to a slot; the slot's old one is where the next upload lands."""
-        if slot >= len(self.slot_buffer):
-            return Result.BAD_SLOT
-        if not 1 <= length_words <= WAVEFORM_WORDS:
-            return Result.BAD_VALUE
-        for chunk, words in enumerate(self._chunk_words):
-            if words < min(length_words - chunk * CHUNK_WORDS, CHUNK_WORDS):
-                return Result.INCOMPLETE
-        self.landing, self.slot_buffer[slot] = self.slot_buffer[slot], self.landing
-        self.slot_words[slot] = length_words
-        self._chunk_words = [0] * CHUNKS
-        return Result.OK
-
-    def loaded(self) -> int:
-        """Bit k: slot k holds a waveform."""
-        return sum(1 << slot for slot, words in enumerate(self.slot_words) if words)
+def word_tick(number: int, bit_period: int) -> int:
+    """Ticks from the first word of an emission to word `number`."""
+    return number * bit_period >> 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,78 +27,175 @@ class Play:
     """An accepted play command; it keeps the buffer it was accepted with."""
 
     buffer: int
-    length_words: int
+    first: int
+    length: int
     count: int  # 0: endless
     period_ticks: int
+    start: Start
+    when: int  # delay or time
+    mask: int
+    inverted: bool
+    live: bool  # of the landing buffer, while that arrives
+    raw: tuple[int, ...]  # words of its frame
+
+    def words(self, waveform: NDArray[np.uint32], idle_word: int, first: int, end: int) -> NDArray[np.uint32]:
+        """Words `first` to `end` as the channels play them."""
+        data = waveform[self.first + first : self.first + end]
+        if self.inverted:
+            data = ~data
+        mask = np.uint32(self.mask)
+        return data & mask | np.uint32(idle_word & ~self.mask & 0xFFFFFFFF)
+
+
+class Queue:
+    """Accepted plays that have not begun."""
+
+    def __init__(self) -> None:
+        self.plays: list[Play] = []
+        self._head_from = 0
+        self._popped = -FETCH_TICKS
+
+    @property
+    def full(self) -> bool:
+        """There is no room for another play."""
+        return len(self.plays) == QUEUE_PLAYS
+
+    def push(self, tick: int, play: Play) -> None:
+        """Accept a play."""
+        if not self.plays:
+            self._head_from = max(self._head_from, tick + FETCH_TICKS)
+        self.plays.append(play)
+
+    def pop(self, tick: int) -> Play:
+        """Take the head."""
+        self._popped = tick
+        self._head_from = tick + FETCH_TICKS
+        return self.plays.pop(0)
+
+    def drop(self, tick: int) -> None:
+        """Forget all."""
+        self.plays.clear()
+        self._head_from = tick
+
+    def head(self, tick: int) -> Play | None:
+        """The play whose turn it is, once it has been fetched."""
+        return self.plays[0] if self.plays and tick >= self._head_from else None
+
+    @property
+    def head_from(self) -> int:
+        """The tick from which on the head is there, if there is a play."""
+        return self._head_from
+
+    def fetching(self, tick: int) -> bool:
+        """Whether the memory's address is taken by the next head."""
+        return self._popped < tick < self._popped + FETCH_TICKS
 
 
 class Player:
-    """The running play and the pending one. Ticks are those of the player's state, before the output pipeline."""
+    """The running play: sounding, delayed, or in the pause before its next emission."""
 
     def __init__(self) -> None:
-        self.pending: Play | None = None
-        self.running: Play | None = None  # sounding, or in the pause before its next emission
+        self.running: Play | None = None
         self.playing = False
         self.remaining = 0  # emissions after this one
-        self._start = 0
-        self._end = 0
+        self.release_tick: int | None = None  # in which a delayed play begins to sound
+        self.free_from = 0  # the tick from which on another play may begin, if nothing sounds
+        self.played_until: dict[int, int] = {}  # of each buffer: the tick after its last emission
+        self.start = 0  # first tick of the emission that sounds, or sounded last
+        self.end = 0
+        self.halting = False
+        self.known_words = 0  # of a live emission: those already given to the pins
 
     @property
     def repeating(self) -> bool:
         """More emissions of the running play are to come."""
         return self.running is not None and (self.remaining > 0 or self.running.count == 0)
 
-    def uses(self, buffer: int) -> bool:
-        """The running or the pending play needs what is in this buffer."""
-        return any(play is not None and play.buffer == buffer for play in (self.running, self.pending))
-
-    def next_change(self) -> int | None:
-        """Last tick before an emission ends or the next of a repetition begins."""
-        if self.playing:
-            return self._end - 1
-        return self._due if self.running else None
-
-    def is_last(self, tick: int) -> bool:
-        """The emission that sounds ends after this tick."""
-        return self.playing and tick == self._end - 1
-
-    def is_due(self, tick: int) -> bool:
-        """The next emission of a repetition begins after this tick."""
-        return self.repeating and tick == self._due
+    @property
+    def live(self) -> bool:
+        """What runs is still arriving."""
+        return self.running is not None and self.running.live
 
     @property
-    def _due(self) -> int:
+    def delayed(self) -> bool:
+        """A play has begun and waits for its delay."""
+        return self.release_tick is not None
+
+    def settled(self, tick: int) -> bool:
+        """Nothing sounds, and the idle word has been held for a bit period."""
+        return not self.playing and tick >= self.free_from
+
+    def quiet(self, tick: int) -> bool:
+        """Nothing sounds, waits or repeats."""
+        return self.settled(tick) and self.running is None
+
+    def next_change(self) -> int | None:
+        """Next tick after which an emission ends or begins by itself."""
+        ticks = [self.end - 1] if self.playing else []
+        if self.repeating and not self.delayed:
+            ticks.append(self.due_tick)
+        if self.release_tick is not None:
+            ticks.append(self.release_tick)
+        return min(ticks, default=None)
+
+    @property
+    def due_tick(self) -> int:
+        """Last tick before the next emission of a repetition."""
         assert self.running
-        return self._start + self.running.period_ticks - 1
+        return self.start - 1 + self.running.period_ticks
 
-    def start(self, play: Play, tick: int, bit_ticks: int, *, again: bool) -> None:
-        """Sound `play` from the tick after `tick`; `again`: as the next emission of the running repetition."""
-        if again:
-            self.remaining = max(self.remaining - 1, 0)
-        else:
-            self.remaining = max(play.count - 1, 0)
+    def begin(self, play: Play, tick: int) -> None:
+        """Take a play that begins in this tick, at once or after its delay."""
         self.running = play
-        self.playing = True
-        self._start = tick + 1
-        self._end = self._start + play.length_words * bit_ticks
+        self.remaining = max(play.count - 1, 0)
+        delay_ticks = 0 if play.start is Start.TIME else play.when & 0xFFFFFFFF
+        self.release_tick = tick + delay_ticks if delay_ticks else None
 
-    def end(self) -> None:
-        """The emission is over."""
+    def sound(self, tick: int, bit_period: int) -> None:
+        """The running play sounds from the tick after this one."""
+        assert self.running
+        self.playing = True
+        self.release_tick = None
+        self.start = tick + 1
+        self.end = self.start + word_tick(self.running.length, bit_period)
+        self.known_words = 0
+
+    def finish(self, tick: int, bit_ticks: int) -> None:
+        """The emission's last tick is this one."""
+        assert self.running
         self.playing = False
+        self.halting = False
+        self.played_until[self.running.buffer] = tick + 1
+        self.free_from = tick + 1 + bit_ticks
         if not self.repeating:
             self.running = None
 
     def stop(self) -> None:
-        """Drop the pending play; let the running one end with its current emission."""
-        self.pending = None
+        """End with the emission that sounds."""
         self.remaining = 0
+        self.release_tick = None
         if not self.playing:
             self.running = None
-        elif self.running is not None:
-            self.running = Play(self.running.buffer, self.running.length_words, 1, self.running.period_ticks)
+        elif self.running is not None and self.running.count == 0:
+            self.running = replace(self.running, count=1)
 
-    def drop(self) -> None:
-        """Forget everything."""
-        self.pending = self.running = None
-        self.playing = False
+    def halt(self, tick: int, bit_period: int) -> None:
+        """End with the word that sounds."""
+        self.stop()
+        if self.playing:
+            number = ((tick + 1 - self.start) << 16) // bit_period
+            while self.start + word_tick(number, bit_period) < tick + 1:
+                number += 1
+            ends = self.start + word_tick(number, bit_period)
+            self.halting = ends < self.end
+            self.end = ends
+
+    def drop(self, tick: int) -> None:
+        """Everything is off after this tick."""
+        if self.playing and self.running:
+            self.played_until[self.running.buffer] = tick + 1
+        self.running = None
+        self.playing = self.halting = False
         self.remaining = 0
+        self.release_tick = None
+        self.free_from = 0

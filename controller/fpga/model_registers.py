@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from controller.fpga.gateware import Parameters
+from controller.fpga.model_limits import LimitSettings
 from controller.fpga.registers import (
+    BIT_CLOCK_HZ_MAX,
+    BIT_CLOCK_HZ_MIN,
     BIT_CLOCK_HZ_RESET,
-    BIT_TICKS_MAX,
     BIT_TICKS_MIN,
     CHANNELS,
+    FILTER_TICKS,
     IDENTITY_MAGIC,
     PROTOCOL_VERSION,
+    QUEUE_PLAYS,
     RAMP_SAMPLES_MAX,
     RAMP_SAMPLES_RESET,
     REGISTERS,
+    TRIGGER_LATENCY_TICKS,
     WAVEFORM_WORDS,
     Register,
     Result,
@@ -23,31 +29,46 @@ _ALL_ONES = 0xFFFFFFFF
 class RegisterFile:
     """Settings by name; everything else by address."""
 
-    def __init__(self, clock_hz: int, slots: int, build_hash: int, heartbeat_ticks_max: int) -> None:
+    def __init__(self, parameters: Parameters) -> None:
+        self.parameters = p = parameters
+        fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
+        most = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest)
         self._values = {
             Register.IDENTITY: IDENTITY_MAGIC,
             Register.PROTOCOL: PROTOCOL_VERSION,
-            Register.BUILD_HASH: build_hash,
-            Register.CLOCK_HZ: clock_hz,
-            Register.GEOMETRY: slots | WAVEFORM_WORDS << 8 | CHANNELS << 24,
+            Register.BUILD_HASH: p.build_hash,
+            Register.BOARD: p.board,
+            Register.CLOCK_HZ: p.clock_hz,
+            Register.GEOMETRY: p.slots | WAVEFORM_WORDS << 8 | CHANNELS << 24,
+            Register.PARAMETERS: QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16,
+            Register.EDGE_WINDOW_TICKS: p.edge_window_ticks,
             Register.IDLE_WORD: 0,
-            Register.BIT_TICKS: max(BIT_TICKS_MIN, clock_hz // BIT_CLOCK_HZ_RESET),
-            Register.RAMP_SAMPLES: RAMP_SAMPLES_RESET,
-            Register.HEARTBEAT_TICKS: heartbeat_ticks_max,
             Register.CHANNEL_MASK: _ALL_ONES,
+            Register.BIT_PERIOD: max(fewest, p.clock_hz // BIT_CLOCK_HZ_RESET) << 16,
+            Register.RAMP_SAMPLES: RAMP_SAMPLES_RESET,
+            Register.HEARTBEAT_TICKS: p.heartbeat_ticks_max,
+            Register.PULSE_TICKS: p.pulse_ticks_min,
+            Register.CHANNEL_EDGES: p.channel_edges_max,
+            Register.TOTAL_EDGES: p.total_edges_max,
+            Register.EMISSION_TICKS: p.emission_ticks_max,
+            Register.DUTY_SHARE: p.duty_share_max,
+            Register.DUTY_TICKS: p.duty_ticks_max,
         }
-        self._limits = {
+        self._ranges = {
             Register.IDLE_WORD: (0, _ALL_ONES),
-            Register.BIT_TICKS: (BIT_TICKS_MIN, BIT_TICKS_MAX),
-            Register.RAMP_SAMPLES: (1, RAMP_SAMPLES_MAX),
-            Register.HEARTBEAT_TICKS: (1, heartbeat_ticks_max),
             Register.CHANNEL_MASK: (0, _ALL_ONES),
+            Register.BIT_PERIOD: (fewest << 16, most << 16),
+            Register.RAMP_SAMPLES: (1, RAMP_SAMPLES_MAX),
+            Register.HEARTBEAT_TICKS: (1, p.heartbeat_ticks_max),
+            Register.PULSE_TICKS: (p.pulse_ticks_min, _ALL_ONES),
+            Register.CHANNEL_EDGES: (0, p.channel_edges_max),
+            Register.TOTAL_EDGES: (0, p.total_edges_max),
+            Register.EMISSION_TICKS: (0, p.emission_ticks_max),
+            Register.DUTY_SHARE: (0, p.duty_share_max),
+            Register.DUTY_TICKS: (0, p.duty_ticks_max),
         }
-
-    @property
-    def build_hash(self) -> int:
-        """Hash of the Verilog that ARM has to name."""
-        return self._values[Register.BUILD_HASH]
+        self.limits = LimitSettings()
+        self._set_limits()
 
     @property
     def idle_word(self) -> int:
@@ -55,9 +76,19 @@ class RegisterFile:
         return self._values[Register.IDLE_WORD] & self.channel_mask
 
     @property
+    def channel_mask(self) -> int:
+        """Channels that may move."""
+        return self._values[Register.CHANNEL_MASK]
+
+    @property
+    def bit_period(self) -> int:
+        """Time one drive word is held, in 65536ths of a tick."""
+        return self._values[Register.BIT_PERIOD]
+
+    @property
     def bit_ticks(self) -> int:
-        """Clocks one drive word is held."""
-        return self._values[Register.BIT_TICKS]
+        """Its whole ticks."""
+        return self.bit_period >> 16
 
     @property
     def ramp_samples(self) -> int:
@@ -69,26 +100,37 @@ class RegisterFile:
         """Clocks without a good frame until the host counts as silent."""
         return self._values[Register.HEARTBEAT_TICKS]
 
-    @property
-    def channel_mask(self) -> int:
-        """Channels that may move."""
-        return self._values[Register.CHANNEL_MASK]
-
-    def read(self, address: int) -> int | None:
+    def read(self, register: Register) -> int | None:
         """Value of a register that is kept here; None if it is kept elsewhere."""
-        return self._values.get(Register(address))
+        return self._values.get(register)
 
-    def write(self, address: int, value: int, *, disarmed: bool) -> Result:
+    def write(self, address: int, value: int, *, disarmed: bool, quiet: bool) -> Result:
         """Change a setting, or say why not."""
         if address not in set(Register):
             return Result.UNKNOWN_REGISTER
         register = Register(address)
         if REGISTERS[register].access == "RO":
             return Result.READ_ONLY
-        if not disarmed:
+        if register == Register.BIT_PERIOD:
+            if not quiet:
+                return Result.BUSY
+        elif not disarmed:
             return Result.ARMED
-        low, high = self._limits[register]
+        low, high = self._ranges[register]
+        if register == Register.BIT_PERIOD:
+            low = max(low, self._values[Register.PULSE_TICKS] << 16)
+        elif register == Register.PULSE_TICKS:
+            high = self.bit_ticks
         if not low <= value <= high:
             return Result.BAD_VALUE
         self._values[register] = value
+        self._set_limits()
         return Result.OK
+
+    def _set_limits(self) -> None:
+        self.limits.pulse_ticks = self._values[Register.PULSE_TICKS]
+        self.limits.channel_edges = self._values[Register.CHANNEL_EDGES]
+        self.limits.total_edges = self._values[Register.TOTAL_EDGES]
+        self.limits.emission_ticks = self._values[Register.EMISSION_TICKS]
+        self.limits.duty_share = self._values[Register.DUTY_SHARE]
+        self.limits.duty_ticks = self._values[Register.DUTY_TICKS]

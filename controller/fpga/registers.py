@@ -136,7 +136,7 @@ REGISTERS: Final[dict[Register, Description]] = {
         "WO",
         "31:0",
         "-",
-        "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; ARM comes directly behind it), 6 TRIGGER",
+        "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; directly before ARM), 6 TRIGGER",
     ),
     Register.IDLE_WORD: Description("RW", "31:0", "0", "level of each channel while armed and not playing"),
     Register.CHANNEL_MASK: Description("RW", "31:0", "0xFFFFFFFF", "channels that may move; the others are low"),

@@ -5,6 +5,8 @@ A play that was damaged on its way is sent again behind a STOP, so that nothing 
 
 from __future__ import annotations
 
+import math
+import zlib
 from collections.abc import Callable
 
 from controller.board import Board
@@ -13,9 +15,10 @@ from controller.fpga import frames
 from controller.fpga.exchange import Exchange, Refused
 from controller.fpga.frames import FRAME_BYTES, Status, upload_slices
 from controller.fpga.link import Link
-from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Control, Register, State
+from controller.fpga.registers import CHANNELS, DUTY_FULL, IDENTITY_MAGIC, PROTOCOL_VERSION, Control, Register, State
 
 BEATS_PER_TIMEOUT = 3
+CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
 
 
 class Session:
@@ -49,6 +52,8 @@ class Session:
         self._upload = upload_slices(board.waveform.samples)
         self._upload_lengths = [piece.stop - piece.start for piece in self._upload]
         self._ramp_samples = max(1, round(board.limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
+        frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
+        self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
         self._on = False
         self._verify()
         self._configure()
@@ -80,9 +85,10 @@ class Session:
         """Have the outputs glide to their idle levels; the time at which they have arrived."""
         sequence = self._exchange.sequence
         end = frames.pack_nop(self._sent, 0, sequence)  # feeds the heartbeat, without which arming is refused
-        end = frames.pack_arm(self._sent, end, sequence + 1, self._build_hash)
+        end = frames.pack_unlock(self._sent, end, sequence + 1, self._build_hash)
+        end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
         self._on = True
-        self._exchange.short(frames.pack_nop(self._sent, end, sequence + 2))
+        self._exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
         return self._ramp_end_s()
 
     def require_armed(self) -> None:
@@ -160,7 +166,7 @@ class Session:
             sequence = self._exchange.sequence
             end = frames.pack_upload(self._sent, 0, sequence, words)
             commands = end
-            end = self._pack_commands(end, sequence + len(self._upload), slot, words.nbytes // 4, count, period_s, stop or again)
+            end = self._pack_commands(end, sequence + len(self._upload), slot, words, count, period_s, stop or again)
             return self._exchange.message([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
 
         try:
@@ -174,15 +180,19 @@ class Session:
         return self._link.trigger()
 
     def _pack_commands(
-        self, end: int, sequence: int, slot: int, length: int | None, count: int, period_s: float, stop: bool
+        self, end: int, sequence: int, slot: int, words: memoryview | None, count: int, period_s: float, stop: bool
     ) -> int:
-        """STOP if asked, STORE if something was loaded, PLAY, NOP; returns the end."""
+        """STORE if something was loaded, STOP if asked, PLAY, NOP; returns the end."""
+        if words is not None:
+            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
+            sequence += 1
         if stop:
             end = frames.pack_control(self._sent, end, sequence, Control.STOP)
             sequence += 1
-        if length is not None:
-            end = frames.pack_store(self._sent, end, sequence, slot, length)
-            sequence += 1
+        if words is not None:  # the FPGA takes the CRC of what it stored meanwhile
+            for _ in range(self._check_frames - stop):
+                end = frames.pack_nop(self._sent, end, sequence)
+                sequence += 1
         period_ticks = round(period_s * self._board.link.clock_hz)
         end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
@@ -212,21 +222,32 @@ class Session:
 
     def _configure(self) -> None:
         """Disarm, clear, and set what the board says."""
-        board = self._board
         self.clear_faults()
         if State.HV_ENABLE in self.heartbeat().state:
             raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
-        for register, value in {
-            Register.IDLE_WORD: board.idle_word,
-            Register.BIT_TICKS: board.bit_ticks,
-            Register.RAMP_SAMPLES: self._ramp_samples,
-            Register.HEARTBEAT_TICKS: round(board.limits.heartbeat_timeout_ms * 1e-3 * board.link.clock_hz),
-            Register.CHANNEL_MASK: board.channel_mask,
-        }.items():
+        for register, value in self._settings().items():
             self._exchange.write(register, value)
             if self._exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 
+    def _settings(self) -> dict[Register, int]:
+        """Registers as the board says; what is beyond the FPGA's own limits it refuses."""
+        board, limits, clock_hz = self._board, self._board.limits, self._board.link.clock_hz
+        window_s = self._exchange.read(Register.EDGE_WINDOW_TICKS) / clock_hz
+        return {
+            Register.IDLE_WORD: board.idle_word,
+            Register.CHANNEL_MASK: board.channel_mask,
+            Register.BIT_PERIOD: board.bit_period,
+            Register.RAMP_SAMPLES: self._ramp_samples,
+            Register.HEARTBEAT_TICKS: round(limits.heartbeat_timeout_ms * 1e-3 * clock_hz),
+            Register.PULSE_TICKS: math.ceil(limits.min_pulse_us * 1e-6 * clock_hz),
+            Register.CHANNEL_EDGES: int(limits.max_channel_edge_rate_hz * window_s),
+            Register.TOTAL_EDGES: int(limits.max_total_edge_rate_hz * window_s),
+            Register.EMISSION_TICKS: round(limits.longest_emission_ms * 1e-3 * clock_hz),
+            Register.DUTY_SHARE: round(limits.max_duty * DUTY_FULL),
+            Register.DUTY_TICKS: round(limits.duty_budget_ms * 1e-3 * clock_hz),
+        }
+
     def _ramp_end_s(self) -> float:
-        samples = self._ramp_samples + 2
+        samples = self._ramp_samples + 5  # the word that sounds, the idle word behind it, and the FPGA its own way
         return self.ready_s() + samples * self._board.waveform.bit_period_s

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 
 from controller.board import LinkSettings
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import READY_TICKS, Gateware
+from controller.fpga.gateware import READY_TICKS, Gateware, Permit
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
 TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger pin: the frame must have been judged
@@ -28,7 +28,7 @@ class SimulatedLink:
     now_s : callable
         The loop's clock; tick 0 is its value now.
     gateware : Gateware
-        Just out of reset; it is given its run permit.
+        Just out of reset; it is given its permits.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float], gateware: Gateware) -> None:
@@ -42,7 +42,8 @@ class SimulatedLink:
         self._pause_ticks = round(SELECT_PAUSE_SCK * self._ticks_per_bit)
         self._free_tick = READY_TICKS  # when the wire is free
         self.gateware = gateware
-        gateware.permit(0, True)
+        for permit in Permit:
+            gateware.permit(0, True, permit)
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames, each at its time on the wire."""

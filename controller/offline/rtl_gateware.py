@@ -16,11 +16,11 @@ from typing import Any, Final
 import numpy as np
 
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import InputTiming
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit
 from controller.offline.rtl_build import build_library
 
-TRIGGER, PERMIT = 0, 1  # as in wrapper.cpp
-TRIGGER_HIGH_TICKS: Final = 2
+TRIGGER: Final = 0  # pins, as in wrapper.cpp
+PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}
 
 
 class RtlGateware:
@@ -28,8 +28,8 @@ class RtlGateware:
 
     Parameters
     ----------
-    clock_hz, slots, build_hash, heartbeat_ticks_max : int
-        Parameters of the module.
+    parameters : Parameters
+        Of the module.
     compiling : callable
         Called before the library has to be built, which takes several seconds.
 
@@ -39,21 +39,8 @@ class RtlGateware:
         If there is no library and none can be built.
     """
 
-    def __init__(
-        self,
-        clock_hz: int,
-        slots: int,
-        build_hash: int,
-        heartbeat_ticks_max: int,
-        compiling: Callable[[], None] = lambda: None,
-    ) -> None:
-        parameters = {
-            "CLOCK_HZ": clock_hz,
-            "SLOTS": slots,
-            "BUILD_HASH": build_hash,
-            "HEARTBEAT_TICKS_MAX": heartbeat_ticks_max,
-        }
-        self._library = _load(build_library(parameters, compiling))
+    def __init__(self, parameters: Parameters, compiling: Callable[[], None] = lambda: None) -> None:
+        self._library = _load(build_library(parameters.verilog(), compiling))
         self._panel = self._library.panel_open()
         weakref.finalize(self, self._library.panel_close, self._panel)
         self._timing = InputTiming()
@@ -67,17 +54,17 @@ class RtlGateware:
         """Go to `tick`; a tick already passed changes nothing."""
         self._library.panel_run(self._panel, max(tick, 0))
 
-    def permit(self, tick: int, level: bool) -> None:
-        """Drive the run permit pin to `level` at `tick`; it is low at tick 0."""
-        self._not_past("the run permit changes", tick)
-        self._library.panel_set(self._panel, PERMIT, tick, level)
+    def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
+        """Drive a permit pin to `level` at `tick`; both are low at tick 0."""
+        self._not_past("a permit changes", tick)
+        self._library.panel_set(self._panel, PINS[which], tick, level)
 
-    def trigger(self, tick: int) -> None:
+    def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
         """Raise the trigger pin at `tick`; see `Gateware`."""
         self._not_past("the trigger rises", tick)
-        self._timing.trigger(tick)
+        self._timing.trigger(tick, high_ticks)
         self._library.panel_set(self._panel, TRIGGER, tick, True)
-        self._library.panel_set(self._panel, TRIGGER, tick + TRIGGER_HIGH_TICKS, False)
+        self._library.panel_set(self._panel, TRIGGER, tick + high_ticks, False)
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
         """One chip-select assertion, SCK fitted evenly between its edges; it has come to `release_tick` then."""

@@ -88,7 +88,11 @@ def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
     """The plate at T of one emission from rest at the idle word."""
     board = twin.board
     settled = round(SETTLED / float(np.min(-twin.step.poles.real)) * board.link.clock_hz)
-    return next(twin.fields(capture_of_words(words, board.bit_ticks, board.idle_word, settled), board.link.clock_hz))
+    return next(
+        twin.fields(
+            capture_of_words(words, board.bit_ticks, board.idle_word, settled), board.bit_ticks * board.waveform.bit_clock_hz
+        )
+    )
 
 
 def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:

@@ -22,7 +22,7 @@ namespace {
 constexpr uint64_t SELECT_TO_SCK_TICKS = 5;  // as in controller/fpga/gateware.py
 constexpr int RESET_CLOCKS = 4;
 constexpr uint64_t NEVER = UINT64_MAX;
-enum Pin : uint32_t { TRIGGER = 0, PERMIT = 1 };
+enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2 };
 
 struct Change {
     Pin pin;
@@ -33,6 +33,7 @@ class Panel {
 public:
     Panel() : core_{&context_} {
         core_.spi_cs_n_i = 1;
+        core_.uart_rx_i = 1;
         core_.rst_i = 1;
         core_.eval();
         for (int i = 0; i < RESET_CLOCKS; ++i) clock();
@@ -87,9 +88,13 @@ private:
         Vhaptic_core___024root___eval(core_.rootp);
     }
 
+    uint8_t &level_of(Pin pin) {
+        return pin == TRIGGER ? core_.trigger_i : pin == RUN_PERMIT ? core_.run_permit_i : core_.temperature_ok_i;
+    }
+
     void apply() {
         for (auto input = inputs_.begin(); input != inputs_.end() && input->first <= now_; input = inputs_.erase(input))
-            (input->second.pin == TRIGGER ? core_.trigger_i : core_.run_permit_i) = input->second.level;
+            level_of(input->second.pin) = input->second.level;
         next_input_ = inputs_.empty() ? NEVER : inputs_.begin()->first;
     }
 

@@ -4,20 +4,38 @@ A script knows no answers, so that every back-end gets exactly the same one. Wha
 pins while a frame is on the wire comes before that frame in the script.
 """
 
+import zlib
+from dataclasses import replace
+
 import numpy as np
 
 from controller.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.frames import parse_status
-from controller.fpga.gateware import HEARTBEAT_LIMIT_S, READY_TICKS, SCK_TICKS, SELECT_HIGH_TICKS, SELECT_TO_SCK_TICKS
-from controller.fpga.registers import Register
+from controller.fpga.gateware import (
+    READY_TICKS,
+    SCK_TICKS,
+    SELECT_HIGH_TICKS,
+    SELECT_TO_SCK_TICKS,
+    TRIGGER_HIGH_TICKS,
+    TRIGGER_PERIOD_TICKS,
+    Parameters,
+    Permit,
+)
+from controller.fpga.registers import Control, Register
 
-# Those of the simulated board, so that one library serves all
-CLOCK_HZ = 80_000_000
-SLOTS = 4
+# A slow clock, so that words of 4 ticks are within the fastest bit clock, and short windows
+CLOCK_HZ = 8_000_000
+SLOTS = 3
 BUILD_HASH = build_hash(data_folder("fpga_rtl"))
-HEARTBEAT_TICKS_MAX = round(HEARTBEAT_LIMIT_S * CLOCK_HZ)
+PARAMETERS = replace(
+    Parameters.of(CLOCK_HZ, SLOTS, BUILD_HASH),
+    edge_window_ticks=5000,
+    channel_edges_max=100_000,
+    emission_ticks_max=9000,
+    duty_ticks_max=100_000,
+)
 
 BIT_TICKS = 4
 RAMP_SAMPLES = 9
@@ -28,7 +46,7 @@ JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is
 
 
 def open_gateware(back_end):
-    return back_end(CLOCK_HZ, SLOTS, BUILD_HASH, HEARTBEAT_TICKS_MAX)
+    return back_end(PARAMETERS)
 
 
 class Script:
@@ -45,14 +63,14 @@ class Script:
     def wait(self, ticks):
         self.tick += ticks
 
-    def permit(self, level, tick=None):
-        self.steps.append(("permit", (self.tick if tick is None else tick, level)))
+    def permit(self, level, tick=None, which=Permit.RUN):
+        self.steps.append(("permit", (self.tick if tick is None else tick, level, which)))
 
-    def trigger(self, tick=None):
+    def trigger(self, tick=None, high_ticks=TRIGGER_HIGH_TICKS):
         """Raise the trigger, now or as soon as it may rise again after a tick to come; returns its tick."""
         tick = max(self.tick if tick is None else tick, self._trigger_from)
-        self._trigger_from = tick + 4
-        self.steps.append(("trigger", (tick,)))
+        self._trigger_from = tick + TRIGGER_PERIOD_TICKS
+        self.steps.append(("trigger", (tick, high_ticks)))
         return tick
 
     def exchange(self, frame):
@@ -76,17 +94,19 @@ class Script:
     def control(self, command):
         return self.send(frames.pack_control, command)
 
-    def settings(self, bit_ticks=BIT_TICKS, ramp_samples=RAMP_SAMPLES):
-        self.permit(True)
+    def settings(self, bit_period=BIT_TICKS << 16, ramp_samples=RAMP_SAMPLES):
+        for permit in Permit:
+            self.permit(True, which=permit)
         for register, value in (
             (Register.IDLE_WORD, IDLE_WORD),
-            (Register.BIT_TICKS, bit_ticks),
+            (Register.BIT_PERIOD, bit_period),
             (Register.RAMP_SAMPLES, ramp_samples),
         ):
             self.send(frames.pack_write, register, value)
 
     def arm(self):
-        release = self.send(frames.pack_arm, BUILD_HASH)
+        self.send(frames.pack_unlock, BUILD_HASH)
+        release = self.control(Control.ARM)
         self.wait(RAMP_TICKS + 10)
         return release
 
@@ -94,7 +114,13 @@ class Script:
         data = memoryview(np.ascontiguousarray(words, "<u4")).cast("B")
         for chunk in range(-(-len(words) // 125)):
             self.send(frames.pack_load, chunk, data[500 * chunk : 500 * (chunk + 1)])
-        return self.send(frames.pack_store, slot, len(words))
+        return self.store(slot, words)
+
+    def store(self, slot, words):
+        words = np.ascontiguousarray(words, "<u4")
+        release = self.send(frames.pack_store, slot, len(words), zlib.crc32(words))
+        self.wait(len(words))  # until the slot is checked, but for a few ticks that a frame takes anyway
+        return release
 
     def perform(self, back_end, late=None):
         """Answers and capture; `late`: that kind of step comes one tick late."""
@@ -107,8 +133,8 @@ class Script:
                 answers.append(bytearray(len(mosi)))
                 gateware.exchange(select_tick + later, release_tick + later, mosi, memoryview(answers[-1]))
             else:
-                tick, *level = arguments
-                getattr(gateware, method)(tick + later, *level)
+                tick, *others = arguments
+                getattr(gateware, method)(tick + later, *others)
         gateware.advance(self.tick)
         return answers, gateware.take_capture()
 

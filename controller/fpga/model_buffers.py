@@ -1,0 +1,112 @@
+"""Waveform buffers of the gateware model: `waveform_buffer.v`, with the check of what was stored."""
+
+from __future__ import annotations
+
+import zlib
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.fpga.registers import CHUNK_WORDS, CHUNKS, WAVEFORM_WORDS, Result
+
+CHECK_TICKS = 5  # from the tick in which a STORE is carried out, beyond one for each word, until its slot is checked
+ADDRESS_TICKS = 4  # for which an address must have had its way before a READ of memory
+
+
+class _Check(NamedTuple):
+    slot: int
+    intact: bool
+    crc: int
+    until: int
+
+
+class Buffers:
+    """One waveform buffer more than there are slots, behind a map: the odd one out is where uploads land."""
+
+    def __init__(self, slots: int) -> None:
+        self._words = np.zeros((slots + 1, WAVEFORM_WORDS), np.uint32)
+        self.slot_buffer = list(range(slots))
+        self.slot_words = [0] * slots  # 0: nothing stored
+        self.landing = slots
+        self.chunk_words = [0] * CHUNKS  # of the landing buffer; 0: does not count
+        self._slot_crc = [0] * slots
+        self._intact = [False] * slots
+        self._check: _Check | None = None
+        self._checked_until = 0
+
+    def waveform(self, buffer: int) -> NDArray[np.uint32]:
+        """View of a whole buffer."""
+        return self._words[buffer, :]
+
+    def write(self, chunk: int, payload: memoryview) -> None:
+        """Words of a LOAD enter the landing buffer; its chunk does not count until the frame is accepted."""
+        first = chunk * CHUNK_WORDS
+        words = np.frombuffer(payload, "<u4")
+        self._words[self.landing, first : first + len(words)] = words
+        self.chunk_words[chunk] = 0
+
+    def checking(self, tick: int) -> bool:
+        """Whether a slot is being checked."""
+        if self._check and tick >= self._check.until:
+            slot, intact, crc, until = self._check
+            self._intact[slot], self._slot_crc[slot] = intact, crc
+            self._checked_until = until
+            self._check = None
+        return self._check is not None
+
+    def checking_slot(self, tick: int, slot: int) -> bool:
+        """Whether this slot is being checked."""
+        return self.checking(tick) and self._check is not None and self._check.slot == slot
+
+    def intact(self, tick: int, slot: int) -> bool:
+        """Whether what the slot holds has the CRC it was stored with."""
+        return not self.checking_slot(tick, slot) and self._intact[slot]
+
+    def store(self, tick: int, slot: int, length_words: int, crc: int, *, live: bool) -> Result:
+        """Give the landing buffer to a slot; the slot's old one is where the next upload lands."""
+        if slot >= len(self.slot_buffer):
+            return Result.BAD_SLOT
+        if not 1 <= length_words <= WAVEFORM_WORDS:
+            return Result.BAD_VALUE
+        if live or self.checking(tick):
+            return Result.BUSY
+        for chunk, words in enumerate(self.chunk_words):
+            if words < min(length_words - chunk * CHUNK_WORDS, CHUNK_WORDS):
+                return Result.INCOMPLETE
+        self.landing, self.slot_buffer[slot] = self.slot_buffer[slot], self.landing
+        self.slot_words[slot] = length_words
+        self._intact[slot] = False
+        self.chunk_words = [0] * CHUNKS
+        found = zlib.crc32(self.waveform(self.slot_buffer[slot])[:length_words].astype("<u4").tobytes())
+        self._check = _Check(slot, found == crc, found, tick + length_words + CHECK_TICKS)
+        return Result.OK
+
+    def loaded(self, tick: int) -> int:
+        """Bit k: slot k holds a waveform whose CRC matches."""
+        return sum(1 << slot for slot in range(len(self.slot_words)) if self.intact(tick, slot))
+
+    def chunks(self) -> int:
+        """Bit k: chunk k of the landing buffer counts."""
+        return sum(1 << chunk for chunk, words in enumerate(self.chunk_words) if words)
+
+    def read_crc(self, tick: int, slot: int) -> tuple[Result, int]:
+        """CRC of what a slot holds."""
+        if slot >= len(self.slot_buffer):
+            return Result.BAD_SLOT, 0
+        if not self.slot_words[slot]:
+            return Result.EMPTY_SLOT, 0
+        if self.checking_slot(tick, slot):
+            return Result.BUSY, 0
+        return Result.OK, self._slot_crc[slot]
+
+    def read_memory(self, tick: int, slot: int, word: int, played_until: dict[int, int]) -> tuple[Result, int]:
+        """A word of a slot, unless check or player had its address lately; `played_until`: of each buffer."""
+        if slot >= len(self.slot_buffer):
+            return Result.BAD_SLOT, 0
+        if word >= self.slot_words[slot]:
+            return Result.BAD_RANGE, 0
+        buffer = self.slot_buffer[slot]
+        if self.checking(tick) or tick < max(self._checked_until, played_until.get(buffer, 0)) + ADDRESS_TICKS:
+            return Result.BUSY, 0
+        return Result.OK, int(self.waveform(buffer)[word])

@@ -1,0 +1,313 @@
+"""What becomes of an accepted frame in the gateware model: results as `haptic_core.v` gives them, and their effects."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model_buffers import Buffers
+from controller.fpga.model_decoder import Frame
+from controller.fpga.model_gate import Gate, OutputGate
+from controller.fpga.model_player import Play, Player, Queue, word_tick
+from controller.fpga.model_registers import RegisterFile
+from controller.fpga.registers import (
+    CHUNKS,
+    IDENTITY_MAGIC,
+    PLAY_LANDING,
+    PROTOCOL_VERSION,
+    READ_MEMORY,
+    READ_QUEUE,
+    READ_SLOT_CRC,
+    TIME_LEAD_TICKS,
+    WAVEFORM_WORDS,
+    Control,
+    FrameType,
+    Register,
+    Result,
+    Start,
+)
+
+LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
+_HIGH_OF = {
+    Register.FAULT_TIME_LOW: Register.FAULT_TIME_HIGH,
+    Register.INPUT_TIME_LOW: Register.INPUT_TIME_HIGH,
+    Register.TRIGGER_TIME_LOW: Register.TRIGGER_TIME_HIGH,
+    Register.EMISSION_TIME_LOW: Register.EMISSION_TIME_HIGH,
+}
+
+
+@dataclass
+class Telemetry:
+    """Everything that is only counted or noted."""
+
+    result: Result = Result.OK
+    sequence: int = 0
+    data: int = 0
+    high: int = 0  # half of the time whose LOW was read last
+    triggers: int = 0
+    ignored: int = 0
+    missed: int = 0
+    emissions: int = 0
+    underruns: int = 0
+    frame_errors: int = 0
+    gaps: int = 0
+    trigger_tick: int = 0
+    emission_tick: int = 0
+    input_tick: int = 0
+    trigger_pin: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # ticks in which it is seen high
+
+
+class Effect(NamedTuple):
+    """What a frame does to the state after its tick."""
+
+    take: Callable[[int], None]
+    halts: bool = False  # nothing begins in its tick
+    triggers: bool = False
+
+
+class Commands:
+    """The parts of the model, and what frames ask of them."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        self.registers = RegisterFile(parameters)
+        self.gate = OutputGate(self.registers)
+        self.buffers = Buffers(parameters.slots)
+        self.player = Player()
+        self.queue = Queue()
+        self.telemetry = Telemetry()
+        self._unlocked = False
+        self._fast = False  # the last LOAD came as fast as it would play
+        self._free_tick = 0  # when the last scheduled play will be over
+
+    @property
+    def landing_busy(self) -> bool:
+        """What was in a slot still plays, or waits to, from the landing buffer."""
+        plays = [*self.queue.plays, self.player.running]
+        return any(play is not None and play.buffer == self.buffers.landing and not play.live for play in plays)
+
+    @property
+    def landing_live(self) -> bool:
+        """What is arriving plays, or waits to."""
+        return self.player.live or any(play.live for play in self.queue.plays)
+
+    def drop(self, tick: int) -> None:
+        """Forget what waits."""
+        self.queue.drop(tick)
+        self._free_tick = 0
+
+    def carry_out(
+        self, tick: int, frame: Frame, ticks: int, *, landing_busy: bool, landing_live: bool, queue_full: bool
+    ) -> Effect | None:
+        """Note the result of a frame from the state as it was; its effect comes after everything else of the tick."""
+        telemetry = self.telemetry
+        telemetry.result = frame.refusal
+        unlocked, self._unlocked = self._unlocked, False
+        if frame.refusal is not Result.OK:
+            telemetry.frame_errors += 1
+            return None
+        telemetry.gaps += frame.sequence != telemetry.sequence + 1 & 0xFF
+        telemetry.sequence = frame.sequence
+        self.gate.hear(tick)
+        effect: Effect | None = None
+        if frame.kind == FrameType.READ:
+            telemetry.result = self._read(tick, frame.argument)
+        elif frame.kind == FrameType.WRITE and frame.argument == Register.CONTROL:
+            telemetry.result, effect = self._control(frame.words, unlocked)
+        elif frame.kind == FrameType.WRITE:
+            telemetry.result = self._write(tick, frame.argument, frame.words[0])
+        elif frame.kind == FrameType.LOAD:
+            words = frame.loaded_words
+            self._fast = words * self.registers.bit_period >= ticks << 16
+            telemetry.result = self._load(frame.argument, words, landing_busy=landing_busy, landing_live=landing_live)
+        elif frame.kind == FrameType.STORE:
+            length_words, crc = frame.words[:2]
+            telemetry.result = self.buffers.store(tick, frame.argument, length_words, crc, live=self.landing_live)
+        elif frame.kind == FrameType.PLAY:
+            telemetry.result, effect = self._play(tick, frame, queue_full=queue_full)
+        elif frame.kind not in (FrameType.NOP, FrameType.TEST):
+            telemetry.result = Result.UNKNOWN_TYPE
+        return effect
+
+    def _write(self, tick: int, address: int, value: int) -> Result:
+        disarmed = self.gate.state is Gate.OFF
+        still = self.gate.state in (Gate.OFF, Gate.ON) and self.player.quiet(tick) and not self.queue.plays
+        result = self.registers.write(address, value, disarmed=disarmed, quiet=still)
+        if result is Result.OK and address == Register.DUTY_SHARE:
+            self.gate.limits.activity(tick + 1, active=False)
+        return result
+
+    def _read(self, tick: int, address: int) -> Result:
+        result, value = Result.OK, 0
+        if address >= READ_MEMORY:
+            slot, word = divmod(address - READ_MEMORY, 1024)
+            player = self.player
+            played_until = player.played_until
+            if player.playing and player.running is not None and player.start < tick:
+                played_until = played_until | {player.running.buffer: tick}
+            result, value = self.buffers.read_memory(tick, slot, word, played_until)
+        elif address >> 8 == READ_QUEUE >> 8:
+            result, value = self._read_queue(tick, *divmod(address - READ_QUEUE, 8))
+        elif address >> 8 == READ_SLOT_CRC >> 8:
+            result, value = self.buffers.read_crc(tick, address - READ_SLOT_CRC)
+        elif address not in set(Register):
+            result = Result.UNKNOWN_REGISTER
+        else:
+            value = self._register(tick, Register(address))
+        if result is Result.OK:
+            self.telemetry.data = value & 0xFFFFFFFF
+        return result
+
+    def _read_queue(self, tick: int, number: int, word: int) -> tuple[Result, int]:
+        plays = self.queue.plays
+        if number >= len(plays) or word > 5:
+            return Result.BAD_RANGE, 0
+        if self.queue.fetching(tick):
+            return Result.BUSY, 0
+        return Result.OK, plays[number].raw[word]
+
+    def _register(self, tick: int, register: Register) -> int:
+        value = self.registers.read(register)
+        if value is not None:
+            return value
+        telemetry, gate = self.telemetry, self.gate
+        times = {
+            Register.FAULT_TIME_LOW: gate.fault_tick,
+            Register.INPUT_TIME_LOW: telemetry.input_tick,
+            Register.TRIGGER_TIME_LOW: telemetry.trigger_tick,
+            Register.EMISSION_TIME_LOW: telemetry.emission_tick,
+        }
+        if register in times:
+            telemetry.high = times[register] >> 32
+            return times[register]
+        if register in _HIGH_OF.values():
+            return telemetry.high
+        trigger = any(start <= tick < end for start, end in telemetry.trigger_pin)
+        inputs = gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2
+        return {
+            Register.CONTROL: 0,
+            Register.FAULT: int(gate.faults),
+            Register.FAULT_CHANNELS: gate.limits.channels(tick),
+            Register.FAULT_COUNT: gate.fault_count,
+            Register.INPUTS: inputs,
+            Register.TRIGGERS: telemetry.triggers,
+            Register.TRIGGERS_IGNORED: telemetry.ignored,
+            Register.EMISSIONS: telemetry.emissions,
+            Register.PLAYS_MISSED: telemetry.missed,
+            Register.UNDERRUNS: telemetry.underruns,
+            Register.FRAME_ERRORS: telemetry.frame_errors,
+            Register.SEQUENCE_GAPS: telemetry.gaps,
+            Register.SLOTS_LOADED: self.buffers.loaded(tick),
+            Register.QUEUE: len(self.queue.plays),
+            Register.DUTY_LEVEL: gate.limits.duty_level(tick),
+        }[register]
+
+    def _control(self, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
+        command, *key = words[:4]
+        if command == Control.UNLOCK:
+            if tuple(key) != (IDENTITY_MAGIC, PROTOCOL_VERSION, self.registers.parameters.build_hash):
+                return Result.BAD_KEY, None
+            self._unlocked = True
+            return Result.OK, None
+        if command == Control.ARM:
+            if not unlocked:
+                return Result.LOCKED, None
+            if self.gate.state is not Gate.OFF:
+                return Result.ARMED, None
+            if self.gate.faults:
+                return Result.FAULTED, None
+            return (Result.OK, Effect(self.gate.arm)) if all(self.gate.permits.values()) else (Result.NO_PERMIT, None)
+        effects: dict[int, Effect] = {
+            Control.DISARM: Effect(self._disarm, halts=True),
+            Control.CLEAR: Effect(self.gate.clear),
+            Control.STOP: Effect(self._stop, halts=True),
+            Control.TRIGGER: Effect(lambda _: None, triggers=True),
+        }
+        effect = effects.get(command)
+        return (Result.OK if effect else Result.BAD_VALUE), effect
+
+    def _load(self, chunk: int, words: int, *, landing_busy: bool, landing_live: bool) -> Result:
+        if chunk >= CHUNKS:
+            return Result.BAD_CHUNK
+        if landing_busy or (landing_live and self.buffers.chunk_words[chunk]):
+            return Result.BUSY
+        self.buffers.chunk_words[chunk] = words
+        return Result.OK
+
+    def _play(self, tick: int, frame: Frame, *, queue_full: bool) -> tuple[Result, Effect | None]:
+        live = frame.argument == PLAY_LANDING
+        result = self._playable(tick, frame.argument, live)
+        if result is not Result.OK:
+            return result, None
+        held = WAVEFORM_WORDS if live else self.buffers.slot_words[frame.argument]
+        first, asked = frame.words[0] & 0xFFFF, frame.words[0] >> 16
+        count, kind, inverted = frame.words[1] & 0xFFFF, frame.words[1] >> 16 & 0xFF, frame.words[1] >> 24
+        period_ticks, mask = frame.words[2:4]
+        when = frame.words[4] | frame.words[5] << 32
+        length = asked or held - first
+        if first >= held or first + asked > held or (live and first):
+            return Result.BAD_RANGE, None
+        if kind > Start.TIME or inverted > 1:
+            return Result.BAD_VALUE, None
+        sounding = word_tick(length, self.registers.bit_period)
+        rest = self.registers.bit_ticks
+        if sounding > self.registers.limits.emission_ticks:
+            return Result.TOO_LONG, None
+        if count != 1 and period_ticks != sounding and period_ticks < sounding + rest:
+            return Result.BAD_PERIOD, None
+        if queue_full:
+            return Result.QUEUE_FULL, None
+        start = Start(kind)
+        if start is Start.TIME and when < tick + LEAD_TICKS:
+            return Result.TOO_LATE, None
+        if start is Start.TIME and when < self._free_tick:
+            return Result.OVERLAP, None
+        buffer = self.buffers.landing if live else self.buffers.slot_buffer[frame.argument]
+        play = Play(buffer, first, length, count, period_ticks, start, when, mask, bool(inverted), live, frame.words[:6])
+
+        def push(tick: int) -> None:
+            self.queue.push(tick, play)
+            if start is Start.TIME:
+                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest & 0xFFFFFFFFFFFFFFFF
+
+        return Result.OK, Effect(push)
+
+    def _playable(self, tick: int, slot: int, live: bool) -> Result:
+        """Whether there is something to play, and somebody may."""
+        buffers = self.buffers
+        if not live and slot >= len(buffers.slot_buffer):
+            return Result.BAD_SLOT
+        if self.gate.faults:
+            return Result.FAULTED
+        if self.gate.state is not Gate.ON:
+            return Result.NOT_ARMED
+        if live:
+            if not buffers.chunk_words[0]:
+                return Result.INCOMPLETE
+            if not self._fast:
+                return Result.LINK_SLOW
+            return Result.BUSY if self.queue.plays else Result.OK
+        if not buffers.slot_words[slot]:
+            return Result.EMPTY_SLOT
+        if buffers.checking_slot(tick, slot):
+            return Result.BUSY
+        return Result.OK if buffers.intact(tick, slot) else Result.SLOT_DAMAGED
+
+    def _stop(self, tick: int) -> None:
+        self.player.stop()
+        self.drop(tick)
+
+    def _disarm(self, tick: int) -> None:
+        player = self.player
+        sounding = player.playing
+        player.halt(tick, self.registers.bit_period)
+        if sounding and player.end == tick + 1:
+            player.finish(tick, self.registers.bit_ticks)
+            self.gate.idle(tick + 1)
+            self.gate.limits.emission(tick + 1, sounding=False)
+            self.gate.limits.activity(tick + 1, active=False)
+        settled_from = player.end + self.registers.bit_ticks if player.playing else player.free_from
+        self.drop(tick)
+        self.gate.disarm(tick, settled_from)

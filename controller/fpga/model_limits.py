@@ -1,0 +1,282 @@
+"""Protection of the stages in the gateware model: `stage_limits.v`, going from change to change.
+
+What the pins will show is judged when it is planned, a whole waveform at once, and planned anew where
+something cuts it short: from the plan and the state in which it begins follow its causes, the ticks
+in which they are high, and the state in which it ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntFlag
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ticks = NDArray[np.int64]
+Words = NDArray[np.uint32]
+
+CHANNELS = 32
+EDGE_TICKS = 2  # from a change to what it causes: short pulse, edges of one channel
+TOTAL_TICKS = 3  # the same for the edges of all
+CHANNEL_EDGES_MAX = 2**24 - 1  # more counts as this
+FULL_FLOW = 1 << 16  # into the bucket in an active tick
+BUCKET_MAX = 2**48 - 1
+
+
+class Cause(IntFlag):
+    """Bits of `cause_o`."""
+
+    SHORT_PULSE = 1 << 0
+    CHANNEL_EDGES = 1 << 1
+    TOTAL_EDGES = 1 << 2
+    LONG_EMISSION = 1 << 3
+    DUTY = 1 << 4
+
+
+@dataclass
+class LimitSettings:
+    """What the registers say; written while the pins rest. After writing `duty_share`, call `activity` again."""
+
+    pulse_ticks: int = 0
+    channel_edges: int = 2**32 - 1
+    total_edges: int = 2**32 - 1
+    emission_ticks: int = 2**32 - 1
+    duty_share: int = FULL_FLOW
+    duty_ticks: int = 2**32 - 1
+
+
+class _State(NamedTuple):
+    """What is known of the pins before a plan."""
+
+    word: int = 0
+    last_change: int | None = None
+    recent: int = 0  # channels that changed since the pins last rested
+    window: int = 0
+    counts: NDArray[np.int64] = np.zeros(CHANNELS, np.int64)
+    total: int = 0
+
+
+class _Sound(NamedTuple):
+    start: int
+    sounding: bool
+
+
+class _Flow(NamedTuple):
+    """The bucket from tick `start` on, where it holds `level`."""
+
+    start: int
+    active: bool
+    level: int
+    share: int
+
+    @property
+    def gain(self) -> int:
+        return FULL_FLOW * self.active - self.share
+
+    def at(self, tick: int) -> int:
+        return min(max(self.level + (tick - self.start) * self.gain, 0), BUCKET_MAX)
+
+    def above(self, limit: int) -> tuple[int, int | None]:
+        """First tick and end of the stretch in which an active bucket holds more than `limit`, if nothing changes."""
+        over = self.level - limit
+        if self.gain > 0:
+            return self.start + max(-over // self.gain + 1, 0), None
+        if self.gain < 0:
+            return self.start, self.start + max(-(over // self.gain), 0)
+        return self.start, None if over > 0 else self.start
+
+
+@dataclass
+class _Plan:
+    """`words[i]` on the pins from `ticks[i]` on, and what follows."""
+
+    before: _State
+    ticks: Ticks
+    words: Words
+    after: _State
+    causes: dict[int, int] = field(default_factory=dict)  # by tick
+    culprits: dict[int, int] = field(default_factory=dict)  # channels, by tick
+
+
+class StageLimits:
+    """`stage_limits.v`: what it sees and which causes it gives, without going through the ticks between."""
+
+    def __init__(self, settings: LimitSettings, window_ticks: int) -> None:
+        self._settings = settings
+        self._window_ticks = window_ticks
+        self._plans: list[_Plan] = []
+        self._settled = _State()
+        self._culprits = 0  # of what was settled, since `clear`
+        self._cleared = -1
+        self._sounds = [_Sound(0, sounding=False)]
+        self._flows = [_Flow(0, active=False, level=0, share=settings.duty_share)]
+
+    def show(self, ticks: Ticks, words: Words) -> None:
+        """The pins hold `words[i]` from `ticks[i]` on.
+
+        Parameters
+        ----------
+        ticks : (n,) int64 array
+            Strictly rising. Whatever was to be shown from `ticks[0]` on is replaced.
+        words : (n,) uint32 array
+            Not changed afterwards.
+        """
+        start = int(ticks[0])
+        while self._plans and self._plans[-1].ticks[0] >= start:
+            self._plans.pop()
+        if self._plans and self._plans[-1].ticks[-1] >= start:
+            cut = self._plans.pop()
+            left = int(np.searchsorted(cut.ticks, start))
+            self._plans.append(self._judge(cut.before, cut.ticks[:left], cut.words[:left]))
+        before = self._plans[-1].after if self._plans else self._settled
+        self._plans.append(self._judge(before, ticks, words))
+
+    def emission(self, tick: int, *, sounding: bool) -> None:
+        """From tick `tick` of the state on an emission sounds that begins there, or none."""
+        while self._sounds and self._sounds[-1].start >= tick:
+            self._sounds.pop()
+        self._sounds.append(_Sound(tick, sounding))
+
+    def activity(self, tick: int, *, active: bool) -> None:
+        """From tick `tick` of the state on the bucket fills (playing or ramping), or only drains."""
+        level = self._flow(tick).at(tick)
+        while self._flows and self._flows[-1].start >= tick:
+            self._flows.pop()
+        self._flows.append(_Flow(tick, active, level, self._settings.duty_share))
+
+    def next_change(self, now: int) -> int | None:
+        """The first tick from `now` on in which a cause is high, if nothing else happens; None if there is none."""
+        ticks = [tick for plan in self._plans for tick in plan.causes if tick >= now]
+        for first, end in self._late() + self._overdrawn():
+            tick = max(now, first + 1)
+            if end is None or tick <= end:
+                ticks.append(tick)
+        return min(ticks, default=None)
+
+    def cause(self, tick: int) -> Cause:
+        """Causes that are high in a tick."""
+        value = Cause(0)
+        for plan in self._plans:
+            value |= Cause(plan.causes.get(tick, 0))
+        for cause, stretches in ((Cause.LONG_EMISSION, self._late()), (Cause.DUTY, self._overdrawn())):
+            if any(first < tick and (end is None or tick <= end) for first, end in stretches):
+                value |= cause
+        return value
+
+    def channels(self, tick: int) -> int:
+        """The channels that made the first short pulse or edge too many since `clear`, as known in a tick."""
+        if self._culprits:
+            return self._culprits
+        seen = [(at, word) for plan in self._plans for at, word in plan.culprits.items() if self._cleared < at <= tick]
+        return min(seen)[1] if seen else 0
+
+    def clear(self, tick: int) -> None:
+        """Forget the channels known up to a tick."""
+        self._cleared = tick
+        self._culprits = 0
+
+    def duty_level(self, tick: int) -> int:
+        """Whole ticks of activity in the bucket in a tick."""
+        return self._flow(tick).at(tick) >> 16
+
+    def settle(self, tick: int) -> None:
+        """Nothing will be replaced or asked any more before a tick: count it and forget it."""
+        while len(self._plans) > 1 and self._plans[1].ticks[0] + TOTAL_TICKS < tick:
+            self._culprits = self.channels(tick) if self._plans[0].culprits else self._culprits
+            self._settled = self._plans.pop(0).after
+        while len(self._sounds) > 1 and self._sounds[1].start < tick:
+            self._sounds.pop(0)
+        while len(self._flows) > 1 and self._flows[1].start < tick:
+            self._flows.pop(0)
+
+    def _flow(self, tick: int) -> _Flow:
+        return next((flow for flow in reversed(self._flows) if flow.start <= tick), self._flows[0])
+
+    def _late(self) -> list[tuple[int, int | None]]:
+        """Stretches of ticks in which an emission has sounded too long; high one tick later."""
+        ends = [sound.start for sound in self._sounds[1:]]
+        stretches = [
+            (sound.start + self._settings.emission_ticks, end)
+            for sound, end in zip(self._sounds, [*ends, None], strict=True)
+            if sound.sounding
+        ]
+        return [(first, end) for first, end in stretches if end is None or first < end]
+
+    def _overdrawn(self) -> list[tuple[int, int | None]]:
+        """Stretches of active ticks with more in the bucket than allowed; high one tick later."""
+        stretches: list[tuple[int, int | None]] = []
+        ends = [flow.start for flow in self._flows[1:]]
+        for flow, last in zip(self._flows, [*ends, None], strict=True):
+            first, end = flow.above(self._settings.duty_ticks << 16)
+            end = last if end is None else end if last is None else min(end, last)
+            if flow.active and (end is None or first < end):
+                stretches.append((first, end))
+        return stretches
+
+    def _judge(self, before: _State, ticks: Ticks, words: Words) -> _Plan:
+        """What follows from showing words."""
+        changes = np.empty_like(words)
+        changes[0] = words[0] ^ before.word
+        np.bitwise_xor(words[1:], words[:-1], out=changes[1:])
+        moved = changes.nonzero()[0]
+        plan = _Plan(before, ticks, words, before)
+        if not moved.size:
+            return plan
+        ticks, changes = ticks[moved], changes[moved]
+        last_change, recent = self._judge_pulses(plan, ticks, changes)
+        windows = ticks[[0, -1]] // self._window_ticks
+        window, counts, total = before.window, before.counts, before.total
+        bounds = np.searchsorted(ticks, np.arange(windows[0] + 1, windows[1] + 1) * self._window_ticks).tolist()
+        for start, end in zip([0, *bounds], [*bounds, len(ticks)], strict=True):
+            if start == end:
+                continue
+            if int(ticks[start]) // self._window_ticks != window:
+                window, counts, total = int(ticks[start]) // self._window_ticks, np.zeros(CHANNELS, np.int64), 0
+            counts, total = self._judge_edges(plan, ticks[start:end], changes[start:end], counts, total)
+        plan.after = _State(int(words[-1]), last_change, recent, window, counts, total)
+        return plan
+
+    def _judge_pulses(self, plan: _Plan, ticks: Ticks, changes: Words) -> tuple[int, int]:
+        """Note short pulses; the last change and the channels that changed since the pins rested."""
+        last, pulse_ticks = int(ticks[-1]), self._settings.pulse_ticks
+        close = np.empty(len(ticks), bool)
+        close[0] = plan.before.last_change is not None and ticks[0] - plan.before.last_change < pulse_ticks
+        np.less(ticks[1:] - ticks[:-1], pulse_ticks, out=close[1:])
+        if not close.any():
+            return last, int(changes[-1])
+        recent = plan.before.recent
+        for tick, change, too_close in zip(ticks.tolist(), changes.tolist(), close.tolist(), strict=True):
+            recent = recent if too_close else 0
+            if recent & change:
+                _note(plan, tick, Cause.SHORT_PULSE, recent & change)
+            recent |= change
+        return last, recent
+
+    def _judge_edges(
+        self, plan: _Plan, ticks: Ticks, changes: Words, counts: NDArray[np.int64], total: int
+    ) -> tuple[NDArray[np.int64], int]:
+        """Note edges too many within one window; the counts afterwards."""
+        limit = min(self._settings.channel_edges, CHANNEL_EDGES_MAX)
+        bits = np.unpackbits(changes.astype("<u4", copy=False).view(np.uint8), bitorder="little").reshape(-1, CHANNELS)
+        made = bits.sum(axis=0, dtype=np.int64)
+        after = counts + made
+        total_after = total + int(made.sum())
+        if total_after > self._settings.total_edges:
+            totals = total + bits.sum(axis=1).cumsum()
+            for tick in ticks[totals > self._settings.total_edges].tolist():
+                plan.causes[tick + TOTAL_TICKS] = plan.causes.get(tick + TOTAL_TICKS, 0) | Cause.TOTAL_EDGES
+        if (after > limit).any():
+            too_many = bits.astype(bool) & (counts + bits.cumsum(axis=0) > limit)
+            words = np.packbits(too_many, axis=1, bitorder="little").view("<u4")[:, 0]
+            for at in words.nonzero()[0].tolist():
+                _note(plan, int(ticks[at]), Cause.CHANNEL_EDGES, int(words[at]))
+            after = np.maximum(np.minimum(after, limit), counts)  # what is too many is not counted
+        return after, total_after
+
+
+def _note(plan: _Plan, tick: int, cause: Cause, channels: int) -> None:
+    at = tick + EDGE_TICKS
+    plan.causes[at] = plan.causes.get(at, 0) | cause
+    plan.culprits[at] = plan.culprits.get(at, 0) | channels
