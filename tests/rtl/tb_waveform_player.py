@@ -81,7 +81,8 @@ class Reference:
         delayed = self.delayed_until is not None
         repeating = self.left != 0
         halted = inputs["stop"] or inputs["disarm"] or inputs["fault"]
-        free = inputs["armed"] and not (playing or resting or delayed or halted)
+        room = inputs["armed"] and not (playing or resting or delayed)
+        free = room and not halted
         seen = head if self.head_before is head else None  # a time is compared one tick ahead
         begins = (
             free
@@ -107,7 +108,7 @@ class Reference:
             "repeating_o": repeating,
             "settled_o": not playing and not resting,
             "quiet_o": not used and not resting,
-            "ready_o": head is not None and head.start == Start.TRIGGER and free,
+            "ready_o": head is not None and head.start == Start.TRIGGER and room,
             "landing_used_o": used and self.play.buffer == inputs["landing"] and not self.play.live,
             "live_o": used and bool(self.play.live),
             "ended_o": tick - 4 in self.ends,
