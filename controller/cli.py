@@ -27,7 +27,7 @@ from controller.fpga.model import GatewareModel
 from controller.hardware import recording_path
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
-from controller.tables import plain_table, run_table
+from controller.tables import plain_table, power_table, run_table
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
@@ -135,7 +135,14 @@ def bank_build(options: argparse.Namespace) -> int:
 
 
 def bank_tell(options: argparse.Namespace) -> int:
-    """Say what a bank holds and what it was computed from."""
+    """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
+    if options.power:
+        from controller.offline.power import power_report
+
+        board = load_board(find_board(options.board))
+        with Bank.open(_bank_file(options), board) as bank:
+            _show(options, power_report(board, bank, progress=_progress("losses")), power_table)
+        return 0
     _show(options, bank_info(_bank_file(options)), plain_table)
     return 0
 
@@ -166,8 +173,18 @@ def focus(options: argparse.Namespace) -> int:
     if options.figures:
         _show(options, figures(board, options.seed), plain_table)
         return 0
+    if options.idle_figures:
+        from controller.offline.idle_figures import idle_figures
+
+        found = idle_figures(board, options.seed)
+        if picture:
+            from controller.offline.plot_idle import plot_idle
+
+            plot_idle(picture, board, found)
+        _show(options, found, plain_table)
+        return 0
     if not options.at:
-        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures")
+        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, or --idle-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:
@@ -309,6 +326,8 @@ def _parser() -> argparse.ArgumentParser:
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
         command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
         command.set_defaults(command=action)
+        if name == "info":
+            command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
 
     point = commands.add_parser(
         "focus",
@@ -318,6 +337,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
     point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
+    point.add_argument(
+        "--idle-figures", action="store_true", help="measure what the idle word and its ramp are worth instead; --plot draws it"
+    )
     point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
