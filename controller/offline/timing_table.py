@@ -16,12 +16,12 @@
     table = '''
     0:       trigger
     first:   -> channel=0x11
-    first+8: -> channel=idle focus
+    first+2*bit: -> channel=idle focus
     '''
 
-Rows are `tick: inputs -> outputs`. Tick 0 is any tick; `trigger` is a pulse (`trigger=2`: of two ticks) and `focus` the rise
-of one, the others are levels from that tick on; `frame="NOP"` is a frame whose chip select rises at that tick, `@7` in it
-tick 7 by the FPGA's clock. What is not in the table does not change.
+Rows are `tick: inputs -> outputs`. Tick 0 is any tick, `bit` is a bit period; `trigger` is a pulse (`trigger=2`: of two
+ticks) and `focus` the rise of one, the others are levels from that tick on; `frame="NOP"` is a frame whose chip select rises
+at that tick, `@7` in it tick 7 by the FPGA's clock. What is not in the table does not change.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
         raise ValueError(f"unknown: {', '.join(sorted(unknown))}")
     if entries["setup"] not in SETUPS:
         raise ValueError(f"setup is {' or '.join(SETUPS)}, not {entries['setup']!r}")
-    inputs, outputs = read_table(entries["table"], ticks)
+    inputs, outputs = read_table(entries["table"], {"bit": int(entries["bit_ticks"])} | ticks)
     return Case(
         name=name,
         title=entries["title"],
@@ -183,7 +183,7 @@ def drive_words(text: str) -> tuple[int, ...]:
 
 
 def read_tick(text: str, ticks: dict[str, int]) -> int:
-    """The tick that a sum of numbers and named ticks gives: `first+4`.
+    """The tick that a sum of numbers and named ticks gives: `first+2*bit`.
 
     Raises
     ------
@@ -191,13 +191,13 @@ def read_tick(text: str, ticks: dict[str, int]) -> int:
         If a name is not known, or it is no sum.
     """
     compact = text.replace(" ", "")
-    if not re.fullmatch(r"\w+([+-]\w+)*", compact):
+    if not re.fullmatch(r"(\d+\*)?\w+([+-](\d+\*)?\w+)*", compact):
         raise ValueError(f"{text!r} is not a tick")
     total = 0
-    for sign, term in re.findall(r"([+-]?)(\w+)", compact):
+    for sign, times, term in re.findall(r"([+-]?)(?:(\d+)\*)?(\w+)", compact):
         if not term.isdigit() and term not in ticks:
             raise ValueError(f"{term!r} is none of the named ticks {', '.join(ticks)}")
-        value = int(term) if term.isdigit() else ticks[term]
+        value = int(times or 1) * (int(term) if term.isdigit() else ticks[term])
         total += -value if sign == "-" else value
     return total
 

@@ -80,8 +80,8 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
     _, capture = run.perform(back_end)
     emissions, rest = divmod(int(capture.ticks[-1]) - start - FIRST_TICKS, 3 * BIT_TICKS)
     assert rest == 0
-    assert 0 < start + FIRST_TICKS + 12 * emissions - (release + JUDGED_TICKS) <= 12 + 4
-    assert capture.focus_ticks.tolist()[0] == start + FIRST_TICKS + 12
+    assert 0 < start + FIRST_TICKS + 3 * BIT_TICKS * emissions - (release + JUDGED_TICKS) <= 4 * BIT_TICKS
+    assert capture.focus_ticks.tolist()[0] == start + FIRST_TICKS + 3 * BIT_TICKS
 
 
 @pytest.mark.parametrize(

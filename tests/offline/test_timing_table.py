@@ -19,7 +19,7 @@ ENTRIES = {
     "table": """
     0:          trigger          # a comment
     first:      -> channel=0x11
-    first + 4 : permit=0 -> channel=idle focus
+    first + bit : permit=0 -> channel=idle focus
     2000:       frame="PLAY slot=0"
     """,
 }
@@ -42,7 +42,17 @@ def test_the_hash_is_of_everything_a_table_says():
 
 
 @pytest.mark.parametrize(
-    ("text", "tick"), [("0", 0), ("first", 6), ("first+4", 10), (" first + shut - 1 ", 8), ("-0+2", None), ("a", None)]
+    ("text", "tick"),
+    [
+        ("0", 0),
+        ("first", 6),
+        ("first+4", 10),
+        ("first+2*shut", 12),
+        ("2*", None),
+        (" first + shut - 1 ", 8),
+        ("-0+2", None),
+        ("a", None),
+    ],
 )
 def test_a_tick_is_a_sum(text, tick):
     if tick is None:
