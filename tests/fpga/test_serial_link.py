@@ -66,7 +66,7 @@ def flipped(byte):
 
 
 def model(clock_hz, slots=4):
-    return GatewareModel(clock_hz, slots, BUILD, clock_hz // 4)
+    return GatewareModel(Parameters.of(clock_hz, slots, BUILD))
 
 
 @pytest.fixture
