@@ -277,7 +277,7 @@ async def keeps_in_each_slot_what_was_stored_whatever_is_loaded_later(dut):
         for other, words in kept.items():
             places = {0, len(words) - 1, *(random.randrange(len(words)) for _ in range(5))}
             if other == slot:
-                places |= {n for n in range(0, len(words), 125)} | {n - 1 for n in range(125, len(words), 125)}
+                places |= set(range(0, len(words), 125)) | {n - 1 for n in range(125, len(words), 125)}
             for place in places:
                 assert await bench.read(other, place) == (Result.OK, words[place]), (turn, other, place)
             assert await bench.read_crc(other) == (Result.OK, crc_of(words))

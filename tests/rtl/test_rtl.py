@@ -64,10 +64,6 @@ def one_entry_bank(board, tmp_path_factory):
 
 def run_bench(module, parameters, simulator, folder, beside=(), **which):
     """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
-@pytest.mark.parametrize("bench", BENCHES)
-def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
-    module = bench.partition("-")[0]
-    monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
     runner.build(
@@ -75,7 +71,6 @@ def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
         includes=[RTL],
         hdl_toplevel=module,
         parameters=parameters,
-        parameters=BENCHES[bench],
         timescale=("1ns", "1ps"),
         build_dir=folder,
         build_args=VERILATOR_ARGUMENTS if verilator else ["-g2005"],
@@ -92,12 +87,12 @@ def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
     )
 
 
-@pytest.mark.parametrize("module", BENCHES)
-def test_bench(module, simulator, one_entry_bank, verilog_coverage, tmp_path, monkeypatch):
+@pytest.mark.parametrize("bench", BENCHES)
+def test_bench(bench, simulator, one_entry_bank, verilog_coverage, tmp_path, monkeypatch):
     monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
-    run_bench(module, BENCHES[module], simulator, tmp_path)
+    run_bench(bench.partition("-")[0], BENCHES[bench], simulator, tmp_path)
     if simulator == "verilator":
-        verilog_coverage[module] = read(tmp_path / "coverage.dat")
+        verilog_coverage[bench] = read(tmp_path / "coverage.dat")
 
 
 @pytest.mark.parametrize(("clock_hz", "baud"), [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)])
