@@ -53,7 +53,6 @@ def simulator(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VERILATOR_ROOT", str(root))
         patch.setenv("OBJCACHE", str(keeper))
-        patch.setenv("OPT_FAST", "-O2")  # with coverage, worth its compile time
         patch.setenv("PATH", os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)]))
         yield "verilator"
 
