@@ -27,7 +27,7 @@ from controller.fpga.model import GatewareModel
 from controller.hardware import recording_path
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
-from controller.tables import plain_table, run_table
+from controller.tables import plain_table, power_table, run_table
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
@@ -135,7 +135,14 @@ def bank_build(options: argparse.Namespace) -> int:
 
 
 def bank_tell(options: argparse.Namespace) -> int:
-    """Say what a bank holds and what it was computed from."""
+    """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
+    if options.power:
+        from controller.offline.power import power_report
+
+        board = load_board(find_board(options.board))
+        with Bank.open(_bank_file(options), board) as bank:
+            _show(options, power_report(board, bank, progress=_progress("losses")), power_table)
+        return 0
     _show(options, bank_info(_bank_file(options)), plain_table)
     return 0
 
@@ -309,6 +316,8 @@ def _parser() -> argparse.ArgumentParser:
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
         command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
         command.set_defaults(command=action)
+        if name == "info":
+            command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
 
     point = commands.add_parser(
         "focus",

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # where the simulator's Python finds the benches
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent)]  # where the simulator's Python looks
 
 
 # Verilator's own object files are most of a build and the same for every module: compile them once

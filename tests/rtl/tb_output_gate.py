@@ -3,6 +3,7 @@
 Every output is compared, tick for tick, with `Reference`, which keeps the ticks of what happened and no counters.
 """
 
+import itertools
 import random
 
 import cocotb
@@ -357,7 +358,7 @@ async def gives_signs_of_life_only_while_open(dut):
         await bench.step(heartbeat=1)
         levels.append(int(dut.hv_alive_o.value))
     changes = [n for n in range(1, 60) if levels[n] != levels[n - 1]]
-    assert {later - earlier for earlier, later in zip(changes, changes[1:], strict=False)} == {ALIVE_HALF_TICKS}
+    assert {later - earlier for earlier, later in itertools.pairwise(changes)} == {ALIVE_HALF_TICKS}
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")

@@ -8,6 +8,7 @@ import pytest
 from cocotb_tools.runner import get_runner
 
 from controller.bank.grid import Grid
+from controller.fpga.frames import FRAME_BYTES
 from controller.offline.bank_builder import build_bank
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
@@ -30,6 +31,7 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "crc32": {},
     "crc32_word": {},
     "spi_peripheral": {},
+    "uart_peripheral": {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000},  # 8 1/3 clocks a bit: the fewest allowed are 8
     "status_encoder": {},
     "frame_decoder": {},
     "register_file": BUILT_IN,
@@ -42,6 +44,7 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "idle_ramp": {},
     "waveform_player": {},
     "output_gate": {"ALIVE_HALF_TICKS": 7},
+    "stage_limits": {"WINDOW_TICKS": 200},
 }
 PITCH_M = 5e-3
 SEED = 2015  # of the random numbers in benches and of the initial state
@@ -57,27 +60,42 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize("bench", BENCHES)
-def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
-    module = bench.partition("-")[0]
-    monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
+def run_bench(module, parameters, simulator, folder, beside=(), **which):
+    """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
     runner.build(
-        sources=sorted(RTL.glob("*.v")),
+        sources=[*sorted(RTL.glob("*.v")), *beside],
         includes=[RTL],
         hdl_toplevel=module,
-        parameters=BENCHES[bench],
+        parameters=parameters,
         timescale=("1ns", "1ps"),
-        build_dir=tmp_path,
+        build_dir=folder,
         build_args=["-Wall", "--x-initial", "unique"] if verilator else ["-g2005"],
-        log_file=tmp_path / "build.log",
+        log_file=folder / "build.log",
     )
     runner.test(
         hdl_toplevel=module,
         test_module=f"tb_{module}",
-        build_dir=tmp_path,
-        test_dir=tmp_path,
+        build_dir=folder,
+        test_dir=folder,
         seed=SEED,
         plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
+        **which,
     )
+
+
+@pytest.mark.parametrize("bench", BENCHES)
+def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
+    monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
+    run_bench(bench.partition("-")[0], BENCHES[bench], simulator, tmp_path)
+
+
+@pytest.mark.parametrize(("clock_hz", "baud"), [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)])
+def test_uart_at_other_rates(clock_hz, baud, simulator, tmp_path):
+    run_bench("uart_peripheral", {"CLOCK_HZ": clock_hz, "BAUD": baud}, simulator, tmp_path, test_filter=r"rate|percent|answered")
+
+
+def test_the_serial_link_and_the_gateware_understand_each_other(simulator, tmp_path):
+    parameters = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
+    run_bench("uart_panel", parameters, simulator, tmp_path, [Path(__file__).parent / "uart_panel.v"])
