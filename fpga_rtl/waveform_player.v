@@ -145,7 +145,7 @@ module waveform_player #(
             delay_over_q <= delay_left_q == 32'd1;
         end
         if (playing_q || ramping_i) begin
-            rest_q    <= bit_period_i[31:16];
+            rest_q    <= bit_period_i[31:16] - 16'd1;
             resting_q <= 1'b1;
         end else if (resting) begin
             rest_q    <= rest_q - 16'd1;
