@@ -218,6 +218,7 @@ class Bench:
         dut = self.dut
         self.show()
         dut.address_i.value = register
+        await clocks(dut)  # it rests long before its frame ends
         dut.accept_i.value = dut.read_i.value = 1
         await settled()
         result, value = Result(int(dut.read_result_o.value)), int(dut.data_o.value)

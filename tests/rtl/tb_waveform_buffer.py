@@ -12,6 +12,7 @@ from clocked import after_reset, clocks, settled
 from controller.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLOT_CRC, WAVEFORM_WORDS, Result
 
 CHECK_TICKS = 5  # and one for each word, from a STORE until its slot's CRC is known
+LOOK_TICKS = 16  # a STORE and the chunks before it are there at least so long before it is accepted
 SETTLE_TICKS = 4  # a READ of memory needs so many in which nobody else has the buffer
 
 
@@ -216,7 +217,7 @@ class Bench:
 
     async def store(self, slot, length, crc=0, live=0, wait=True):
         self.ask(argument=slot, word0=length, word1=crc, live=live)
-        await self.step()
+        await self.step(LOOK_TICKS)
         await self.step(store=True)
         result = self.results["store"]
         self.ask(live=0)

@@ -67,6 +67,7 @@ class Reference:
         self.head_before = None
         self.triggers = self.ignored = self.missed = self.trigger_time = self.emission_time = 0
         self.ramp_bits = 0, 0  # of the last two ticks
+        self.overtaken = False
         self.first_tick = True
 
     def playing(self, tick):
@@ -123,9 +124,7 @@ class Reference:
             outputs["read_buffer_o"], outputs["read_word_o"] = self.play.buffer, self.play.first + word
             if self.play.first == 0:
                 outputs["read_chunk_o"], outputs["read_within_o"] = word // 125 % 8, word % 125
-            outputs["underrun_o"] = bool(self.play.live) and word >= inputs["arrived"]
-        else:
-            outputs["underrun_o"] = 0
+        outputs["underrun_o"] = self.overtaken  # in the tick before
         match self.past_words[0]:
             case _ if self.first_tick:
                 outputs["drive_o"] = 0
@@ -145,6 +144,7 @@ class Reference:
         playing = self.playing(tick)
         state = "ramp" if inputs["ramping"] else (self.play, self.emission.word(tick)) if playing else None
         self.past_words = [*self.past_words[1:], state]
+        self.overtaken = playing and bool(self.play.live) and self.emission.word(tick) >= inputs["arrived"]
         self.ramp_bits = (self.ramp_bits[1], inputs["ramp_bit"])
         self.first_tick = False
         if playing or inputs["ramping"]:
@@ -215,6 +215,8 @@ class Bench:
             dut.head_count_i.value, dut.head_start_i.value = shown.count, int(shown.start)
             dut.head_polarity_i.value, dut.head_period_ticks_i.value = shown.polarity & 1, shown.period
             dut.head_mask_i.value, dut.head_when_i.value, dut.head_live_i.value = shown.mask, shown.when, shown.live & 1
+            dut.head_delayed_i.value = shown.start != Start.TIME and shown.when & ALL != 0  # as play_queue finds out
+            dut.head_delayed_one_i.value = shown.when & ALL == 1
             dut.read_data_i.value = memory(*self.addresses[0])
             address = int(dut.read_buffer_o.value), int(dut.read_word_o.value)
             self.addresses = [self.addresses[1], address]
