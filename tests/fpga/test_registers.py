@@ -41,18 +41,7 @@ def test_every_code_has_its_own_plain_sentence():
 def test_the_readme_describes_every_register_as_the_code_does():
     readme = (data_folder("fpga_rtl") / "README.md").read_text()
     for register, description in REGISTERS.items():
-        access, bits, reset, text = description
-        assert f"| {int(register)} | {register.name} | {access} | {bits} | {reset} | {text} |" in readme
-
-
-def test_every_register_is_described_and_its_bits_are_bits_of_a_word():
-    assert set(REGISTERS) == set(Register)
-    for description in REGISTERS.values():
-        assert description.access in {"RO", "WO", "RW", "RW idle"}
-        fields = [[int(number) for number in field.split()[0].split(":")] for field in description.bits.split(", ")]
-        covered = [bit for field in fields for bit in range(field[-1], field[0] + 1)]
-        assert len(set(covered)) == len(covered) > 0
-        assert set(covered) <= set(range(32))
+        assert f"| {int(register)} | {register.name} | {description.access} | {description.text} |" in readme
 
 
 def test_what_can_be_read_besides_registers_does_not_meet_them_or_each_other():
