@@ -254,7 +254,7 @@ class GatewareModel:
             if effect.triggers:
                 self._expect(_Event(tick + 1, _Kind.TRIGGER))
         if self._gate.move_ramp(tick):
-            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks
+            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks - 1
         if noted:
             self._telemetry.input_tick = tick
         if cause:

@@ -19,11 +19,9 @@ from cobs import cobs
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import CRC, FRAME_BYTES, ReadableBuffer
-from controller.fpga.registers import FrameType, Register
+from controller.fpga.registers import Control, FrameType, Register
 
-BAUD: Final = 1_000_000
 LATENCY_S: Final = 0.05  # of host and USB bridge (a latency timer of 16 ms is usual), there and back
-SOFT_TRIGGER: Final = 6  # word for CONTROL
 BITS_PER_BYTE: Final = 10  # 8N1
 ANSWER_BYTES: Final = FRAME_BYTES + 2  # on the wire: one COBS code, as no status is 254 bytes long, and the zero
 BATCH_FRAMES: Final = 32  # whose answers, 1.2 kB, any terminal's input buffer (4 kB) holds while the frames are written
@@ -122,7 +120,7 @@ class SerialLink:
         """
         # Half the circle away from the next message, so that this frame never passes for one of its own
         sequence = (self._message + 0x80) & 0xFF
-        frames.pack_short(self._frame, 0, FrameType.WRITE, sequence, Register.CONTROL, SOFT_TRIGGER)
+        frames.pack_short(self._frame, 0, FrameType.WRITE, sequence, Register.CONTROL, Control.TRIGGER)
         try:
             self._write(on_wire(self._frame), FRAME_BYTES)
         except OSError as error:

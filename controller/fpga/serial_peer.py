@@ -20,9 +20,9 @@ from cobs import cobs
 from controller.board import data_folder, find_board, load_board
 from controller.fpga.build_hash import build_hash
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.gateware import HEARTBEAT_LIMIT_S, Gateware
+from controller.fpga.gateware import Gateware, Parameters, Permit
 from controller.fpga.model import GatewareModel
-from controller.fpga.serial_link import ANSWER_BYTES, BAUD, BITS_PER_BYTE
+from controller.fpga.serial_link import ANSWER_BYTES, BITS_PER_BYTE
 
 
 class UartPanel:
@@ -31,7 +31,7 @@ class UartPanel:
     Parameters
     ----------
     gateware : GatewareModel
-        Just out of reset; it is given its run permit.
+        Just out of reset; it is given its permits.
     clock_hz, baud : int
         What they are in the gateware; a byte takes ten bits' time, whenever it comes out of the terminal.
     now_s : callable
@@ -49,7 +49,8 @@ class UartPanel:
         self._line = bytearray()
         self._select_tick = 0
         self._synced = False
-        gateware.permit(0, True)
+        for permit in Permit:
+            gateware.permit(0, True, permit)
 
     def receive(self, data: bytes) -> bytes:
         """Take bytes off the wire; what is answered meanwhile."""
@@ -146,9 +147,8 @@ def main(name: str = "simulated") -> None:
     """Serve the gateware of a board, in real time, until interrupted."""
     board = load_board(find_board(name))
     link = board.link
-    limit_ticks = round(HEARTBEAT_LIMIT_S * link.clock_hz)
-    model = GatewareModel(link.clock_hz, link.slots, build_hash(data_folder("fpga_rtl")), limit_ticks)
-    panel = UartPanel(model, link.clock_hz, BAUD, time.monotonic)
+    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, build_hash(data_folder("fpga_rtl"))))
+    panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     with contextlib.suppress(KeyboardInterrupt), PseudoTerminal(panel.receive) as terminal:
         sys.stdout.write(f"{terminal.device}\n")
         sys.stdout.flush()

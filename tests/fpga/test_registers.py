@@ -4,8 +4,10 @@ import pytest
 
 from controller.board import FEWEST_BIT_TICKS, data_folder
 from controller.fpga import registers
-from controller.fpga.registers import REGISTERS, Control, Fault, FrameType, Register, Result, State
+from controller.fpga.registers import REGISTERS, Control, Description, Fault, FrameType, Register, Result, State
+from controller.offline.register_table import ACCESS, insert, table
 
+README = data_folder("fpga_rtl") / "README.md"
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
 
 
@@ -39,10 +41,24 @@ def test_every_code_has_its_own_plain_sentence():
     assert Fault.HOST_SILENT.sentence in Fault(3).sentence
 
 
+def test_every_register_is_described_once():
+    assert list(REGISTERS) == list(Register)
+    assert sorted(Register) == list(range(len(Register)))
+
+
+@pytest.mark.skipif("bits" not in Description._fields, reason="protocol 1 describes neither bits nor reset")
+def test_the_readme_has_the_table_of_the_code():
+    """`.venv/bin/python -m controller.offline.register_table` writes it."""
+    readme = README.read_text()
+    assert insert(readme, table(REGISTERS)) == readme
+    text = REGISTERS[Register.IDENTITY].text
+    assert insert(readme.replace(text, text[:-1]), table(REGISTERS)) == readme
+
+
 def test_the_readme_describes_every_register_as_the_code_does():
-    readme = (data_folder("fpga_rtl") / "README.md").read_text()
-    for register, description in REGISTERS.items():
-        assert f"| {int(register)} | {register.name} | {description.access} | {description.text} |" in readme
+    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \| ([A-Z]+) \|(?:.*\|)? ([^|]+) \|$", README.read_text(), re.MULTILINE)
+    described = [(str(int(register)), register.name, entry.access, entry.text) for register, entry in REGISTERS.items()]
+    assert [row for row in rows if row[2] in ACCESS] == described
 
 
 def test_the_boards_shortest_word_is_the_gatewares():

@@ -16,6 +16,7 @@ from controller.errors import LinkError
 from controller.event_loop import VirtualClock
 from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.gateware import Parameters
 from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Control, FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
@@ -66,7 +67,7 @@ def flipped(byte):
 
 
 def model(clock_hz, slots=4):
-    return GatewareModel(clock_hz, slots, BUILD, clock_hz // 4)
+    return GatewareModel(Parameters.of(clock_hz, slots, BUILD))
 
 
 @pytest.fixture
@@ -154,7 +155,6 @@ def test_the_trigger_is_a_frame_whose_answer_comes_with_the_next_message(clock, 
         assert frame[3] not in range(10, 20), "no number that a message near it may use"
 
 
-@pytest.mark.skipif(not hasattr(Control, "TRIGGER"), reason="this gateware has no soft trigger yet")
 def test_the_trigger_plays(board, clock, line, open_link):
     link = open_link()
     session = Session(link, board, BUILD, clock.now_s)

@@ -1,4 +1,4 @@
-"""Runs every bench tb_<module>.py against fpga_rtl/<module>.v, from a random initial state."""
+"""Runs every bench tb_<module>.py against fpga_rtl/<module>.v, from a random initial state; then judges what they covered."""
 
 from pathlib import Path
 
@@ -6,6 +6,7 @@ import numpy as np
 import panel
 import pytest
 from cocotb_tools.runner import get_runner
+from verilog_coverage import MODULES, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
 from controller.bank.grid import Grid
 from controller.fpga.frames import FRAME_BYTES
@@ -47,6 +48,7 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "stage_limits": {"WINDOW_TICKS": 200},
 }
 PITCH_M = 5e-3
+VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
 SEED = 2015  # of the random numbers in benches and of the initial state
 
 
@@ -71,7 +73,7 @@ def run_bench(module, parameters, simulator, folder, beside=(), **which):
         parameters=parameters,
         timescale=("1ns", "1ps"),
         build_dir=folder,
-        build_args=["-Wall", "--x-initial", "unique"] if verilator else ["-g2005"],
+        build_args=VERILATOR_ARGUMENTS if verilator else ["-g2005"],
         log_file=folder / "build.log",
     )
     runner.test(
@@ -86,9 +88,11 @@ def run_bench(module, parameters, simulator, folder, beside=(), **which):
 
 
 @pytest.mark.parametrize("bench", BENCHES)
-def test_bench(bench, simulator, one_entry_bank, tmp_path, monkeypatch):
+def test_bench(bench, simulator, one_entry_bank, verilog_coverage, tmp_path, monkeypatch):
     monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
     run_bench(bench.partition("-")[0], BENCHES[bench], simulator, tmp_path)
+    if simulator == "verilator":
+        verilog_coverage[bench] = read(tmp_path / "coverage.dat")
 
 
 @pytest.mark.parametrize(("clock_hz", "baud"), [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)])
@@ -99,3 +103,36 @@ def test_uart_at_other_rates(clock_hz, baud, simulator, tmp_path):
 def test_the_serial_link_and_the_gateware_understand_each_other(simulator, tmp_path):
     parameters = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
     run_bench("uart_panel", parameters, simulator, tmp_path, [Path(__file__).parent / "uart_panel.v"])
+
+
+@pytest.fixture
+def all_benches(simulator, verilog_coverage):
+    """What happened in each bench, once all have run."""
+    if simulator != "verilator":
+        pytest.skip("coverage is Verilator's")
+    if set(verilog_coverage) != set(BENCHES):
+        pytest.skip(f"coverage is judged after all {len(BENCHES)} benches, not {len(verilog_coverage)}")
+    return verilog_coverage
+
+
+def judged(benches):
+    """Rows of the table, modules with too little, lines without cover and bad waivers of these benches."""
+    hits = together(benches.values())
+    counts, wrong = waive(line_counts(hits), load_waivers())
+    rows = table(hits, counts, MODULES)
+    return rows, too_little(rows), uncovered(counts), wrong
+
+
+def test_the_benches_perform_the_lines_of_every_module(all_benches):
+    rows, modules, lines, wrong = judged(all_benches)
+    assert not modules, "\n".join([*readable(rows), *lines])
+    assert not wrong
+
+
+def test_a_bench_left_out_is_missed(all_benches):
+    """The core's bench performs nearly everything; without it each module has its own."""
+    modules = {module: bench for module, bench in all_benches.items() if module != "haptic_core"}
+    assert "haptic_core" in judged(modules)[1]
+    for module in ("spi_peripheral", "output_gate"):
+        assert module not in judged(modules)[1]
+        assert module in judged({name: bench for name, bench in modules.items() if name != module})[1]
