@@ -622,6 +622,14 @@ async def a_reset_in_the_middle_forgets_everything(dut):
         await bench.put(start=Start.TIME, when=60)
         await bench.step(40)
         assert bench.starts == [60 - PINS], "time begins anew"
+    bench = await Bench.ready(dut)
+    await bench.put(start=Start.NOW)
+    await bench.step(2)
+    await bench.step(disarm=1)  # which waits for the end of the word
+    await bench.reset()
+    await bench.put(start=Start.NOW)
+    await bench.step(40)
+    assert bench.ended == [12 + DRIVE], "and with the reset no more"
 
 
 @cocotb.test(timeout_time=30, timeout_unit="ms")
