@@ -94,7 +94,7 @@ module register_file #(
 
     reg [31:0] value;
     always @* begin
-        case (address_i)
+        case (address_i[5:0])
             `REGISTER_IDENTITY:          value = `IDENTITY_MAGIC;
             `REGISTER_PROTOCOL:          value = `PROTOCOL_VERSION;
             `REGISTER_BUILD_HASH:        value = BUILD_HASH;
@@ -142,7 +142,7 @@ module register_file #(
     reg        low;                // a time's LOW is asked for, whose other half this is
     always @* begin
         low = 1'b1;
-        case (address_i)
+        case (address_i[5:0])
             `REGISTER_FAULT_TIME_LOW:    high = fault_time_i[63:32];
             `REGISTER_INPUT_TIME_LOW:    high = input_time_i[63:32];
             `REGISTER_TRIGGER_TIME_LOW:  high = trigger_time_i[63:32];
@@ -161,7 +161,7 @@ module register_file #(
     always @* begin
         setting  = 1'b1;
         in_range = 1'b1;
-        case (address_i)
+        case (address_i[5:0])
             `REGISTER_IDLE_WORD, `REGISTER_CHANNEL_MASK: ;
             `REGISTER_BIT_PERIOD:      in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH
                                                   && word0[31:16] >= pulse_ticks_q;
@@ -213,7 +213,7 @@ module register_file #(
         if (gap_i) gaps_q <= gaps_q + 32'd1;
         if (accept_i || refused_i) unlocked_q <= command && unlock_q && key_good_q;
         if (change) begin
-            case (address_i)
+            case (address_i[5:0])
                 `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
                 `REGISTER_CHANNEL_MASK:    channel_mask_q    <= word0;
                 `REGISTER_BIT_PERIOD:      bit_period_q      <= word0;
