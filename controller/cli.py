@@ -15,6 +15,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from controller import __version__
 from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, is_current, verify_bank
@@ -22,12 +24,13 @@ from controller.bank.location import bank_path
 from controller.bank.reader import Bank
 from controller.board import Board, find_board, load_board
 from controller.errors import BankError, ConfigError, ControllerError
+from controller.event_loop import MonotonicClock, VirtualClock
 from controller.fpga.gateware import GatewareFactory
 from controller.fpga.model import GatewareModel
-from controller.hardware import recording_path
+from controller.hardware import open_fpga, open_serial, recording_path
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
-from controller.tables import plain_table, run_table
+from controller.tables import plain_table, power_table, run_table
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
@@ -105,13 +108,36 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def gateware_check(options: argparse.Namespace) -> int:
+    """Bring up an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
+    from controller.fpga import bring_up
+
+    board = load_board(find_board(options.board))
+    if options.device:
+        serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
+        board = msgspec.structs.replace(board, link=serial)
+    if board.link.kind == "serial":
+        clock: MonotonicClock | VirtualClock = MonotonicClock()
+        link, session = open_serial(board, clock.now_s)
+        done = bring_up.check(session, board, clock, options.bits, options.pause_s, _progress("bits"))
+        link.close()
+    else:
+        clock = VirtualClock()
+        simulated, session = open_fpga(board, clock.now_s, _gateware(options)[0])
+        done = bring_up.check(session, board, clock, options.bits, options.pause_s, _progress("bits"), simulated.take_capture)
+    _show(options, asdict(done), plain_table)
+    for complaint in done.complaints:
+        print(f"haptic-panel: {complaint}", file=sys.stderr)
+    return 1 if done.complaints else 0
+
+
 def _gateware(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
     """What computes the gateware's pins, and whether in real time."""
     if options.link == "model":
-        return GatewareModel, options.speed != "max"
+        return GatewareModel, getattr(options, "speed", "max") != "max"
     from controller.offline.rtl_gateware import RtlGateware
 
-    if options.speed == "1":
+    if getattr(options, "speed", "max") == "1":
         raise ConfigError("--link rtl is slower than real time, and the FPGA would call the host silent: use --speed max")
 
     def compiling() -> None:
@@ -135,7 +161,14 @@ def bank_build(options: argparse.Namespace) -> int:
 
 
 def bank_tell(options: argparse.Namespace) -> int:
-    """Say what a bank holds and what it was computed from."""
+    """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
+    if options.power:
+        from controller.offline.power import power_report
+
+        board = load_board(find_board(options.board))
+        with Bank.open(_bank_file(options), board) as bank:
+            _show(options, power_report(board, bank, progress=_progress("losses")), power_table)
+        return 0
     _show(options, bank_info(_bank_file(options)), plain_table)
     return 0
 
@@ -166,8 +199,18 @@ def focus(options: argparse.Namespace) -> int:
     if options.figures:
         _show(options, figures(board, options.seed), plain_table)
         return 0
+    if options.idle_figures:
+        from controller.offline.idle_figures import idle_figures
+
+        found = idle_figures(board, options.seed)
+        if picture:
+            from controller.offline.plot_idle import plot_idle
+
+            plot_idle(picture, board, found)
+        _show(options, found, plain_table)
+        return 0
     if not options.at:
-        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures")
+        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, or --idle-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:
@@ -295,6 +338,21 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
     play.set_defaults(command=run)
 
+    gateware = commands.add_parser("gateware", help="bring up an FPGA").add_subparsers(metavar="COMMAND", required=True)
+    check = gateware.add_parser(
+        "check",
+        parents=[common],
+        help="identity, link, memory and every channel of an FPGA",
+        description="Read what the FPGA says of itself, send random bits and count those that come back wrong, fill and read "
+        "back every slot, and chirp on one channel after the other. Outputs are on during the chirps, if the permits are given.",
+    )
+    check.add_argument("--link", choices=["model", "rtl"], default="model", help="as for run, while the board's link is simulated")
+    check.add_argument("--device", metavar="TTY", help="serial port of a real FPGA, such as /dev/ttyUSB0")
+    check.add_argument("--baud", type=int, default=1_000_000, metavar="N", help="rate that its gateware was built for (1000000)")
+    check.add_argument("--bits", type=float, default=1e5, metavar="N", help="random bits to send at least (default: 1e5)")
+    check.add_argument("--pause-s", type=float, default=0.0, metavar="S", help="silence behind each channel's chirps")
+    check.set_defaults(command=gateware_check)
+
     bank = commands.add_parser("bank", help="build, look at and check banks of precomputed waveforms")
     actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
     build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
@@ -309,6 +367,8 @@ def _parser() -> argparse.ArgumentParser:
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
         command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
         command.set_defaults(command=action)
+        if name == "info":
+            command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
 
     point = commands.add_parser(
         "focus",
@@ -318,6 +378,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
     point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
+    point.add_argument(
+        "--idle-figures", action="store_true", help="measure what the idle word and its ramp are worth instead; --plot draws it"
+    )
     point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)

@@ -1,4 +1,4 @@
-"""The only place that chooses drivers for a board: so far simulated gateware and recordings."""
+"""The only place that chooses drivers for a board: so far simulated gateware, serial ports and recordings."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from controller.board import Board, data_folder
 from controller.fpga.build_hash import build_hash
 from controller.fpga.gateware import GatewareFactory, Parameters
 from controller.fpga.model import GatewareModel
+from controller.fpga.serial_link import SerialLink
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
@@ -30,6 +31,18 @@ def open_fpga(board: Board, now_s: Callable[[], float], gateware: GatewareFactor
     settings = board.link
     link = SimulatedLink(settings, now_s, gateware(Parameters.of(settings.clock_hz, settings.slots, built_from)))
     return link, Session(link, board, built_from, now_s)
+
+
+def open_serial(board: Board, now_s: Callable[[], float]) -> tuple[SerialLink, Session]:
+    """Link and session of an FPGA at the board's serial port.
+
+    Raises
+    ------
+    LinkError
+        If the port cannot be opened, or what answers there is another FPGA.
+    """
+    link = SerialLink(board.link.device, board.link.baud, now_s)
+    return link, Session(link, board, build_hash(data_folder("fpga_rtl")), now_s)
 
 
 def recording_path(board: Board, given: str | None) -> Path:

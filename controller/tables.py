@@ -48,6 +48,42 @@ def plain_table(figures: dict[str, Any]) -> str:
     return "\n".join(f"{name:<{width}}  {_number(value)}" for name, value in flat)
 
 
+def power_table(figures: dict[str, Any]) -> str:
+    """Table of what a bank's entries cost the driver stages."""
+    duty, resistor, limits = figures["max_duty"], figures["resistor"], figures["limits"]
+    rows = [
+        ("edges of an emission", figures["edges"]),
+        ("edges per second (kHz)", {key: _scaled(spread, 1e-3) for key, spread in figures["edge_rate_hz"].items()}),
+        ("loss at full duty (W)", figures["full_duty_w"]),
+        (f"loss at max_duty = {duty:g} (W)", figures["max_duty_w"]),
+    ]
+    channels = f"{len(figures['channels'])} channels"
+    lines = [
+        f"board {figures['board']}, {figures['path']}: {figures['emissions']} emissions of {figures['emission_ms']:g} ms",
+        f"{'':<32}{'one channel':>20}{channels:>20}",
+        f"{'':<32}{'median':>10}{'max':>10}{'median':>10}{'max':>10}",
+    ]
+    for title, value in rows:
+        shown = [_number(value[part][kind]) for part in ("channel", "all") for kind in ("median", "max")]
+        lines.append(f"{title:<32}" + "".join(f"{text:>10}" for text in shown))
+    edge = figures["loss_per_edge_uj"]
+    lines += [
+        "",
+        f"loss of an edge (µJ): {_number(edge['median'])} median, {_number(edge['max'])} in the costliest emission; "
+        f"{_number(edge['far_apart'])} far from any other, {_number(edge['worst_possible'])} in the worst possible waveform",
+        f"a resistor of {resistor['rating_w']:g} W, derated to {resistor['derating']:g}, "
+        f"may burn {_number(limits['permitted_w'])} W: " + ("holds at max_duty" if resistor["holds"] else "TOO LITTLE at max_duty"),
+        f"limits for that: max_duty {_number(limits['max_duty'])} for these emissions; whatever plays, "
+        f"{_number(limits['max_channel_edge_rate_hz'])} edges per second of one channel, "
+        f"{_number(limits['max_total_edge_rate_hz'])} of all",
+    ]
+    return "\n".join(lines)
+
+
+def _scaled(spread: dict[str, float], factor: float) -> dict[str, float]:
+    return {kind: value * factor for kind, value in spread.items()}
+
+
 def _flat(value: Any, name: str) -> list[tuple[str, Any]]:
     if isinstance(value, dict):
         return [row for key, inner in value.items() for row in _flat(inner, f"{name}.{key}" if name else str(key))]

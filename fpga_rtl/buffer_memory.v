@@ -9,6 +9,7 @@ module buffer_memory (
     input  wire [9:0]  read_word_i,
     output wire [31:0] read_data_o
 );
+    (* no_rw_check *)                   // nothing is read while it is written
     reg [31:0] memory [0:1023];
     reg [31:0] read_q, read_data_q;     // the memory's own output register, and the one that leaves it time
 

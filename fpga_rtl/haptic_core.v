@@ -211,7 +211,7 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_live, head, head_live, head_polarity, pop;
+    wire                   missing, underrun, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire [1:0]             head_start;
@@ -259,7 +259,7 @@ module haptic_core #(
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
         .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
-        .when_o(head_when), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
+        .when_o(head_when), .delayed_o(head_delayed), .delayed_one_o(head_delayed_one), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
         .queued_o(queued), .full_o(queue_full),
         .address_i(argument[5:0]), .read_result_o(queue_result), .read_data_o(queue_data)
     );
@@ -275,7 +275,7 @@ module haptic_core #(
         .armed_i(armed), .stop_i(stop), .disarm_i(disarm), .fault_i(shut), .trigger_i(trigger), .now_i(now_q),
         .head_i(head), .head_buffer_i(head_buffer), .head_first_i(head_first), .head_length_i(head_length),
         .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
-        .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_live_i(head_live),
+        .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
         .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),

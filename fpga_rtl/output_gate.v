@@ -47,6 +47,7 @@ module output_gate #(
 
     reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
+    reg        silent_q;                   // none
     reg [8:0]  fault_q;
     reg [31:0] fault_count_q, underruns_q;
     reg [63:0] fault_time_q;
@@ -59,7 +60,7 @@ module output_gate #(
     reg [31:0] alive_left_q;
     reg        hv_alive_q;
 
-    wire       host_silent = silence_q == 32'd0;
+    wire       host_silent = silent_q;
     wire       on          = state_q != OFF;
     wire [8:0] cause;
     assign cause[`FAULT_NO_PERMIT]        = on && !run_permit_i;
@@ -71,8 +72,13 @@ module output_gate #(
     wire       open = on_later_q[2] && !shut;
 
     always @(posedge clk_i) begin
-        if (heartbeat_i)       silence_q <= heartbeat_ticks_i;
-        else if (!host_silent) silence_q <= silence_q - 32'd1;
+        if (heartbeat_i) begin
+            silence_q <= heartbeat_ticks_i;
+            silent_q  <= 1'b0;
+        end else if (!silent_q) begin
+            silence_q <= silence_q - 32'd1;
+            silent_q  <= silence_q == 32'd1;
+        end
 
         fault_q <= (clear_i ? 9'd0 : fault_q) | cause;
         if (shut) begin
@@ -119,6 +125,7 @@ module output_gate #(
         if (rst_i) begin
             state_q      <= OFF;
             silence_q    <= 32'd0;
+            silent_q     <= 1'b1;
             fault_q       <= 9'd0;
             fault_count_q <= 32'd0;
             fault_time_q  <= 64'd0;

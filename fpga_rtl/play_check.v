@@ -51,7 +51,7 @@ module play_check #(
     reg [47:0] product_q;
     reg [31:0] sounding_q;           // ticks from the first word to the end of the last
     reg [48:0] span_q;               // ticks from the first word of all to where another play may begin
-    reg        long_q, back_to_back_q, roomy_q;
+    reg        range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
     reg [63:0] lead_q, free_q;       // earliest time that can still be met, that is not taken
     reg        late_q, overlap_q;
 
@@ -78,6 +78,8 @@ module play_check #(
             product_q <= doubled + (bits_q[15] ? {16'd0, second ? period_i : bit_period_i} : 48'd0);
         end
 
+        range_good_q   <= range_good;
+        start_good_q   <= start_i <= {6'd0, `START_TIME} && polarity_i <= 8'd1;
         long_q         <= sounding_q > emission_ticks_i;
         back_to_back_q <= period_i == sounding_q;
         roomy_q        <= {1'b0, period_i} >= {1'b0, sounding_q} + {1'b0, rest};
@@ -93,6 +95,8 @@ module play_check #(
             product_q      <= 48'd0;
             sounding_q     <= 32'd0;
             span_q         <= 49'd0;
+            range_good_q   <= 1'b0;
+            start_good_q   <= 1'b0;
             long_q         <= 1'b0;
             back_to_back_q <= 1'b0;
             roomy_q        <= 1'b0;
@@ -114,8 +118,8 @@ module play_check #(
         else if (live && !arriving_i)                       result = `RESULT_INCOMPLETE;
         else if (live && !fast_i)                            result = `RESULT_LINK_SLOW;
         else if (live && queued_i != 4'd0)                   result = `RESULT_BUSY;
-        else if (!range_good)                                result = `RESULT_BAD_RANGE;
-        else if (start_i > {6'd0, `START_TIME} || polarity_i > 8'd1) result = `RESULT_BAD_VALUE;
+        else if (!range_good_q)                              result = `RESULT_BAD_RANGE;
+        else if (!start_good_q)                              result = `RESULT_BAD_VALUE;
         else if (long_q)                                     result = `RESULT_TOO_LONG;
         else if (count_i != 16'd1 && !back_to_back_q && !roomy_q) result = `RESULT_BAD_PERIOD;
         else if (full_i)                                     result = `RESULT_QUEUE_FULL;

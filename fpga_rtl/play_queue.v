@@ -29,6 +29,8 @@ module play_queue #(
     output wire [31:0]            period_ticks_o,
     output wire [31:0]            mask_o,
     output wire [63:0]            when_o,          // delay or time
+    output wire                   delayed_o,       // it has a delay
+    output wire                   delayed_one_o,   // of one tick
     output wire                   live_o,
     // who uses the landing buffer
     input  wire [BUFFER_BITS-1:0] landing_i,
@@ -42,6 +44,7 @@ module play_queue #(
 );
     localparam PLAYS = 8;
 
+    (* no_rw_check *)                      // a play is read only once it is written
     reg [31:0] memory [0:8*PLAYS-1];
     reg [31:0] data_q;
 
@@ -61,6 +64,7 @@ module play_queue #(
     reg                   polarity_q;
     reg [31:0]            period_q, mask_q;
     reg [63:0]            when_q;
+    reg                   delayed_q, delayed_one_q;
 
     wire [5:0] address = fetch_q ? {head_q, index_q} : {head_q + address_i[5:3], address_i[2:0]};
 
@@ -75,6 +79,8 @@ module play_queue #(
         index_later_q <= index_q;
         fetched_q     <= fetch_q;
         moved_q       <= pop_i;
+        delayed_q     <= start_q != `START_TIME && when_q[31:0] != 32'd0;
+        delayed_one_q <= when_q[31:0] == 32'd1;
         if (select_i) full_q <= count_q == 4'd8;
         if (!valid_q && !fetch_q && !fetched_q && count_q != 4'd0) begin
             fetch_q <= 1'b1;
@@ -136,6 +142,8 @@ module play_queue #(
             period_q      <= 32'd0;
             mask_q        <= 32'd0;
             when_q        <= 64'd0;
+            delayed_q     <= 1'b0;
+            delayed_one_q <= 1'b0;
         end
     end
 
@@ -157,6 +165,8 @@ module play_queue #(
     assign period_ticks_o = period_q;
     assign mask_o         = mask_q;
     assign when_o         = when_q;
+    assign delayed_o      = delayed_q;
+    assign delayed_one_o  = delayed_one_q;
     assign live_o         = live_q;
     assign landing_used_o = landing_used;
     assign queued_o       = count_q;

@@ -92,8 +92,6 @@ module register_file #(
     reg [31:0] high_q;             // half of the time whose LOW was read last
     reg        unlocked_q;         // by the frame before
 
-    wire known = address_i <= `REGISTER_DUTY_LEVEL;
-
     reg [31:0] value;
     always @* begin
         case (address_i)
@@ -156,20 +154,10 @@ module register_file #(
         endcase
     end
 
-    wire key_good = word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
-    reg [7:0] control_result;
-    always @* begin
-        case (word0)
-            `CONTROL_UNLOCK: control_result = key_good ? `RESULT_OK : `RESULT_BAD_KEY;
-            `CONTROL_ARM: control_result = !unlocked_q ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
-                                         : fault_i != 16'd0 ? `RESULT_FAULTED
-                                         : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
-            `CONTROL_DISARM, `CONTROL_CLEAR, `CONTROL_STOP, `CONTROL_TRIGGER: control_result = `RESULT_OK;
-            default: control_result = `RESULT_BAD_VALUE;
-        endcase
-    end
+    // Address and words rest long before their frame ends: what they mean is found out a clock early
+    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, known_q, idle_q;
 
-    reg setting, in_range;  // address_i is a setting; word0 is a value for it
+    reg setting, in_range;         // address_i is a setting; word0 is a value for it
     always @* begin
         setting  = 1'b1;
         in_range = 1'b1;
@@ -189,17 +177,41 @@ module register_file #(
         endcase
     end
 
-    wire control  = address_i == `REGISTER_CONTROL;
-    wire command  = write_i && control && control_result == `RESULT_OK;
-    wire is_idle  = address_i == `REGISTER_BIT_PERIOD;   // written while nothing plays or waits; all others while disarmed
-    wire free     = is_idle ? quiet_i : off_i;
-    wire change   = write_i && setting && free && in_range;
+    always @(posedge clk_i) begin
+        known_q    <= address_i <= `REGISTER_DUTY_LEVEL;
+        control_q  <= address_i == `REGISTER_CONTROL;
+        idle_q     <= address_i == `REGISTER_BIT_PERIOD;
+        arm_q      <= word0 == `CONTROL_ARM;
+        disarm_q   <= word0 == `CONTROL_DISARM;
+        clear_q    <= word0 == `CONTROL_CLEAR;
+        stop_q     <= word0 == `CONTROL_STOP;
+        unlock_q   <= word0 == `CONTROL_UNLOCK;
+        trigger_q  <= word0 == `CONTROL_TRIGGER;
+        key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
+        setting_q  <= setting;
+        in_range_q <= in_range;
+        if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
+                    in_range_q} <= 12'd0;
+    end
+
+    wire arm_good = unlocked_q && off_i && fault_i == 16'd0 && permitted_i;
+    reg [7:0] control_result;
+    always @* begin
+        if (unlock_q)   control_result = key_good_q ? `RESULT_OK : `RESULT_BAD_KEY;
+        else if (arm_q) control_result = !unlocked_q ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
+                                       : fault_i != 16'd0 ? `RESULT_FAULTED : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
+        else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
+    end
+
+    wire command  = write_i && control_q;
+    wire free     = idle_q ? quiet_i : off_i;            // BIT_PERIOD is written while nothing plays or waits, all others while disarmed
+    wire change   = write_i && setting_q && free && in_range_q;
 
     always @(posedge clk_i) begin
         if (read_i && low) high_q <= high;
         if (refused_i) frame_errors_q <= frame_errors_q + 32'd1;
         if (gap_i) gaps_q <= gaps_q + 32'd1;
-        if (accept_i || refused_i) unlocked_q <= command && word0 == `CONTROL_UNLOCK;
+        if (accept_i || refused_i) unlocked_q <= command && unlock_q && key_good_q;
         if (change) begin
             case (address_i)
                 `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
@@ -234,9 +246,9 @@ module register_file #(
         end
     end
 
-    assign read_result_o  = known ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;
-    assign write_result_o = !known ? `RESULT_UNKNOWN_REGISTER : control ? control_result : !setting ? `RESULT_READ_ONLY
-                          : !free ? (is_idle ? `RESULT_BUSY : `RESULT_ARMED) : !in_range ? `RESULT_BAD_VALUE : `RESULT_OK;
+    assign read_result_o  = known_q ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;
+    assign write_result_o = !known_q ? `RESULT_UNKNOWN_REGISTER : control_q ? control_result : !setting_q ? `RESULT_READ_ONLY
+                          : !free ? (idle_q ? `RESULT_BUSY : `RESULT_ARMED) : !in_range_q ? `RESULT_BAD_VALUE : `RESULT_OK;
     assign data_o            = value;
     assign idle_word_o       = idle_word_q;
     assign channel_mask_o    = channel_mask_q;
@@ -249,11 +261,11 @@ module register_file #(
     assign emission_ticks_o  = emission_ticks_q;
     assign duty_share_o      = duty_share_q;
     assign duty_ticks_o      = duty_ticks_q;
-    assign arm_o     = command && word0 == `CONTROL_ARM;
-    assign disarm_o  = command && word0 == `CONTROL_DISARM;
-    assign clear_o   = command && word0 == `CONTROL_CLEAR;
-    assign stop_o    = command && word0 == `CONTROL_STOP;
-    assign trigger_o = command && word0 == `CONTROL_TRIGGER;
+    assign arm_o     = command && arm_q && arm_good;
+    assign disarm_o  = command && disarm_q;
+    assign clear_o   = command && clear_q;
+    assign stop_o    = command && stop_q;
+    assign trigger_o = command && trigger_q;
 endmodule
 
 `default_nettype wire

@@ -12,7 +12,7 @@
 //                  tick before t, and out of which, down to 0, duty_share_i / 65536 in every tick: level in t + 1.
 // A limit that is written holds from 40 ticks later on: the pins must rest meanwhile.
 //
-// Counting edges exactly with 32 counters and comparators of 24 bits would take 1500 LUTs. Here each channel has a purse
+// 32 counters and comparators of 24 bits would take 1500 LUTs for the edges alone. Instead each channel has a purse
 // of up to 63 edges it may still make, and an account in a memory, what it had and was given. One channel a clock has its
 // turn: the account gives what the limit still allows. A purse that lasts for 63 clocks never runs dry between turns.
 `default_nettype none
@@ -46,19 +46,22 @@ module stage_limits #(
     reg [31:0] pins_q, change_q;
     reg        moved_q;
     reg [WINDOW_BITS-1:0] window_q;
-    wire       begins   = window_q == {WINDOW_BITS{1'b0}};  // the next clock evaluates the first change of a window
+    reg        begins_q;                         // the next clock judges the first change of a window
+    wire       ends    = window_q == LAST_TICK[WINDOW_BITS-1:0];
     wire [31:0] change  = channel_i ^ pins_q;
 
     always @(posedge clk_i) begin
         pins_q   <= channel_i;
         change_q <= change;
         moved_q  <= change != 32'd0;
-        window_q <= window_q == LAST_TICK[WINDOW_BITS-1:0] ? {WINDOW_BITS{1'b0}} : window_q + 1'b1;
+        window_q <= ends ? {WINDOW_BITS{1'b0}} : window_q + 1'b1;
+        begins_q <= ends;
         if (rst_i) begin
             pins_q   <= 32'd0;
             change_q <= 32'd0;
             moved_q  <= 1'b0;
             window_q <= {WINDOW_BITS{1'b0}};
+            begins_q <= 1'b1;
         end
     end
 
@@ -83,9 +86,8 @@ module stage_limits #(
     // Edges of each channel: purses
     wire [31:0]  edge_too_many;
     wire [191:0] purses;
-    reg  [31:0]  turn_of_q;                      // one-hot: whose purse is filled
-    reg  [5:0]   given;                          // into the purses that are filled
-    wire [31:0]  filled = turn_of_q | {32{begins}};
+    reg  [31:0]  filled_q;                       // whose purse is filled: all as a window begins, then one after the other
+    reg  [5:0]   given;                          // into them
     genvar number;
 
     generate
@@ -96,74 +98,76 @@ module stage_limits #(
             wire       empty  = zero_5 && !purse_q[5];
             wire [5:0] less   = purse_q ^ {zero_5, zero_4, purse_q[2:0] == 3'd0, purse_q[1:0] == 2'd0, !purse_q[0], 1'b1};
             always @(posedge clk_i)
-                if (filled[number] || (change_q[number] && !empty)) purse_q <= filled[number] ? given : less;
+                if (filled_q[number] || (change_q[number] && !empty)) purse_q <= filled_q[number] ? given : less;
             assign edge_too_many[number] = change_q[number] && empty;
             assign purses[6*number +: 6] = purse_q;
         end
     endgenerate
 
-    // Their accounts: looked up, compared with the limit, settled, written back
+    // Their accounts: looked up, judged by the limit, settled
     reg [23:0] accounts [0:31];                  // edges made and in the purse; not of this window until the first round is over
     reg [5:0]  scan_q;                           // first round 0 to 31, later ones 32 to 63
     reg [23:0] limit_q;
     reg [5:0]  first_q;                          // what the purses held when the window began
     reg [23:0] account_q;
     reg [4:0]  looked_q, judged_q, settled_q;    // the channel in each step
-    reg        looked_valid_q;
-    reg        looked_first_q;
+    reg        looked_valid_q, looked_first_q;
+    reg        looked_change_q, judged_change_q; // its bit of change_q
     reg [23:0] judged_account_q, settled_account_q;
-    reg [5:0]  judged_purse_q;
+    reg [5:0]  judged_purse_q, settled_purse_q, settled_given_q;
     reg        plenty_q, nothing_q;
-    reg [6:0]  more_q;                           // limit less account, signed, unless plenty or nothing
-    reg signed [6:0] settled_more_q;             // to be added to the account
+    reg [6:0]  more_q;                           // limit less account less one, signed, unless plenty or nothing
 
     wire [23:0] account = looked_first_q ? {18'd0, first_q} : account_q;
-    wire [24:0] more    = {1'b0, limit_q} - {1'b0, account};
-    wire [7:0]  allowed = {more_q[6], more_q} + {2'b00, judged_purse_q};
+    wire [24:0] more    = {1'b0, limit_q} + {1'b1, ~account};
+    wire [5:0]  purse   = purses[6*looked_q +: 6];
+    wire        spent   = judged_change_q && judged_purse_q != 6'd0;
+    wire [7:0]  allowed = {more_q[6], more_q} + {2'b00, judged_purse_q} + {7'd0, !spent};
     wire [5:0]  first   = limit_q > {18'd0, PURSE} ? PURSE : limit_q[5:0];
-    wire [5:0]  looked_purse = purses[6*looked_q +: 6];
-    reg  [5:0]  purse;
 
     always @* begin
-        if (plenty_q)                       purse = PURSE;
-        else if (nothing_q || allowed[7])   purse = 6'd0;
-        else if (allowed[6])                purse = PURSE;
-        else                                purse = allowed[5:0];
-        given = begins ? first : purse - {5'd0, change_q[judged_q] && purse != 6'd0};
+        if (begins_q)                     given = first;
+        else if (plenty_q)                given = PURSE;
+        else if (nothing_q || allowed[7]) given = 6'd0;
+        else if (allowed[6])              given = PURSE;
+        else                              given = allowed[5:0];
     end
 
     always @(posedge clk_i) begin
         limit_q <= channel_edges_i > {8'd0, MOST} ? MOST : channel_edges_i[23:0];
-        if (begins) first_q <= first;
+        if (begins_q) first_q <= first;
+        filled_q <= {32{ends}} | {begins_q ? 31'd0 : filled_q[30:0], looked_valid_q && !begins_q && looked_q == 5'd0};
 
-        scan_q         <= begins ? 6'd0 : scan_q == 6'd63 ? 6'd32 : scan_q + 6'd1;
-        account_q      <= accounts[scan_q[4:0]];
-        looked_q       <= scan_q[4:0];
-        looked_first_q <= !scan_q[5];
-        looked_valid_q <= !begins;
+        scan_q          <= begins_q ? 6'd0 : scan_q == 6'd63 ? 6'd32 : scan_q + 6'd1;
+        account_q       <= accounts[scan_q[4:0]];
+        looked_q        <= scan_q[4:0];
+        looked_first_q  <= !scan_q[5];
+        looked_valid_q  <= !begins_q;
+        looked_change_q <= change[scan_q[4:0]];
 
         judged_q         <= looked_q;
-        turn_of_q        <= looked_valid_q && !begins ? 32'd1 << looked_q : 32'd0;
+        judged_change_q  <= change[looked_q];
         judged_account_q <= account;
-        judged_purse_q   <= looked_purse - {5'd0, change_q[looked_q] && looked_purse != 6'd0};
+        judged_purse_q   <= purse - {5'd0, looked_change_q && purse != 6'd0};
         plenty_q         <= !more[24] && more[23:6] != 18'd0;
         nothing_q        <= more[24] && more[23:6] != {18{1'b1}};
         more_q           <= more[6:0];
 
         settled_q         <= judged_q;
         settled_account_q <= judged_account_q;
-        settled_more_q    <= {1'b0, purse} - {1'b0, judged_purse_q};
-        accounts[settled_q] <= settled_account_q + {{17{settled_more_q[6]}}, settled_more_q};
+        settled_purse_q   <= judged_purse_q - {5'd0, spent};
+        settled_given_q   <= given;
+        accounts[settled_q] <= settled_account_q + {18'd0, settled_given_q} - {18'd0, settled_purse_q};
         if (rst_i) begin
+            filled_q       <= {32{1'b1}};
             scan_q         <= 6'd0;
             looked_valid_q <= 1'b0;
-            turn_of_q      <= 32'd0;
         end
     end
 
     // Edges of all
     reg [5:0]  moves_q;
-    reg        begun_q, first_moves_q;           // begins, in step with change_q and with moves_q
+    reg        begun_q, first_moves_q;           // begins_q, in step with change_q and with moves_q
     reg [31:0] total_q;
     wire [31:0] total = (first_moves_q ? 32'd0 : total_q) + {26'd0, moves_q};
 
@@ -191,7 +195,7 @@ module stage_limits #(
     wire [31:0] culprits = short_pulse | edge_too_many;
 
     always @(posedge clk_i) begin
-        begun_q       <= begins;
+        begun_q       <= begins_q;
         first_moves_q <= begun_q;
         moves_q       <= ones_32(change_q);
         total_q       <= total;

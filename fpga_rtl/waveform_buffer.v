@@ -103,23 +103,35 @@ module waveform_buffer #(
         end
     endgenerate
 
-    // Book-keeping
-    reg complete;
-    always @* begin : check
-        integer piece;
-        complete = 1'b1;
-        for (piece = 0; piece < 8; piece = piece + 1)
-            // a whole chunk is asked for where the waveform reaches beyond it, else what is left
-            if (word0_i[10:0] >= 11'd125 * (piece[10:0] + 11'd1)) begin
-                if (chunk_words_q[piece] != 7'd125) complete = 1'b0;
-            end else if ({4'd0, chunk_words_q[piece]} + 11'd125 * piece[10:0] < word0_i[10:0]) complete = 1'b0;
+    // Whether a STORE finds all its words: chunk by chunk, over and over, long before its frame ends
+    reg [2:0]  look_q;
+    reg [9:0]  left_q;               // words of the waveform from that chunk on
+    reg        whole_q;              // so far
+    reg        complete_q;
+    wire [6:0] there = chunk_words_q[look_q];
+    always @(posedge clk_i) begin
+        look_q  <= look_q + 3'd1;
+        left_q  <= left_q > 10'd125 ? left_q - 10'd125 : 10'd0;
+        whole_q <= whole_q && there >= (left_q > 10'd125 ? 7'd125 : left_q[6:0]);
+        if (look_q == 3'd7) begin
+            left_q     <= word0_i[9:0];
+            whole_q    <= 1'b1;
+            complete_q <= whole_q && {3'd0, there} >= left_q;
+        end
+        if (rst_i) begin
+            look_q     <= 3'd0;
+            left_q     <= 10'd0;
+            whole_q    <= 1'b0;
+            complete_q <= 1'b0;
+        end
     end
 
+    // Book-keeping
     wire chunk_good  = argument_i < {12'd0, `CHUNKS};
     wire length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
     wire load_good   = chunk_good && !load_busy_i && count_good;
     wire store_slot  = slot_good && argument_i[15:8] == 8'd0;
-    wire store_good  = store_slot && length_good && !check_q && !live_i && complete;
+    wire store_good  = store_slot && length_good && !check_q && !live_i && complete_q;
 
     wire        reading  = check_q && check_word_q != check_words_q;
     wire        checked  = check_q && !reading && reading_q == 3'd0;
@@ -184,7 +196,7 @@ module waveform_buffer #(
 
     assign load_result_o   = !chunk_good ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
     assign store_result_o  = !store_slot ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
-                           : check_q || live_i ? `RESULT_BUSY : !complete ? `RESULT_INCOMPLETE : `RESULT_OK;
+                           : check_q || live_i ? `RESULT_BUSY : !complete_q ? `RESULT_INCOMPLETE : `RESULT_OK;
     assign memory_result_o = !slot_good ? `RESULT_BAD_SLOT : argument_i[9:0] >= slot_words ? `RESULT_BAD_RANGE
                            : settled_q != 3'd4 ? `RESULT_BUSY : `RESULT_OK;
     assign memory_data_o   = data_q;

@@ -31,6 +31,7 @@ module waveform_player #(
     input  wire [31:0]            head_period_ticks_i,
     input  wire [31:0]            head_mask_i,
     input  wire [63:0]            head_when_i,     // delay or time
+    input  wire                   head_delayed_i, head_delayed_one_i,
     input  wire                   head_live_i,
     output wire                   pop_o,
     // buffers
@@ -73,9 +74,13 @@ module waveform_player #(
     reg [2:0]             chunk_q;         // the same word, while it plays from the first
     reg [6:0]             within_q;
     reg [15:0]            hold_q;          // ticks left of it
+    reg                   hold_over_q;     // none: as for the others named so, known a clock early
     reg [15:0]            fraction_q;      // of a tick by which it begins early
     reg [31:0]            period_q, until_next_q, delay_left_q;
+    reg                   until_next_over_q, delay_over_q;
     reg [15:0]            rest_q;
+    reg                   resting_q;       // rest_q is not 0
+    reg                   underrun_q;
 
     reg [63:0]            ahead_q;         // what now_i will be when a play decided on in the next clock is on the pins
     reg                   due_q, missed_q; // the time of the head has come; has passed
@@ -87,7 +92,7 @@ module waveform_player #(
     reg [63:0]            trigger_time_q, emission_time_q;
 
     wire repeating = endless_q || remaining_q != 16'd0;
-    wire resting   = rest_q != 16'd0;
+    wire resting   = resting_q;
     wire halted    = stop_i || disarm_i || fault_i;  // nothing begins in this clock
     wire room      = armed_i && !playing_q && !delayed_q && !resting;
     wire free      = room && !halted;
@@ -96,12 +101,12 @@ module waveform_player #(
     wire at_once    = head_i && head_start_i == `START_NOW && remaining_q == 16'd0;
     wire begins    = free && (by_trigger || by_time || at_once);
     wire missed    = head_i && missed_q;
-    wire delay     = head_start_i != `START_TIME && head_when_i[31:0] != 32'd0;
+    wire delay     = head_delayed_i;
 
-    wire boundary  = playing_q && hold_q == 16'd0;
+    wire boundary  = playing_q && hold_over_q;
     wire last      = boundary && left_q == 10'd0;
-    wire due       = repeating && !delayed_q && until_next_q == 32'd0 && !begins && !halted;
-    wire released  = delayed_q && delay_left_q == 32'd0 && !halted;
+    wire due       = repeating && !delayed_q && until_next_over_q && !begins && !halted;
+    wire released  = delayed_q && delay_over_q && !halted;
     wire from_head = begins && !delay;
     wire start     = due || released || from_head;
     wire [16:0] next_fraction = {1'b0, fraction_q} + {1'b0, bit_period_i[15:0]};
@@ -126,14 +131,27 @@ module waveform_player #(
             within_q   <= within_q == 7'd124 ? 7'd0 : within_q + 7'd1;
             if (within_q == 7'd124) chunk_q <= chunk_q + 3'd1;
         end else hold_q <= hold_q - 16'd1;
+        hold_over_q <= !boundary && hold_q == 16'd1;
         if (last || (boundary && halting_q)) begin
             playing_q <= 1'b0;
             halting_q <= 1'b0;
         end
-        if (until_next_q != 32'd0) until_next_q <= until_next_q - 32'd1;
-        if (delayed_q) delay_left_q <= delay_left_q - 32'd1;
-        if (playing_q || ramping_i) rest_q <= bit_period_i[31:16];
-        else if (resting) rest_q <= rest_q - 16'd1;
+        if (!until_next_over_q) begin
+            until_next_q      <= until_next_q - 32'd1;
+            until_next_over_q <= until_next_q == 32'd1;
+        end
+        if (delayed_q) begin
+            delay_left_q <= delay_left_q - 32'd1;
+            delay_over_q <= delay_left_q == 32'd1;
+        end
+        if (playing_q || ramping_i) begin
+            rest_q    <= bit_period_i[31:16] - 16'd1;
+            resting_q <= 1'b1;
+        end else if (resting) begin
+            rest_q    <= rest_q - 16'd1;
+            resting_q <= rest_q != 16'd1;
+        end
+        underrun_q <= playing_q && live_q && missing_i;
 
         if (begins) begin
             buffer_q     <= head_buffer_i;
@@ -147,6 +165,7 @@ module waveform_player #(
             remaining_q  <= head_count_i == 16'd0 ? 16'd0 : head_count_i - 16'd1;
             delayed_q    <= delay;
             delay_left_q <= head_when_i[31:0] - 32'd1;
+            delay_over_q <= head_delayed_one_i;
         end else if (due && !endless_q) remaining_q <= remaining_q - 16'd1;
         if (released) delayed_q <= 1'b0;
         if (start) begin
@@ -156,8 +175,10 @@ module waveform_player #(
             chunk_q         <= 3'd0;
             within_q        <= 7'd0;
             hold_q          <= bit_period_i[31:16] - 16'd1;
+            hold_over_q     <= 1'b0;
             fraction_q      <= bit_period_i[15:0];
             until_next_q    <= (from_head ? head_period_ticks_i : period_q) - 32'd1;
+            until_next_over_q <= 1'b0;
             emission_time_q <= ahead_q - 64'd1;
         end
         if (stop_i || disarm_i) begin
@@ -175,7 +196,7 @@ module waveform_player #(
             delayed_q   <= 1'b0;
             endless_q   <= 1'b0;
             remaining_q <= 16'd0;
-            rest_q      <= 16'd0;
+            resting_q   <= 1'b0;
         end
 
         playing_later_q <= {playing_later_q[0], playing_q};
@@ -206,7 +227,12 @@ module waveform_player #(
             period_q        <= 32'd0;
             until_next_q    <= 32'd0;
             delay_left_q    <= 32'd0;
+            hold_over_q       <= 1'b0;
+            until_next_over_q <= 1'b1;
+            delay_over_q      <= 1'b0;
             rest_q          <= 16'd0;
+            resting_q       <= 1'b0;
+            underrun_q      <= 1'b0;
             ahead_q         <= 64'd6;
             due_q           <= 1'b0;
             missed_q        <= 1'b0;
@@ -232,7 +258,7 @@ module waveform_player #(
     assign read_word_o     = word_q;
     assign read_chunk_o    = chunk_q;
     assign read_within_o   = within_q;
-    assign underrun_o      = playing_q && live_q && missing_i;
+    assign underrun_o      = underrun_q;
     assign drive_o         = drive_q;
     assign start_o         = start;
     assign ended_o         = ended_q[3];

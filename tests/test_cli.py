@@ -156,7 +156,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: simulated"),
+        (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
         (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: scene"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),
@@ -267,6 +267,15 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
     content[-2000] ^= 16
     file.write_bytes(content)
     assert "damaged" in told_off(capsys, "bank", "verify", file)
+
+
+def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file):
+    figures = json.loads(printed(capsys, "bank", "info", bank_file, "--power", "--json").out)
+    assert figures["full_duty_w"]["all"]["median"] == pytest.approx(8.0, rel=0.05)
+    assert [row["channel"] for row in figures["channels"]] == sorted(actuator.channel for actuator in board.actuators)
+    table = printed(capsys, "bank", "info", bank_file, "--power").out
+    assert "TOO LITTLE at max_duty" in table
+    assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
 
 
 def test_info_and_verify_without_a_file_take_the_bank_built_last(capsys, small_board):

@@ -11,7 +11,7 @@ from controller.errors import FaultError, LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Status, answered_well, parse_status
 from controller.fpga.link import Link
-from controller.fpga.registers import Control, Fault, Register, Result
+from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
 
 ATTEMPTS = 3
 COMMANDS = 8  # short frames that fit behind an upload
@@ -45,6 +45,8 @@ class Exchange:
     ----------
     sent : memoryview
         Where frames are packed, from 0 on, before they are sent.
+    received : memoryview
+        What came back with each, at its place.
     sequence : int
         Number for the first of them.
     heartbeat_due_s : float
@@ -56,7 +58,7 @@ class Exchange:
         self.sent = memoryview(bytearray(size))
         self.sequence = 0
         self.heartbeat_due_s = now_s()
-        self._received = memoryview(bytearray(size))
+        self.received = memoryview(bytearray(size))
         self._link = link
         self._now_s = now_s
         self._beat_s = beat_s
@@ -75,14 +77,14 @@ class Exchange:
         """
         sequence = self.sequence
         self.sequence = (sequence + len(lengths)) & 0xFF
-        self._link.exchange(self.sent, lengths, self._received)
+        self._link.exchange(self.sent, lengths, self.received)
         self.heartbeat_due_s = self._now_s() + self._beat_s
         start = lengths[0]  # the first answer is about the message before
         for index, length in enumerate(lengths[1:]):
-            if not answered_well(self._received, start, (sequence + index) & 0xFF):
-                self._explain(parse_status(self._received, start), faults_matter)
+            if not answered_well(self.received, start, (sequence + index) & 0xFF):
+                self._explain(parse_status(self.received, start), faults_matter)
             start += length
-        status = parse_status(self._received, start - lengths[-1])
+        status = parse_status(self.received, start - lengths[-1])
         if status.faults:
             self._explain(status, faults_matter)
         return status
@@ -126,8 +128,30 @@ class Exchange:
 
     def read(self, register: Register) -> int:
         """Value of one register."""
-        end = frames.pack_read(self.sent, 0, self.sequence, register)
+        return self.read_address(register)
+
+    def read_slot_crc(self, slot: int) -> int:
+        """CRC-32 that the FPGA found for what a slot holds."""
+        return self.read_address(READ_SLOT_CRC + slot)
+
+    def read_address(self, address: int) -> int:
+        """Value of a register, a word of memory, or whatever else READ knows."""
+        end = frames.pack_read(self.sent, 0, self.sequence, address)
         return self.short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
+
+    def unchecked(self, lengths: list[int]) -> int:
+        """Send frames whatever becomes of them; how many answers were damaged."""
+        self.sequence = (self.sequence + len(lengths)) & 0xFF
+        self._link.exchange(self.sent, lengths, self.received)
+        self.heartbeat_due_s = self._now_s() + self._beat_s
+        damaged = start = 0
+        for length in lengths:
+            try:
+                parse_status(self.received, start)
+            except LinkError:
+                damaged += 1
+            start += length
+        return damaged
 
     def _explain(self, status: Status, faults_matter: bool) -> None:
         """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""

@@ -32,6 +32,7 @@ class _Kind(Enum):
     TRIGGER = 2
     ENDED = 3
     FRAME = 4
+    UNDERRUN = 5
 
 
 class _Event(NamedTuple):
@@ -215,9 +216,9 @@ class GatewareModel:
     def _step(self, tick: int) -> None:
         """All that happens in one tick; what comes later here wins, as in the Verilog."""
         cause = self._gate.cause(tick)
-        if tick == self._arrival_tick() and not self._arrive():
-            cause |= Fault.UNDERRUN
         trigger = ended = noted = False
+        if tick == self._arrival_tick() and not self._arrive():
+            self._expect(_Event(tick + 1, _Kind.UNDERRUN))
         frame: _Event | None = None
         permits = dict(self._gate.permits)
         while self._events and self._events[0].tick == tick:
@@ -226,6 +227,8 @@ class GatewareModel:
                 permits[event.permit] = event.level
             elif event.kind is _Kind.PERMIT_NOTED:
                 noted = True
+            elif event.kind is _Kind.UNDERRUN:
+                cause |= Fault.UNDERRUN if self._gate.state is not Gate.OFF else Fault(0)
             elif event.kind is _Kind.FRAME:
                 frame = event
             else:
@@ -251,7 +254,7 @@ class GatewareModel:
             if effect.triggers:
                 self._expect(_Event(tick + 1, _Kind.TRIGGER))
         if self._gate.move_ramp(tick):
-            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks
+            self._player.free_from = self._gate.ramp_end + self._registers.bit_ticks - 1
         if noted:
             self._telemetry.input_tick = tick
         if cause:

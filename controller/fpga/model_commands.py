@@ -309,6 +309,6 @@ class Commands:
             self.gate.idle(tick + 1)
             self.gate.limits.emission(tick + 1, sounding=False)
             self.gate.limits.activity(tick + 1, active=False)
-        settled_from = player.end + self.registers.bit_ticks if player.playing else player.free_from
+        settled_from = player.end + self.registers.bit_ticks - 1 if player.playing else player.free_from
         self.drop(tick)
         self.gate.disarm(tick, settled_from)

@@ -8,7 +8,6 @@ in which they are high, and the state in which it ends.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import IntFlag
 from typing import NamedTuple
 
 import numpy as np
@@ -17,22 +16,14 @@ from numpy.typing import NDArray
 Ticks = NDArray[np.int64]
 Words = NDArray[np.uint32]
 
+SHORT_PULSE, CHANNEL_EDGES, TOTAL_EDGES, LONG_EMISSION, DUTY = (1 << bit for bit in range(5))  # of `cause_o`
+
 CHANNELS = 32
 EDGE_TICKS = 2  # from a change to what it causes: short pulse, edges of one channel
 TOTAL_TICKS = 3  # the same for the edges of all
 CHANNEL_EDGES_MAX = 2**24 - 1  # more counts as this
 FULL_FLOW = 1 << 16  # into the bucket in an active tick
 BUCKET_MAX = 2**48 - 1
-
-
-class Cause(IntFlag):
-    """Bits of `cause_o`."""
-
-    SHORT_PULSE = 1 << 0
-    CHANNEL_EDGES = 1 << 1
-    TOTAL_EDGES = 1 << 2
-    LONG_EMISSION = 1 << 3
-    DUTY = 1 << 4
 
 
 @dataclass
@@ -155,12 +146,12 @@ class StageLimits:
                 ticks.append(tick)
         return min(ticks, default=None)
 
-    def cause(self, tick: int) -> Cause:
-        """Causes that are high in a tick."""
-        value = Cause(0)
+    def cause(self, tick: int) -> int:
+        """Bits of the causes that are high in a tick."""
+        value = 0
         for plan in self._plans:
-            value |= Cause(plan.causes.get(tick, 0))
-        for cause, stretches in ((Cause.LONG_EMISSION, self._late()), (Cause.DUTY, self._overdrawn())):
+            value |= plan.causes.get(tick, 0)
+        for cause, stretches in ((LONG_EMISSION, self._late()), (DUTY, self._overdrawn())):
             if any(first < tick and (end is None or tick <= end) for first, end in stretches):
                 value |= cause
         return value
@@ -226,15 +217,14 @@ class StageLimits:
             return plan
         ticks, changes = ticks[moved], changes[moved]
         last_change, recent = self._judge_pulses(plan, ticks, changes)
-        windows = ticks[[0, -1]] // self._window_ticks
         window, counts, total = before.window, before.counts, before.total
-        bounds = np.searchsorted(ticks, np.arange(windows[0] + 1, windows[1] + 1) * self._window_ticks).tolist()
-        for start, end in zip([0, *bounds], [*bounds, len(ticks)], strict=True):
-            if start == end:
-                continue
-            if int(ticks[start]) // self._window_ticks != window:
-                window, counts, total = int(ticks[start]) // self._window_ticks, np.zeros(CHANNELS, np.int64), 0
-            counts, total = self._judge_edges(plan, ticks[start:end], changes[start:end], counts, total)
+        while ticks.size:
+            if (here := int(ticks[0]) // self._window_ticks) != window:
+                window, counts, total = here, np.zeros(CHANNELS, np.int64), 0
+            end = (window + 1) * self._window_ticks
+            inside = len(ticks) if ticks[-1] < end else int(np.searchsorted(ticks, end))
+            counts, total = self._judge_edges(plan, ticks[:inside], changes[:inside], counts, total)
+            ticks, changes = ticks[inside:], changes[inside:]
         plan.after = _State(int(words[-1]), last_change, recent, window, counts, total)
         return plan
 
@@ -250,7 +240,7 @@ class StageLimits:
         for tick, change, too_close in zip(ticks.tolist(), changes.tolist(), close.tolist(), strict=True):
             recent = recent if too_close else 0
             if recent & change:
-                _note(plan, tick, Cause.SHORT_PULSE, recent & change)
+                _note(plan, tick, SHORT_PULSE, recent & change)
             recent |= change
         return last, recent
 
@@ -260,23 +250,24 @@ class StageLimits:
         """Note edges too many within one window; the counts afterwards."""
         limit = min(self._settings.channel_edges, CHANNEL_EDGES_MAX)
         bits = np.unpackbits(changes.astype("<u4", copy=False).view(np.uint8), bitorder="little").reshape(-1, CHANNELS)
-        made = bits.sum(axis=0, dtype=np.int64)
+        eights = np.add.reduceat(bits.view(np.uint64), np.arange(0, len(bits), 255))  # eight sums at once, ten times faster
+        made = eights.view(np.uint8).sum(axis=0, dtype=np.int64)
         after = counts + made
         total_after = total + int(made.sum())
         if total_after > self._settings.total_edges:
             totals = total + bits.sum(axis=1).cumsum()
             for tick in ticks[totals > self._settings.total_edges].tolist():
-                plan.causes[tick + TOTAL_TICKS] = plan.causes.get(tick + TOTAL_TICKS, 0) | Cause.TOTAL_EDGES
+                plan.causes[tick + TOTAL_TICKS] = plan.causes.get(tick + TOTAL_TICKS, 0) | TOTAL_EDGES
         if (after > limit).any():
             too_many = bits.astype(bool) & (counts + bits.cumsum(axis=0) > limit)
             words = np.packbits(too_many, axis=1, bitorder="little").view("<u4")[:, 0]
             for at in words.nonzero()[0].tolist():
-                _note(plan, int(ticks[at]), Cause.CHANNEL_EDGES, int(words[at]))
+                _note(plan, int(ticks[at]), CHANNEL_EDGES, int(words[at]))
             after = np.maximum(np.minimum(after, limit), counts)  # what is too many is not counted
         return after, total_after
 
 
-def _note(plan: _Plan, tick: int, cause: Cause, channels: int) -> None:
+def _note(plan: _Plan, tick: int, cause: int, channels: int) -> None:
     at = tick + EDGE_TICKS
     plan.causes[at] = plan.causes.get(at, 0) | cause
     plan.culprits[at] = plan.culprits.get(at, 0) | channels

@@ -166,7 +166,7 @@ class Player:
         self.playing = False
         self.halting = False
         self.played_until[self.running.buffer] = tick + 1
-        self.free_from = tick + 1 + bit_ticks
+        self.free_from = tick + bit_ticks
         if not self.repeating:
             self.running = None
 

@@ -5,17 +5,16 @@ A play that was damaged on its way is sent again behind a STOP, so that nothing 
 
 from __future__ import annotations
 
-import math
 import zlib
 from collections.abc import Callable
 
 from controller.board import Board
 from controller.errors import FaultError, LinkError
-from controller.fpga import frames
+from controller.fpga import configuration, frames
 from controller.fpga.exchange import Exchange, Refused
-from controller.fpga.frames import FRAME_BYTES, Status, upload_slices
+from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status, upload_slices
 from controller.fpga.link import Link
-from controller.fpga.registers import CHANNELS, DUTY_FULL, IDENTITY_MAGIC, PROTOCOL_VERSION, Control, Register, State
+from controller.fpga.registers import Control, Register, Start, State
 
 BEATS_PER_TIMEOUT = 3
 CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
@@ -43,25 +42,25 @@ class Session:
 
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float]) -> None:
         beat_s = board.limits.heartbeat_timeout_ms * 1e-3 / BEATS_PER_TIMEOUT
-        self._exchange = Exchange(link, now_s, beat_s)
-        self._sent = self._exchange.sent
+        self.exchange = Exchange(link, now_s, beat_s)
+        self._sent = self.exchange.sent
         self._link = link
         self._board = board
         self._build_hash = build_hash
         self._now_s = now_s
         self._upload = upload_slices(board.waveform.samples)
         self._upload_lengths = [piece.stop - piece.start for piece in self._upload]
-        self._ramp_samples = max(1, round(board.limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
         self._on = False
-        self._verify()
+        self.exchange.short(frames.pack_nop(self._sent, 0, 0), faults_matter=False)
+        configuration.verify(self.exchange.read, board, build_hash)
         self._configure()
 
     @property
     def heartbeat_due_s(self) -> float:
         """When the FPGA should hear from us next."""
-        return self._exchange.heartbeat_due_s
+        return self.exchange.heartbeat_due_s
 
     @property
     def away_ns(self) -> int:
@@ -83,12 +82,12 @@ class Session:
 
     def arm(self) -> float:
         """Have the outputs glide to their idle levels; the time at which they have arrived."""
-        sequence = self._exchange.sequence
+        sequence = self.exchange.sequence
         end = frames.pack_nop(self._sent, 0, sequence)  # feeds the heartbeat, without which arming is refused
         end = frames.pack_unlock(self._sent, end, sequence + 1, self._build_hash)
         end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
         self._on = True
-        self._exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
+        self.exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
         return self._ramp_end_s()
 
     def require_armed(self) -> None:
@@ -100,7 +99,7 @@ class Session:
 
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""
-        self._exchange.control(Control.DISARM)
+        self.exchange.control(Control.DISARM)
         return self._ramp_end_s()
 
     def off(self) -> None:
@@ -108,13 +107,13 @@ class Session:
         if self._on:
             self._on = False
             try:
-                self._exchange.control(Control.DISARM)
+                self.exchange.control(Control.DISARM)
             except (LinkError, FaultError):
                 return  # it has switched off already, or will within the heartbeat timeout
 
     def clear_faults(self) -> None:
         """Clear what is latched, so that arming is possible again."""
-        self._exchange.control(Control.CLEAR, faults_matter=False)
+        self.exchange.control(Control.CLEAR, faults_matter=False)
 
     def heartbeat(self) -> Status:
         """Tell the FPGA that the host lives; its status.
@@ -126,10 +125,20 @@ class Session:
         LinkError
             If its answers are damaged again and again.
         """
-        return self._exchange.insist(lambda _: self._exchange.short(frames.pack_nop(self._sent, 0, self._exchange.sequence)))
+        return self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
 
-    def play(self, slot: int, count: int, period_s: float, *, stop: bool) -> None:
-        """Have a resident waveform accepted for the next trigger.
+    def play(
+        self,
+        slot: int,
+        count: int,
+        period_s: float,
+        *,
+        stop: bool,
+        start: Start = Start.TRIGGER,
+        when_ticks: int = 0,
+        mask: int = ALL_CHANNELS,
+    ) -> None:
+        """Have a resident waveform accepted: for the next trigger, at once, or at a time.
 
         Parameters
         ----------
@@ -137,6 +146,8 @@ class Session:
             Emissions, `period_s` apart from start to start; 0 for ever.
         stop : bool
             End a running repetition first.
+        start, when_ticks, mask
+            As `frames.pack_play` has them.
 
         Raises
         ------
@@ -145,9 +156,43 @@ class Session:
         """
 
         def send(again: bool) -> Status:
-            return self._exchange.short(self._pack_commands(0, self._exchange.sequence, slot, None, count, period_s, stop or again))
+            sequence, end = self.exchange.sequence, 0
+            if stop or again:
+                end = frames.pack_control(self._sent, 0, sequence, Control.STOP)
+            end = frames.pack_play(
+                self._sent,
+                end,
+                sequence + (stop or again),
+                slot,
+                count=count,
+                period_ticks=round(period_s * self._board.link.clock_hz),
+                start=start,
+                when_ticks=when_ticks,
+                mask=mask,
+            )
+            return self.exchange.short(frames.pack_nop(self._sent, end, sequence + (stop or again) + 1))
 
-        self._exchange.insist(send)
+        self.exchange.insist(send)
+
+    def upload(self, slot: int, words: memoryview) -> None:
+        """Send drive words and make them the slot's waveform, without playing it.
+
+        Raises
+        ------
+        Refused
+            If the FPGA cannot take it.
+        """
+
+        def send(_: bool) -> Status:
+            sequence = self.exchange.sequence
+            end = frames.pack_upload(self._sent, 0, sequence, words)
+            end = frames.pack_store(self._sent, end, sequence + len(self._upload), slot, words.nbytes // 4, zlib.crc32(words))
+            fillers = self._check_frames + 1
+            for number in range(fillers):
+                end = frames.pack_nop(self._sent, end, sequence + len(self._upload) + 1 + number)
+            return self.exchange.message([*self._upload_lengths, *[FRAME_BYTES] * (1 + fillers)])
+
+        self.exchange.insist(send)
 
     def upload_and_play(self, slot: int, words: memoryview, count: int, period_s: float, *, stop: bool) -> None:
         """Send drive words, make them the slot's waveform and have it accepted for the next trigger.
@@ -163,91 +208,51 @@ class Session:
         """
 
         def send(again: bool) -> Status:
-            sequence = self._exchange.sequence
+            sequence = self.exchange.sequence
             end = frames.pack_upload(self._sent, 0, sequence, words)
             commands = end
             end = self._pack_commands(end, sequence + len(self._upload), slot, words, count, period_s, stop or again)
-            return self._exchange.message([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
+            return self.exchange.message([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
 
         try:
-            self._exchange.insist(send)
+            self.exchange.insist(send)
         except Refused:  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
-            self._exchange.stop()
+            self.exchange.stop()
             raise
 
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
         return self._link.trigger()
 
-    def _pack_commands(
-        self, end: int, sequence: int, slot: int, words: memoryview | None, count: int, period_s: float, stop: bool
-    ) -> int:
-        """STORE if something was loaded, STOP if asked, PLAY, NOP; returns the end."""
-        if words is not None:
-            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
-            sequence += 1
+    def _pack_commands(self, end: int, sequence: int, slot: int, words: memoryview, count: int, period_s: float, stop: bool) -> int:
+        """STORE, STOP if asked, PLAY, NOP; returns the end."""
+        end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
+        sequence += 1
         if stop:
             end = frames.pack_control(self._sent, end, sequence, Control.STOP)
             sequence += 1
-        if words is not None:  # the FPGA takes the CRC of what it stored meanwhile
-            for _ in range(self._check_frames - stop):
-                end = frames.pack_nop(self._sent, end, sequence)
-                sequence += 1
+        for _ in range(self._check_frames - stop):  # the FPGA takes the CRC of what it stored meanwhile
+            end = frames.pack_nop(self._sent, end, sequence)
+            sequence += 1
         period_ticks = round(period_s * self._board.link.clock_hz)
         end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
-
-    def _verify(self) -> None:
-        """Refuse any FPGA but the one this host was made for."""
-        self._exchange.short(frames.pack_nop(self._sent, 0, 0), faults_matter=False)
-        expected = {
-            Register.IDENTITY: IDENTITY_MAGIC,
-            Register.PROTOCOL: PROTOCOL_VERSION,
-            Register.BUILD_HASH: self._build_hash,
-            Register.CLOCK_HZ: self._board.link.clock_hz,
-        }
-        for register, value in expected.items():
-            found = self._exchange.read(register)
-            if found != value:
-                raise LinkError(
-                    f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
-                )
-        geometry = self._exchange.read(Register.GEOMETRY)
-        slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
-        if slots < self._board.link.slots or depth < self._board.waveform.samples or channels != CHANNELS:
-            raise LinkError(
-                f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
-                f"the board asks for {self._board.link.slots}, {self._board.waveform.samples} and {CHANNELS}"
-            )
 
     def _configure(self) -> None:
         """Disarm, clear, and set what the board says."""
         self.clear_faults()
         if State.HV_ENABLE in self.heartbeat().state:
             raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
-        for register, value in self._settings().items():
-            self._exchange.write(register, value)
-            if self._exchange.read(register) != value:
+        for register, value in configuration.settings(self._board, self.exchange.read(Register.EDGE_WINDOW_TICKS)).items():
+            try:
+                self.exchange.write(register, value)
+            except Refused as refusal:
+                raise LinkError(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
+            if self.exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 
-    def _settings(self) -> dict[Register, int]:
-        """Registers as the board says; what is beyond the FPGA's own limits it refuses."""
-        board, limits, clock_hz = self._board, self._board.limits, self._board.link.clock_hz
-        window_s = self._exchange.read(Register.EDGE_WINDOW_TICKS) / clock_hz
-        return {
-            Register.IDLE_WORD: board.idle_word,
-            Register.CHANNEL_MASK: board.channel_mask,
-            Register.BIT_PERIOD: board.bit_period,
-            Register.RAMP_SAMPLES: self._ramp_samples,
-            Register.HEARTBEAT_TICKS: round(limits.heartbeat_timeout_ms * 1e-3 * clock_hz),
-            Register.PULSE_TICKS: math.ceil(limits.min_pulse_us * 1e-6 * clock_hz),
-            Register.CHANNEL_EDGES: int(limits.max_channel_edge_rate_hz * window_s),
-            Register.TOTAL_EDGES: int(limits.max_total_edge_rate_hz * window_s),
-            Register.EMISSION_TICKS: round(limits.longest_emission_ms * 1e-3 * clock_hz),
-            Register.DUTY_SHARE: round(limits.max_duty * DUTY_FULL),
-            Register.DUTY_TICKS: round(limits.duty_budget_ms * 1e-3 * clock_hz),
-        }
-
     def _ramp_end_s(self) -> float:
-        samples = self._ramp_samples + 5  # the word that sounds, the idle word behind it, and the FPGA its own way
+        samples = (
+            configuration.ramp_samples(self._board) + 5
+        )  # the word that sounds, the idle word behind it, and the FPGA its own way
         return self.ready_s() + samples * self._board.waveform.bit_period_s

@@ -3,47 +3,92 @@
 Defined as the mean over the plate of the squared velocity spectrum, integrated from 0 to 16 kHz and
 over all time, in (m/s)^2 s: steps into the emission and back to the idle word included, decay after
 T included. In closed form per mode; the mean over the plate of a squared mode shape is 1/4.
+
+A spectrum of what lasts a time t is known from samples closer than 1 / t (sampling theorem, time and
+frequency exchanged), so a long ramp is sampled more finely than an emission, and what begins above an
+overdamped mode's frequency less finely than what holds its slow return.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import zoom_fft
 
 from controller.bank.packing import channel_bits
 from controller.board import Board
 from controller.offline.driver import DriverResponse
 from controller.offline.plate import PlateModes
-from controller.offline.step_response import channel_forces
+from controller.offline.step_response import StepResponse, channel_forces
+
+Floats = NDArray[np.float64]
 
 AUDIBLE_HZ = 16e3
 HIGHEST_HZ = 100e3
-STEP_HZ = 80.0  # a mode's resonance is 1 / (pi tau) = 318 Hz wide at half power
+REST_TAUS = 10.0  # of ringing after the last step: e^-10 of the slowest amplitude is left
+BLOCK = 64  # frequencies at once
 
 
 def surface_energy(
-    board: Board, words: NDArray[np.uint32], idle_word: int, low_hz: float = 0.0, high_hz: float = AUDIBLE_HZ
+    board: Board,
+    words: NDArray[np.uint32],
+    idle_word: int,
+    low_hz: float = 0.0,
+    high_hz: float = AUDIBLE_HZ,
+    *,
+    before_word: int | None = None,
 ) -> float:
     """Mean over the plate of the squared velocity between two frequencies, over all time, in (m/s)^2 s.
 
     Parameters
     ----------
     words : (sample,) uint32 array
-        One emission, from and back to `idle_word`, the plate at rest before.
+        What is played, the plate at rest before; none is a step from `before_word` to `idle_word`.
+    idle_word : int
+        Held afterwards, and before unless `before_word` says otherwise.
+    """
+    _, density, step_hz = surface_spectrum(board, words, idle_word, low_hz, high_hz, before_word=before_word)
+    return float(density.sum()) * step_hz
+
+
+def surface_spectrum(
+    board: Board,
+    words: NDArray[np.uint32],
+    idle_word: int,
+    low_hz: float = 0.0,
+    high_hz: float = AUDIBLE_HZ,
+    *,
+    before_word: int | None = None,
+) -> tuple[Floats, Floats, float]:
+    """Density of `surface_energy` over frequency.
+
+    Returns
+    -------
+    frequency : (n,) array
+        In Hz, evenly spaced, half a step from both limits.
+    density : (n,) array
+        In (m/s)^2 s / Hz, both signs of frequency together.
+    step_hz : float
+        Between the frequencies.
     """
     modes = PlateModes.of(board.plate, HIGHEST_HZ)
     forces = channel_forces(board, modes)
-    levels = channel_bits(np.concatenate([[idle_word], words, [idle_word]]).astype("<u4")).astype(np.float64)
+    first = idle_word if before_word is None else before_word
+    levels = channel_bits(np.concatenate([[first], words, [idle_word]]).astype("<u4")).astype(np.float64)
     steps = np.diff(levels, axis=0) * board.driver.supply_v
-    times = np.arange(len(steps)) * board.waveform.bit_period_s
     driver = DriverResponse.of(board.driver)
-    energy = 0.0
-    for first_hz in np.arange(low_hz + STEP_HZ / 2, high_hz, 64 * STEP_HZ):
-        frequency = np.arange(first_hz, min(first_hz + 63.5 * STEP_HZ, high_hz), STEP_HZ)
-        s = 2j * np.pi * frequency
-        slope = np.exp(-np.outer(s, times)) @ steps  # spectrum of dV/dt: (frequency, channel)
-        slope *= driver.transfer(s)[:, None]
+    poles = StepResponse.of(modes, driver).poles
+    slowest_s = 1 / float(np.min(-poles.real[abs(poles) >= 2 * np.pi * low_hz], initial=1 / board.plate.decay_time_s))
+    count = int(np.ceil((high_hz - low_hz) * (len(words) * board.waveform.bit_period_s + REST_TAUS * slowest_s)))
+    step_hz = (high_hz - low_hz) / count
+    frequency: Floats = low_hz + step_hz * (np.arange(count, dtype=np.float64) + 0.5)
+    ends_hz = [low_hz + step_hz / 2, high_hz + step_hz / 2]
+    slopes = zoom_fft(steps, ends_hz, count, fs=board.waveform.bit_clock_hz, axis=0)  # of dV/dt: (frequency, channel)
+    density = np.empty(count)
+    for start in range(0, count, BLOCK):
+        s = 2j * np.pi * frequency[start : start + BLOCK]
+        slope = slopes[start : start + BLOCK] * driver.transfer(s)[:, None]
         stiffness = modes.mass_kg * (modes.angular_frequency[:, None] ** 2 + 2 * modes.decay_rate * s + s**2)
         velocity = (forces @ slope.T) / stiffness
-        energy += float(np.sum(velocity.real**2 + velocity.imag**2)) * 0.25 * 2 * STEP_HZ  # both signs of frequency
-    return energy
+        density[start : start + BLOCK] = np.sum(velocity.real**2 + velocity.imag**2, axis=0) * 0.25 * 2
+    return frequency, density, step_hz

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
 from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit
@@ -75,6 +76,23 @@ class RtlGateware:
         self._library.panel_exchange(self._panel, select_tick, release_tick, sent.size, sent.ctypes.data, received.ctypes.data)
         miso[:] = received.data
 
+    def wave(self, levels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """Drive the link's pins tick by tick from now on: what a damaged line does, beyond any frame.
+
+        Parameters
+        ----------
+        levels : (tick,) uint8 array
+            Bit 0: chip select (high is idle), bit 1: SCK, bit 2: MOSI.
+
+        Returns
+        -------
+        (tick,) uint8 array
+            MISO behind each tick.
+        """
+        miso = np.empty(levels.size, np.uint8)
+        self._library.panel_wave(self._panel, levels.size, levels.ctypes.data, miso.ctypes.data)
+        return miso
+
     def take_capture(self) -> Capture:
         """Everything that happened on the output pins since the last capture, up to now."""
         changes = self._library.panel_changes(self._panel)
@@ -105,6 +123,7 @@ def _load(path: Path) -> Any:
         ("panel_set", None, [panel, ctypes.c_uint32, tick, ctypes.c_uint32]),
         ("panel_run", None, [panel, tick]),
         ("panel_exchange", None, [panel, tick, tick, number, address, address]),
+        ("panel_wave", None, [panel, number, address, address]),
         ("panel_changes", number, [panel]),
         ("panel_foci", number, [panel]),
         ("panel_take", None, [panel, address, address, address, address]),

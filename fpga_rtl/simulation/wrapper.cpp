@@ -76,6 +76,17 @@ public:
         core_.spi_cs_n_i = 1;
     }
 
+    // The link's pins tick by tick, for everything that is no proper frame: bit 0 chip select, 1 SCK, 2 MOSI; MISO behind each tick
+    void wave(size_t ticks, const uint8_t *levels, uint8_t *miso) {
+        for (size_t i = 0; i < ticks; ++i) {
+            core_.spi_cs_n_i = levels[i] & 1;
+            core_.spi_sck_i = levels[i] >> 1 & 1;
+            core_.spi_mosi_i = levels[i] >> 2 & 1;
+            run(now_ + 1);
+            miso[i] = core_.spi_miso_o;
+        }
+    }
+
     std::vector<uint64_t> ticks, focus_ticks;  // of changes on channel_o or hv_enable_o; of rises of focus_o
     std::vector<uint32_t> words;
     std::vector<uint8_t> levels;
@@ -141,6 +152,8 @@ void panel_run(Panel *panel, uint64_t tick) { panel->run(tick); }
 void panel_exchange(Panel *panel, uint64_t select, uint64_t release, size_t size, const uint8_t *mosi, uint8_t *miso) {
     panel->exchange(select, release, size, mosi, miso);
 }
+
+void panel_wave(Panel *panel, size_t ticks, const uint8_t *levels, uint8_t *miso) { panel->wave(ticks, levels, miso); }
 
 size_t panel_changes(const Panel *panel) { return panel->ticks.size(); }
 

@@ -25,19 +25,19 @@ from controller.fpga.gateware import (
 )
 from controller.fpga.registers import Control, Register
 
-# A slow clock, so that words of 4 ticks are within the fastest bit clock, and short windows
-CLOCK_HZ = 8_000_000
+# A slow clock, so that words of 6 ticks are within the fastest bit clock, yet a waveform can play while it arrives
+CLOCK_HZ = 12_000_000
 SLOTS = 3
 BUILD_HASH = build_hash(data_folder("fpga_rtl"))
 PARAMETERS = replace(
     Parameters.of(CLOCK_HZ, SLOTS, BUILD_HASH),
     edge_window_ticks=5000,
     channel_edges_max=100_000,
-    emission_ticks_max=9000,
-    duty_ticks_max=100_000,
+    emission_ticks_max=120_000,
+    duty_ticks_max=400_000,
 )
 
-BIT_TICKS = 4
+BIT_TICKS = 6
 RAMP_SAMPLES = 9
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
 IDLE_WORD = 0x96969696

@@ -10,18 +10,19 @@ from controller.fpga.gateware import Permit
 from controller.fpga.registers import PLAY_LANDING, READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, Register, Start
 
 LENGTHS = (1, 2, 3, 5, 8, 30)
-BIT_PERIODS = (BIT_TICKS << 16, BIT_TICKS << 16, 5 << 16, 11 << 16, (4 << 16) + 21845, (7 << 16) + 65535)
+BIT_PERIODS = (BIT_TICKS << 16, BIT_TICKS << 16, 7 << 16, 11 << 16, (6 << 16) + 21845, (7 << 16) + 65535)
+SLOW = (110 << 16, 120 << 16, (104 << 16) + 7)  # a chunk arrives faster than that plays
 WEIGHTS = {"play": 34, "load": 8, "store": 10, "swap": 6, "live": 4, "trigger": 20, "wait": 10, "stop": 5, "disarm": 3, "arm": 4}
 WEIGHTS |= {"permit": 2, "clear": 3, "read": 8, "write": 4, "limits": 1, "damaged": 4, "burst": 4, "silence": 1, "echo": 1}
 WEIGHTS |= {"command": 3, "glitch": 2, "period": 2}
 CONTROLS = {"stop": Control.STOP, "disarm": Control.DISARM, "clear": Control.CLEAR, "command": Control.TRIGGER}
 LIMITS = {
-    Register.PULSE_TICKS: (4, 5, 7),
+    Register.PULSE_TICKS: (4, 6, 7),
     Register.CHANNEL_EDGES: (20, 100, 100_000),
     Register.TOTAL_EDGES: (200, 3000, 4_000_000),
-    Register.EMISSION_TICKS: (19, 130, 9000),
+    Register.EMISSION_TICKS: (29, 190, 120_000, 120_000),
     Register.DUTY_SHARE: (0, 20_000, 65_536),
-    Register.DUTY_TICKS: (0, 150, 100_000),
+    Register.DUTY_TICKS: (0, 150, 400_000),
     Register.RAMP_SAMPLES: (1, 9, 40),
     Register.HEARTBEAT_TICKS: (6 * FRAME_TICKS, 60 * FRAME_TICKS, 60 * FRAME_TICKS),
     Register.CHANNEL_MASK: (0xFFFFFFFF, 0xFF00FF0F),
@@ -120,7 +121,7 @@ def act(run, rng, action):
         register, value = rng.choice([0, 8, 9, 11, 13, 14, 50]), rng.choice([0, 1, 3, 4, 6, 0x10000, IDLE_WORD])
         run.send(frames.pack_write, register, value)
     elif action == "period":
-        period = rng.choice([*BIT_PERIODS, (3 << 16) + 65535, (80 << 16) + 1])
+        period = rng.choice([*BIT_PERIODS, (5 << 16) + 65535, (120 << 16) + 1])
         run.send(frames.pack_write, Register.BIT_PERIOD, period)
     elif action == "limits":
         run.control(Control.DISARM)
@@ -156,8 +157,9 @@ def play_live(run, rng):
     chunks = rng.randrange(1, 4)
     words = random_words(rng, 125 * chunks)
     loads = [memoryview(words[125 * chunk : 125 * (chunk + 1)].tobytes()) for chunk in range(chunks)]
-    if rng.random() < 0.2:
-        run.send(frames.pack_write, Register.BIT_PERIOD, rng.choice([60 << 16, 80 << 16]))
+    run.wait(600)
+    if rng.random() < 0.8:
+        run.send(frames.pack_write, Register.BIT_PERIOD, rng.choice(SLOW))
     run.slack_ticks = 0
     run.send(frames.pack_load, 0, loads[0])
     start = rng.choice([Start.TRIGGER, Start.NOW])
@@ -172,8 +174,9 @@ def play_live(run, rng):
     if rng.random() < 0.6:
         run.send(frames.pack_store, 0, 125 * chunks, 0)
     if rng.random() < 0.6:
-        run.wait(125 * 80 * chunks)
+        run.wait(125 * 120 * chunks)
         run.store(1, words)
+    run.send(frames.pack_write, Register.BIT_PERIOD, run.bit_period)
 
 
 def read(run, rng, slot):
@@ -186,8 +189,10 @@ def read(run, rng, slot):
 def damaged(run, rng):
     """A frame with a bit turned, cut off, too long, or of an unknown type."""
     frame = bytearray(run.packed(frames.pack_load, 0, memoryview(random_words(rng, 8).tobytes())))
-    kind = rng.randrange(4)
-    if kind == 0:
+    kind = rng.randrange(5)
+    if kind == 4:
+        frame[rng.randrange(2)] ^= 1 << rng.randrange(8)
+    elif kind == 0:
         frame[rng.randrange(len(frame))] ^= 1 << rng.randrange(8)
     elif kind == 1:
         frame = frame[: rng.randrange(len(frame))]

@@ -1,83 +1,54 @@
-"""Timing by hand: what is done at which tick, and what every back-end then shows at which tick.
+"""Timing by hand: every table of fpga_rtl/timing, performed on every back-end; and what no table can say."""
 
-In the tables t is the tick of the first input named; `channels` is channel_o, in hexadecimal.
-"""
+import dataclasses
 
 import pytest
-from pin_script import BIT_TICKS, FRAME_TICKS, IDLE_WORD, JUDGED_TICKS, Script, open_gateware
+from pin_script import BIT_TICKS, FRAME_TICKS, JUDGED_TICKS, Script, open_gateware
+from timing_case import expected, script_of, seen
 
+from controller.board import data_folder
 from controller.fpga import frames
-from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control, Register
+from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control
+from controller.offline.timing_diagram import picture_digest
+from controller.offline.timing_table import Change, load_cases
 
+FOLDER = data_folder("fpga_rtl") / "timing"
+CASES = {case.name: case for case in load_cases(FOLDER)}
 WORDS = (0x11, 0x22, 0x33)
-IDLE = f"{IDLE_WORD:X}"
 
-TABLES = {
-    "a trigger plays the words, four ticks each, and the focus is at their end": (
-        "t   trigger",
-        f"""
-        t+6   channels 11
-        t+10  channels 22
-        t+14  channels 33
-        t+18  channels {IDLE}
-        t+18  focus
-        """,
-    ),
-    "two emissions, a period of 20 ticks apart": (
-        "t   trigger twice",
-        f"""
-        t+6   channels 11
-        t+10  channels 22
-        t+14  channels 33
-        t+18  channels {IDLE}
-        t+18  focus
-        t+26  channels 11
-        t+30  channels 22
-        t+34  channels 33
-        t+38  channels {IDLE}
-        t+38  focus
-        """,
-    ),
-    "the permit lost in the middle of a word: all is low three ticks later, and no focus": (
-        "t   trigger; t+9 permit lost",
-        """
-        t+6   channels 11
-        t+10  channels 22
-        t+12  channels 0
-        t+12  hv off
-        """,
-    ),
-    "the permit lost with the last word's last tick on the pins: the focus is lost as well": (
-        "t   trigger; t+14 permit lost",
-        """
-        t+6   channels 11
-        t+10  channels 22
-        t+14  channels 33
-        t+17  channels 0
-        t+17  hv off
-        """,
-    ),
-    "the permit lost a tick later: the emission has ended and counts": (
-        "t   trigger; t+15 permit lost",
-        """
-        t+6   channels 11
-        t+10  channels 22
-        t+14  channels 33
-        t+18  channels 0
-        t+18  hv off
-        """,
-    ),
-    "a second trigger while the first emission sounds does nothing": (
-        "t   trigger; t+5 trigger",
-        f"""
-        t+6   channels 11
-        t+10  channels 22
-        t+14  channels 33
-        t+18  channels {IDLE}
-        t+18  focus
-        """,
-    ),
-}
+
+@pytest.mark.parametrize("name", CASES)
+def test_pins_follow_the_table(back_end, name):
+    run, origin = script_of(CASES[name])
+    _, capture = run.perform(back_end)
+    assert seen(capture, origin) == expected(CASES[name])
+
+
+def later(changes, index):
+    """The same changes, one of them a tick later."""
+    change = changes[index]
+    return (*changes[:index], Change(change.tick + 1, change.signal, change.value), *changes[index + 1 :])
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_one_tick_of_any_output_or_of_some_input_is_seen(back_end, name):
+    case = CASES[name]
+    run, origin = script_of(case)
+    shown = seen(run.perform(back_end)[1], origin)
+    for index in range(len(case.outputs)):
+        assert shown != expected(dataclasses.replace(case, outputs=later(case.outputs, index)))
+    moved = (dataclasses.replace(case, inputs=later(case.inputs, index)) for index in range(len(case.inputs)))
+    assert any(seen(script_of(other, origin)[0].perform(back_end)[1], origin) != expected(case) for other in moved)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_picture_is_that_of_the_table(name):
+    """`.venv/bin/python -m controller.offline.timing_diagram` draws them."""
+    assert picture_digest(FOLDER / f"{name}.svg") == CASES[name].digest
+
+
+def test_there_is_a_picture_of_every_table_and_no_other():
+    assert {path.stem for path in FOLDER.glob("*.svg")} == set(CASES)
 
 
 def armed(count=1, period_ticks=0):
@@ -90,73 +61,12 @@ def armed(count=1, period_ticks=0):
     return run
 
 
-def seen(capture, since):
-    """The table's lines for what a capture shows from a tick on."""
-    before = capture.ticks < since
-    word, level = (int(values[before][-1]) if before.any() else 0 for values in (capture.words, capture.hv))
-    lines = []
-    for tick, new_word, new_level in zip(capture.ticks[~before], capture.words[~before], capture.hv[~before], strict=True):
-        if new_word != word:
-            lines.append((int(tick) - since, f"channels {new_word:X}"))
-        if new_level != level:
-            lines.append((int(tick) - since, f"hv {'on' if new_level else 'off'}"))
-        word, level = new_word, new_level
-    lines += [(int(tick) - since, "focus") for tick in capture.focus_ticks if tick >= since]
-    return [f"t+{tick:<3} {what}" for tick, what in sorted(lines)]
-
-
-@pytest.mark.parametrize("name", TABLES)
-def test_pins_follow_the_table(back_end, name):
-    inputs, table = TABLES[name]
-    run = armed(*((2, 20) if "twice" in inputs else ()))
-    start = run.trigger()
-    for step in inputs.split("; ")[1:]:
-        tick = start + int(step.split()[0].removeprefix("t+"))
-        if "permit" in step:
-            run.permit(False, tick)
-        else:
-            run.trigger(tick)
-    run.wait(100)
-    _, capture = run.perform(back_end)
-    assert seen(capture, start) == [
-        f"{tick:<5} {what}" for tick, what in (line.split(None, 1) for line in table.split("\n") if line.strip())
-    ]
-
-
 def test_latency_is_what_the_host_believes(back_end):
     run = armed()
     start = run.trigger()
     run.wait(50)
     _, capture = run.perform(back_end)
-    sampled = start + 1  # tick `start` ends with the edge that samples the pin high
-    assert seen(capture, start)[0] == f"t+{sampled + TRIGGER_LATENCY_TICKS - start:<3} channels 11"
-
-
-def test_a_play_is_there_for_a_trigger_whose_edge_is_seen_after_its_frame_was_carried_out(back_end):
-    """Carried out at t + 4; the trigger is seen 2 ticks after its rise, so a rise at t + 3 finds it and at t + 2 does not."""
-    for after, plays in ((2, False), (3, True)):
-        run = Script()
-        run.settings()
-        run.arm()
-        run.upload(0, WORDS)
-        play = run.packed(frames.pack_play, 0)
-        release = run.tick + FRAME_TICKS
-        run.trigger(release + after)
-        assert run.exchange(play) == release
-        run.wait(50)
-        _, capture = run.perform(back_end)
-        assert bool(capture.focus_ticks.size) is plays
-
-
-def test_the_host_is_silent_one_heartbeat_time_after_its_last_frame(back_end):
-    run = Script()
-    run.settings()
-    run.send(frames.pack_write, Register.HEARTBEAT_TICKS, 2000)
-    run.arm()
-    release = run.status()
-    run.wait(3000)
-    _, capture = run.perform(back_end)
-    assert (capture.ticks[-1], capture.words[-1], capture.hv[-1]) == (release + JUDGED_TICKS + 1 + 2000 + 1, 0, 0)
+    assert seen(capture, start)[0] == (1 + TRIGGER_LATENCY_TICKS, "channel", 0x11)  # tick 0 ends with the edge that samples the pin
 
 
 def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):

@@ -5,7 +5,9 @@ import pytest
 from controller.board import FEWEST_BIT_TICKS, data_folder
 from controller.fpga import registers
 from controller.fpga.registers import REGISTERS, Control, Fault, FrameType, Register, Result, Start, State
+from controller.offline.register_table import ACCESS, insert, table
 
+README = data_folder("fpga_rtl") / "README.md"
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
 
 
@@ -38,10 +40,23 @@ def test_every_code_has_its_own_plain_sentence():
     assert (~Fault(0)).sentence == " ".join(fault.sentence for fault in Fault)
 
 
+def test_every_register_is_described_once():
+    assert list(REGISTERS) == list(Register)
+    assert sorted(Register) == list(range(len(Register)))
+
+
+def test_the_readme_has_the_table_of_the_code():
+    """`.venv/bin/python -m controller.offline.register_table` writes it."""
+    readme = README.read_text()
+    assert insert(readme, table(REGISTERS)) == readme
+    text = REGISTERS[Register.IDENTITY].text
+    assert insert(readme.replace(text, text[:-1]), table(REGISTERS)) == readme
+
+
 def test_the_readme_describes_every_register_as_the_code_does():
-    readme = (data_folder("fpga_rtl") / "README.md").read_text()
-    for register, description in REGISTERS.items():
-        assert f"| {int(register)} | {register.name} | {description.access} | {description.text} |" in readme
+    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \| ([A-Za-z ]+) \|(?:.*\|)? ([^|]+) \|$", README.read_text(), re.MULTILINE)
+    described = [(str(int(register)), register.name, entry.access, entry.text) for register, entry in REGISTERS.items()]
+    assert [row for row in rows if row[2] in ACCESS] == described
 
 
 def test_what_can_be_read_besides_registers_does_not_meet_them_or_each_other():

@@ -6,10 +6,12 @@ from scipy.linalg import expm
 from controller.bank.packing import channel_bits
 from controller.board import find_board, load_board
 from controller.fpga.capture import Capture
+from controller.fpga.model_pins import ramp_bits
 from controller.offline.audible import surface_energy
 from controller.offline.driver import DriverResponse
 from controller.offline.field import AROUND_S, LINE_M, half_width
 from controller.offline.focusing import focus
+from controller.offline.idle_figures import ramp_words
 from controller.offline.impulse_response import ResponseModel
 from controller.offline.plate import PlateModes
 from controller.offline.plate_twin import PlateTwin, capture_of_words
@@ -199,18 +201,22 @@ def test_half_width_of_a_bell_is_its_own(width_mm):
     assert half_width(bell) != pytest.approx(width_mm * 1.01e-3, rel=1e-3)
 
 
-def test_audible_energy_adds_up_to_the_energy_over_time():
-    # a plate with few modes and an emission of five words, so that time can be sampled finely
+@pytest.mark.parametrize(
+    ("words", "before"),
+    [(random_words(8, 5), IDLE), (ramp_words(BOARD, ramp_bits(40, up=True)), 0), (random_words(8, 5)[:0], 0)],
+    ids=["emission", "ramp", "step"],
+)
+def test_audible_energy_adds_up_to_the_energy_over_time(words, before):
+    # a plate with few modes and few words, so that time can be sampled finely; 0.3 % is 0.013 dB
     plate = msgspec.structs.replace(BOARD.plate, thickness_mm=40.0)
     board = msgspec.structs.replace(BOARD, plate=plate)
     modes = PlateModes.of(plate, 100e3)
     assert 10 < modes.count < 40
     step = StepResponse.of(modes, DriverResponse.of(board.driver))
     forces = PlateTwin(board).forces
-    words = random_words(8, 5)
     step_s = 0.25e-6
     times = np.arange(40_000) * step_s
-    levels = channel_bits(np.concatenate([[IDLE], words, [IDLE]]).astype("<u4")).astype(float)
+    levels = channel_bits(np.concatenate([[before], words, [IDLE]]).astype("<u4")).astype(float)
     velocity = np.zeros((modes.count, len(times)))
     for edge, volts in enumerate(np.diff(levels, axis=0) * board.driver.supply_v):
         since = times - edge * board.waveform.bit_period_s
@@ -218,7 +224,7 @@ def test_audible_energy_adds_up_to_the_energy_over_time():
         settle = ((step.driver_residues * step.driver_poles) @ np.exp(np.outer(step.driver_poles, np.maximum(since, 0)))).real
         velocity += (forces @ volts)[:, None] * (ring + settle) * (since >= 0)
     over_time = np.sum(velocity**2) * step_s / 4
-    assert surface_energy(board, words, IDLE, 0.0, 1e6) == pytest.approx(over_time, rel=3e-3)
-    low = surface_energy(board, words, IDLE)
+    assert surface_energy(board, words, IDLE, 0.0, 1e6, before_word=before) == pytest.approx(over_time, rel=3e-3)
+    low = surface_energy(board, words, IDLE, before_word=before)
     assert 0 < low < over_time
-    assert low + surface_energy(board, words, IDLE, 16e3, 1e6) == pytest.approx(over_time, rel=3e-3)
+    assert low + surface_energy(board, words, IDLE, 16e3, 1e6, before_word=before) == pytest.approx(over_time, rel=3e-3)

@@ -1,7 +1,7 @@
 """What every bench of a single module begins with."""
 
 from cocotb.clock import Clock
-from cocotb.triggers import ClockCycles, FallingEdge
+from cocotb.triggers import ClockCycles, FallingEdge, Timer
 
 
 async def after_reset(dut, **inputs):
@@ -28,3 +28,13 @@ async def pulse(dut, signal, **inputs):
     signal.value = 1
     await FallingEdge(dut.clk_i)
     signal.value = 0
+
+
+async def settled():
+    """A moment later, when outputs have followed the inputs set at the falling edge."""
+    await Timer(1, "ns")
+
+
+async def reset(dut):
+    """A reset in the middle, one clock long."""
+    await pulse(dut, dut.rst_i)

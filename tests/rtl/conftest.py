@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # where the simulator's Python finds the benches
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent)]  # where the simulator's Python looks
 
 
 # Verilator's own object files are most of a build and the same for every module: compile them once
@@ -26,6 +26,9 @@ verilated*)
 *) exec "$@" ;;
 esac
 """
+
+
+COVERAGE: pytest.StashKey[dict] = pytest.StashKey()  # points that happened, bench by bench
 
 
 def verilator_root() -> Path | None:
@@ -50,8 +53,27 @@ def simulator(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VERILATOR_ROOT", str(root))
         patch.setenv("OBJCACHE", str(keeper))
+        patch.setenv("OPT_FAST", "-O2")  # with coverage, worth its compile time
         patch.setenv("PATH", os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)]))
         yield "verilator"
+
+
+@pytest.fixture(scope="session")
+def verilog_coverage(request):
+    """{bench: what of the Verilog happened in it}; shown in the summary of the tests."""
+    return request.config.stash.setdefault(COVERAGE, {})
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    from verilog_coverage import MODULES, line_counts, load_waivers, readable, table, together, uncovered, waive
+
+    runs = config.stash.get(COVERAGE, {})
+    if runs:
+        hits = together(runs.values())
+        counts, _ = waive(line_counts(hits), load_waivers())
+        terminalreporter.section(f"coverage of the Verilog by {len(runs)} benches")
+        for line in (*readable(table(hits, counts, MODULES)), *uncovered(counts)[:20]):
+            terminalreporter.write_line(line)
 
 
 def pytest_report_header() -> str:

@@ -1,0 +1,212 @@
+"""A link over a UART: the frames of SPI, each COBS-encoded and ended by a zero, for a laptop and a bare board.
+
+The answer to a frame comes back while the frame is on the wire, so a message goes out in one write and its
+answers are read in order. There is no trigger pin: the trigger is a frame of its own.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import time
+import zlib
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import serial
+from cobs import cobs
+
+from controller.errors import LinkError
+from controller.fpga import frames
+from controller.fpga.frames import CRC, FRAME_BYTES, ReadableBuffer
+from controller.fpga.registers import Control, FrameType, Register
+
+LATENCY_S: Final = 0.05  # of host and USB bridge (a latency timer of 16 ms is usual), there and back
+BITS_PER_BYTE: Final = 10  # 8N1
+ANSWER_BYTES: Final = FRAME_BYTES + 2  # on the wire: one COBS code, as no status is 254 bytes long, and the zero
+BATCH_FRAMES: Final = 32  # whose answers, 1.2 kB, any terminal's input buffer (4 kB) holds while the frames are written
+STRAY_BYTES_MAX: Final = 1 << 16  # more than all buffers on the way back
+SEQUENCE_BYTE: Final = 3  # of a frame and of a status
+
+# Zeros in front of each frame. They end whatever noise has begun, and they leave the FPGA time: it gives no answer to a
+# frame that begins before the answer to the last one has gone, and the shortest frame is as long on the wire as its
+# answer. With these it is 40 bytes against 38, so that a host up to 5 % faster than the FPGA loses no answer.
+GUARD: Final = b"\0\0"
+
+
+def on_wire(frame: ReadableBuffer) -> bytes:
+    """Encode a frame as it goes over the wire."""
+    encoded: bytes = cobs.encode(bytes(frame))
+    return GUARD + encoded + b"\0"
+
+
+class SerialLink:
+    """`Link` to a panel at a serial port.
+
+    Parameters
+    ----------
+    device : str
+        Such as /dev/ttyUSB0, or better a name below /dev/serial/by-id.
+    baud : int
+        Rate that the gateware was built for.
+    now_s : callable
+        The loop's clock.
+    latency_s : float
+        How long an answer may take beyond its time on the wire.
+
+    Raises
+    ------
+    LinkError
+        If the port cannot be opened.
+    """
+
+    def __init__(self, device: str, baud: int, now_s: Callable[[], float], latency_s: float = LATENCY_S) -> None:
+        self.bytes_sent = 0
+        self.wire_ns = 0
+        self.away_ns = 0
+        self._device = device
+        self._baud = baud
+        self._now_s = now_s
+        self._latency_s = latency_s
+        self._frame = bytearray(FRAME_BYTES)
+        self._sequence: int | None = None  # of the last frame sent, which the next answer is about
+        self._message = 0  # number of the last frame of a message
+        self._owed = 0  # answers to triggers, not read yet
+        self._unsure = True  # what is in the input may belong to other frames
+        self._free_s = now_s()
+        longest_s = self._wire_s(BATCH_FRAMES * (frames.LOAD_FRAME_BYTES + 8))
+        try:
+            self._port = serial.Serial(device, baud, timeout=latency_s, write_timeout=longest_s + 1, exclusive=True)
+        except (OSError, ValueError) as error:
+            raise LinkError(_why_not_open(device, baud, error)) from error
+        with contextlib.suppress(OSError, ValueError, NotImplementedError, AttributeError):
+            self._port.set_low_latency_mode(True)  # 1 ms instead of 16 with many bridges; others do not know it
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames and store the status that answers each at the frame's place, with zeros behind it.
+
+        Raises
+        ------
+        LinkError
+            If an answer is missing or damaged, or the port fails.
+        """
+        started_ns = time.perf_counter_ns()
+        try:
+            if self._unsure or self._port.in_waiting > self._owed * ANSWER_BYTES:
+                self._resynchronise()
+            self._unsure = True
+            doubtful = False
+            start = 0
+            for first in range(0, len(lengths), BATCH_FRAMES):
+                batch = lengths[first : first + BATCH_FRAMES]
+                answers = self._batch(sent[start:], batch)
+                for length, answer in zip(batch, answers, strict=True):
+                    shown = min(length, FRAME_BYTES)
+                    received[start : start + length] = answer[:shown] + bytes(length - shown)
+                    doubtful |= self._sequence not in (None, answer[SEQUENCE_BYTE])
+                    self._sequence = sent[start + SEQUENCE_BYTE] if length > SEQUENCE_BYTE else None
+                    start += length
+            self._message = self._sequence or 0
+            self._unsure = doubtful  # a frame was refused, or the answers have slipped: the caller sees that something is wrong
+        except OSError as error:  # serial.SerialException is one
+            raise LinkError(f"{self._device} failed ({error}): is it still plugged in, and does nothing else use it?") from error
+        finally:
+            self.away_ns += time.perf_counter_ns() - started_ns
+
+    def trigger(self) -> float:
+        """Send the command that does what the trigger pin would; when it has arrived.
+
+        The answer is read with the next message. A USB bridge may hold it back for another millisecond.
+        """
+        # Half the circle away from the next message, so that this frame never passes for one of its own
+        sequence = (self._message + 0x80) & 0xFF
+        frames.pack_short(self._frame, 0, FrameType.WRITE, sequence, Register.CONTROL, Control.TRIGGER)
+        try:
+            self._write(on_wire(self._frame), FRAME_BYTES)
+        except OSError as error:
+            self._unsure = True
+            raise LinkError(f"{self._device} failed ({error}): is it still plugged in?") from error
+        self._owed += 1
+        self._sequence = sequence
+        return self._free_s
+
+    def free_s(self) -> float:
+        """When what was sent so far has gone."""
+        return self._free_s
+
+    def close(self) -> None:
+        """Let go of the port."""
+        with contextlib.suppress(OSError):
+            self._port.close()
+
+    def _batch(self, sent: memoryview, lengths: Sequence[int]) -> list[bytes]:
+        """Send some frames; their answers."""
+        wire = bytearray()
+        start = 0
+        for length in lengths:
+            wire += on_wire(sent[start : start + length])
+            start += length
+        owed, self._owed = self._owed, 0
+        count = owed + len(lengths)
+        deadline_s = time.monotonic() + self._latency_s + self._wire_s(len(wire) + count * ANSWER_BYTES)
+        self._write(wire, start)
+        data = b""
+        while len(data) < count * ANSWER_BYTES and time.monotonic() < deadline_s:
+            data += self._port.read(count * ANSWER_BYTES - len(data))
+        lines = data.split(b"\0")
+        if len(lines) != count + 1 or lines[-1]:
+            raise LinkError(self._what_is_missing(data, len(lines) - 1, count))
+        return [self._decoded(line) for line in lines[owed:-1]]
+
+    def _decoded(self, line: bytes) -> bytes:
+        """One status out of its line, if it is whole and its CRC right."""
+        try:
+            answer: bytes = cobs.decode(line)
+        except cobs.DecodeError:
+            answer = b""
+        body = FRAME_BYTES - CRC.size
+        if len(answer) != FRAME_BYTES or zlib.crc32(answer[:body]) != CRC.unpack_from(answer, body)[0]:
+            raise LinkError(f"{self._device}: an answer was damaged on its way; {self._advice}")
+        return answer
+
+    @property
+    def _advice(self) -> str:
+        return f"check the cable, or build the gateware for a lower rate than {self._baud} baud"
+
+    def _what_is_missing(self, data: bytes, came: int, wanted: int) -> str:
+        if not data:
+            return (
+                f"{self._device} does not answer: is it the panel's port, and is gateware loaded that listens there at"
+                f" {self._baud} baud?"
+            )
+        return f"{self._device}: {came} of {wanted} answers came back whole; {self._advice}"
+
+    def _resynchronise(self) -> None:
+        """End what the FPGA may take for the beginning of a frame, and forget its answers."""
+        self._port.write(GUARD)
+        self._owed = 0
+        strays = 0
+        while stray := self._port.read(STRAY_BYTES_MAX):  # returns empty when nothing came for latency_s
+            strays += len(stray)
+            if strays > STRAY_BYTES_MAX:
+                raise LinkError(f"{self._device} sends without being asked: is it the panel's port, at {self._baud} baud?")
+
+    def _write(self, wire: bytes | bytearray, frame_bytes: int) -> None:
+        self._free_s = max(self._now_s(), self._free_s) + self._wire_s(len(wire))
+        self._port.write(wire)
+        self.bytes_sent += frame_bytes
+        self.wire_ns += round(self._wire_s(len(wire)) * 1e9)
+
+    def _wire_s(self, size_bytes: int) -> float:
+        return size_bytes * BITS_PER_BYTE / self._baud
+
+
+def _why_not_open(device: str, baud: int, error: Exception) -> str:
+    number = getattr(error, "errno", None)
+    if number in (errno.ENOENT, errno.ENXIO, errno.ENODEV, errno.EIO):
+        return f"there is no serial port {device}: is the board plugged in and powered? Its name is below /dev/serial/by-id"
+    if number in (errno.EACCES, errno.EPERM):
+        return f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: dialout)"
+    if number in (errno.EBUSY, errno.EAGAIN):
+        return f"{device} is in use by another program: end it first"
+    return f"{device} could not be opened at {baud} baud: {error}"

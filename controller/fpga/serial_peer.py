@@ -1,0 +1,159 @@
+"""A simulated panel on a pseudo-terminal: the gateware model behind a UART, for trying out a serial link without a board.
+
+`python -m controller.fpga.serial_peer [board]` names its device and serves until it is interrupted.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import sys
+import threading
+import time
+import tty
+from collections.abc import Callable
+from types import TracebackType
+
+from cobs import cobs
+
+from controller.board import data_folder, find_board, load_board
+from controller.fpga.build_hash import build_hash
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.gateware import Gateware, Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.serial_link import ANSWER_BYTES, BITS_PER_BYTE
+
+
+class UartPanel:
+    """Gateware behind `uart_peripheral.v`: bytes in, bytes out.
+
+    Parameters
+    ----------
+    gateware : GatewareModel
+        Just out of reset; it is given its permits.
+    clock_hz, baud : int
+        What they are in the gateware; a byte takes ten bits' time, whenever it comes out of the terminal.
+    now_s : callable
+        Clock that the gateware's clock follows while nothing comes; tick 0 is its value now.
+    """
+
+    def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
+        self.gateware: Gateware = gateware
+        self._clock_hz = clock_hz
+        self._byte_ticks = BITS_PER_BYTE * clock_hz / baud
+        self._now_s = now_s
+        self._start_s = now_s()
+        self._tick = 0.0  # when the last byte had come
+        self._answer_until = 0.0  # a frame that begins earlier gets no answer
+        self._line = bytearray()
+        self._select_tick = 0
+        self._synced = False
+        for permit in Permit:
+            gateware.permit(0, True, permit)
+
+    def receive(self, data: bytes) -> bytes:
+        """Take bytes off the wire; what is answered meanwhile."""
+        self._tick = max(self._tick, (self._now_s() - self._start_s) * self._clock_hz)
+        answers = bytearray()
+        for byte in data:
+            self._tick += self._byte_ticks
+            if byte and self._synced:
+                if not self._line:
+                    self._select_tick = int(self._tick)
+                self._line.append(byte)
+            elif not byte:
+                self._synced = True
+                if self._line:
+                    answers += self._frame()
+                    self._line.clear()
+        return bytes(answers)
+
+    def _frame(self) -> bytes:
+        """Hand on the frame that has ended; its answer, unless the one before was still on its way."""
+        sent = decoded(self._line)
+        answer = bytearray(max(FRAME_BYTES, len(sent)))
+        self.gateware.exchange(self._select_tick, int(self._tick), sent, memoryview(answer))
+        if self._select_tick < self._answer_until:
+            return b""
+        self._answer_until = self._select_tick + (ANSWER_BYTES - 1) * self._byte_ticks
+        encoded: bytes = cobs.encode(bytes(answer[:FRAME_BYTES]))
+        return encoded + b"\0"
+
+
+def decoded(line: bytes | bytearray) -> bytes:
+    """Decode a frame; of one that ends within a block, what was there, and no length that a whole frame can have."""
+    whole = bytearray(line)
+    code = end = 0
+    while end < len(whole):
+        code, end = end, end + whole[end]
+    malformed = end > len(whole)
+    if malformed:
+        whole[code] = len(whole) - code
+    frame: bytes = cobs.decode(bytes(whole))
+    if malformed and len(frame) % 4 == 0:
+        frame += b"\xff"
+    return frame or b"\0"  # an empty frame has no sync word: refused for that
+
+
+class PseudoTerminal:
+    """A pseudo-terminal with something that answers behind it, in a thread; a context manager.
+
+    Parameters
+    ----------
+    answer : callable
+        Takes the bytes that came, returns those to send.
+
+    Attributes
+    ----------
+    device : str
+        Path for whoever wants to talk to it.
+    """
+
+    def __init__(self, answer: Callable[[bytes], bytes]) -> None:
+        self._answer = answer
+        self._controller, self._terminal = os.openpty()  # the terminal stays open here, so that others may come and go
+        tty.setraw(self._terminal)
+        os.set_blocking(self._controller, False)  # a UART does not wait either: what nobody reads is lost
+        self.device = os.ttyname(self._terminal)
+        self._stop, self._stopper = os.pipe()
+        self._thread = threading.Thread(target=self._serve, name=f"panel at {self.device}", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """End as a board does that is unplugged."""
+        os.write(self._stopper, b"\0")
+        self._thread.join()
+        for descriptor in (self._controller, self._terminal, self._stop, self._stopper):
+            os.close(descriptor)
+
+    def _serve(self) -> None:
+        while True:
+            ready, _, _ = select.select([self._controller, self._stop], [], [])
+            if self._stop in ready:
+                return
+            answer = self._answer(os.read(self._controller, 4096))
+            with contextlib.suppress(BlockingIOError):
+                os.write(self._controller, answer)
+
+    def __enter__(self) -> PseudoTerminal:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+
+def main(name: str = "simulated") -> None:
+    """Serve the gateware of a board, in real time, until interrupted."""
+    board = load_board(find_board(name))
+    link = board.link
+    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, build_hash(data_folder("fpga_rtl"))))
+    panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
+    with contextlib.suppress(KeyboardInterrupt), PseudoTerminal(panel.receive) as terminal:
+        sys.stdout.write(f"{terminal.device}\n")
+        sys.stdout.flush()
+        threading.Event().wait()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

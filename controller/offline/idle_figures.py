@@ -1,0 +1,116 @@
+"""What the idle word and its ramps are worth: contrast with and without, and what can be heard of arming and disarming.
+
+Audible energies (`audible.surface_energy`) are in dB of the median single emission from the board's idle word. The ramps
+are the bits of the gateware's model; only the two things they are compared with, a step and a density of first order, are
+made here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from controller.board import Board
+from controller.fpga.model_pins import ramp_bits
+from controller.offline.audible import surface_energy
+from controller.offline.focusing import focus
+from controller.offline.impulse_response import ResponseModel
+from controller.offline.plate_twin import PlateTwin
+from controller.offline.work_precision import emit, idling_low, random_points, spread
+
+Bits = NDArray[np.bool_]
+Words = NDArray[np.uint32]
+
+RAMPS_MS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+NOTHING = np.zeros(0, np.uint32)
+
+
+def idle_figures(board: Board, seed: int = 1, points: int = 20) -> dict[str, Any]:
+    """Figures of a board's idle word and ramp, over random points at least 10 mm from the edges.
+
+    Parameters
+    ----------
+    seed : int
+        Of the points.
+    points : int
+        How many; none is left out.
+
+    Returns
+    -------
+    dict
+        `contrast`, `amplitude_um` with the idle word and with all channels idle low. `emission_m2_per_s`: audible
+        energy of the median emission; `emission_db`: of each, to its return to the idle word; `return_db`: of that
+        last step alone. `arming_db`, `disarming_db`: of the board's own ramp, and of others.
+    """
+    low = idling_low(board)
+    rows: list[dict[str, float]] = []
+    with threadpool_limits(1, "blas"):
+        model = ResponseModel(board)
+        twins = PlateTwin(board), PlateTwin(low)
+        for x_m, y_m in tqdm(random_points(board, seed, points).tolist(), desc="idle word", unit="point", disable=None, delay=2):
+            drive_order = model.drive_order_responses([(x_m, y_m)], dtype=np.float64)
+            row: dict[str, float] = {}
+            for name, twin in zip(("idle_word", "all_low"), twins, strict=True):
+                idle = twin.board.idle_word
+                words = focus(drive_order, [1.0], idle)
+                judged = emit(twin, words).focus_metrics(x_m, y_m)
+                row[f"contrast.{name}"] = judged.contrast
+                row[f"amplitude_um.{name}"] = judged.amplitude_m * 1e6
+                row[f"emission.{name}"] = surface_energy(board, words, idle)
+                row[f"return.{name}"] = surface_energy(board, NOTHING, idle, before_word=int(words[-1]))
+            rows.append(row)
+
+        emission = float(np.median([row["emission.idle_word"] for row in rows]))
+
+        def of_points(what: str, scale: Callable[[float], float] = float) -> dict[str, dict[str, float]]:
+            return {name: spread([scale(row[f"{what}.{name}"]) for row in rows]) for name in ("idle_word", "all_low")}
+
+        def decibels(energy: float) -> float:
+            return 10 * float(np.log10(energy / emission))
+
+        def arming(bits: Bits) -> float:
+            return decibels(surface_energy(board, ramp_words(board, bits), board.idle_word, before_word=0))
+
+        own = ramp_samples(board, board.limits.ramp_ms)
+        leaving = ramp_words(board, ramp_bits(own, up=False))
+        return {
+            "board": board.name,
+            "seed": seed,
+            "points": points,
+            "ramp_ms": board.limits.ramp_ms,
+            "contrast": of_points("contrast"),
+            "amplitude_um": of_points("amplitude_um"),
+            "emission_m2_per_s": emission,
+            "emission_db": of_points("emission", decibels),
+            "return_db": of_points("return", decibels),
+            "arming_db": {
+                "own_ramp": arming(ramp_bits(own, up=True)),
+                "instant": arming(np.zeros(0, np.bool_)),
+                "second_order": {f"{ms:g}_ms": arming(ramp_bits(ramp_samples(board, ms), up=True)) for ms in RAMPS_MS},
+                "first_order": {f"{ms:g}_ms": arming(first_order_bits(ramp_samples(board, ms))) for ms in RAMPS_MS},
+            },
+            "disarming_db": {
+                "own_ramp": decibels(surface_energy(board, leaving, 0, before_word=board.idle_word)),
+                "instant": decibels(surface_energy(board, NOTHING, 0, before_word=board.idle_word)),
+            },
+        }
+
+
+def ramp_samples(board: Board, ramp_ms: float) -> int:
+    """Drive words of a ramp, as the session tells the FPGA."""
+    return max(1, round(ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
+
+
+def ramp_words(board: Board, bits: Bits) -> Words:
+    """What the channel pins play: the idle word where the ramp's bit is high, else nothing."""
+    return np.where(bits, np.uint32(board.idle_word), np.uint32(0))
+
+
+def first_order_bits(samples: int) -> Bits:
+    """(sample,) levels 1, 2 ... `samples` of `samples` as a density of first order: a bit whenever their sum passes a whole."""
+    return np.diff(np.cumsum(np.arange(1, samples + 1)) // samples, prepend=0) > 0

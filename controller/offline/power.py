@@ -1,0 +1,203 @@
+"""What the stages' series resistors burn: edges and loss of each channel, from the entries of a bank.
+
+In the deviation of a driver from where it is heading, `z = v - target`, with its current i, there is no source:
+the `C z^2 / 2 + L i^2 / 2` that it holds ends in R. An edge of V moves the target and so changes what is held by
+`C V^2 / 2 - s C V z` (s: +1 up, -1 down; z: just before). The sum of these over all edges is the loss, exactly, once
+the piezo has come to rest after the last: half of `C V^2` an edge if edges are far apart, more where the piezo
+rings against the next edge, less where the next edge comes before it has moved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.packing import CHANNELS, WORD, channel_bits
+from controller.bank.reader import Bank
+from controller.board import Board, Driver
+from controller.errors import ConfigError
+from controller.offline.driver import DriverResponse
+
+Floats = NDArray[np.float64]
+ENTRIES_PER_BLOCK = 256  # one sample of them stays in the cache
+
+
+@dataclass(frozen=True)
+class Resistor:
+    """The series resistor of one channel and the share of its rating that its cooling lets it have, for good."""
+
+    rating_w: float
+    derating: float
+
+    def __post_init__(self) -> None:
+        if not self.rating_w > 0:
+            raise ConfigError(f"resistor_rating_w = {self.rating_w:g} is not above 0")
+        if not 0 < self.derating <= 1:
+            raise ConfigError(f"derating = {self.derating:g} is not above 0 and at most 1")
+
+    @property
+    def permitted_w(self) -> float:
+        """What it may burn."""
+        return self.rating_w * self.derating
+
+
+RESISTOR = Resistor(rating_w=0.5, derating=0.5)  # thick film, case 1210, rated at 70 °C; in a closed case among 31 others
+
+
+@dataclass(frozen=True)
+class StageLimits:
+    """What the stage protection should allow, on average, for the resistors' sake."""
+
+    permitted_w: float
+    max_duty: float
+    max_channel_edge_rate_hz: float
+    max_total_edge_rate_hz: float
+
+
+def half_charge_j(driver: Driver) -> float:
+    """Loss of an edge far from any other: C V^2 / 2, in J."""
+    return driver.capacitance_f * driver.supply_v**2 / 2
+
+
+def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: float) -> Floats:
+    """Heat in the series resistor, to the end of all ringing.
+
+    Parameters
+    ----------
+    driver : Driver
+    levels : (sample, ...) array of 0 and 1
+        Of the stage, each held for `period_s`; it has been at the first for long and stays at the last.
+    period_s : float
+
+    Returns
+    -------
+    (...) array
+        In J.
+    """
+    response = DriverResponse.of(driver)
+    decay = np.exp(response.poles * period_s)
+    # z after a unit step up is Re sum(residues exp(poles t)), -1 at first: over the samples a filter of second order
+    late_gain = -(response.residues @ decay[::-1]).real
+    once, twice = decay.sum().real, -decay.prod().real
+    levels = np.asarray(levels, np.int8)
+    shape = levels.shape[1:]
+    before, older, work_sum = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    edges = np.zeros(shape, np.int64)
+    for steps in np.diff(levels, axis=0):
+        edges += steps != 0
+        work_sum += steps * before
+        after = before - steps
+        before = late_gain * steps + once * after + older
+        older = twice * after
+    loss: Floats = 2 * half_charge_j(driver) * (edges / 2 - work_sum)
+    return loss
+
+
+def worst_edge_j(driver: Driver) -> float:
+    """Most that an edge can cost on average in any waveform whatever, in J.
+
+    The piezo's deviation from a step is largest at multiples of half its damped period, with alternating sign: a
+    square wave of that half period adds up all that can be added. Overdamped, nothing rings: `C V^2 / 2`.
+    """
+    pole = complex(DriverResponse.of(driver).poles[0])
+    ringing = np.exp(np.pi * pole.real / abs(pole.imag)) if abs(pole.imag) > 1e-9 * abs(pole.real) else 0.0
+    return half_charge_j(driver) * float((1 + ringing) / (1 - ringing))
+
+
+def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:
+    """Edges and loss of each emission, from the idle word and back to it.
+
+    Returns
+    -------
+    edges : (entry, 32) int array
+    loss_j : (entry, 32) array
+    """
+    cells = np.flatnonzero(bank.cells).tolist()
+    idle = channel_bits(np.array([board.idle_word], np.uint32))
+    edges = np.empty((len(cells), CHANNELS), np.int64)
+    loss_j = np.empty((len(cells), CHANNELS))
+    for first in range(0, len(cells), ENTRIES_PER_BLOCK):
+        some = slice(first, first + ENTRIES_PER_BLOCK)
+        entries = [np.concatenate([idle, channel_bits(np.frombuffer(bank.words(cell), WORD)), idle]) for cell in cells[some]]
+        levels = np.stack(entries, axis=1)
+        edges[some] = (levels[1:] != levels[:-1]).sum(axis=0)
+        loss_j[some] = resistor_loss_j(board.driver, levels, 1 / bank.header.bit_clock_hz)
+        if progress:
+            progress(min(first + ENTRIES_PER_BLOCK, len(cells)), len(cells))
+    driven = np.array([board.channel_mask >> channel & 1 for channel in range(CHANNELS)])
+    return edges * driven, loss_j * driven
+
+
+def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, channels: int) -> StageLimits:
+    """Limits that keep every resistor within what it may burn.
+
+    Parameters
+    ----------
+    driver : Driver
+        Edges are limited for the waveform that heats its resistor most.
+    resistor : Resistor
+    worst_channel_w : float
+        What the busiest channel burns while it plays all the time: duty is limited for what is really played.
+    channels : int
+        How many share the supply: together they may make that many times the edges of one.
+    """
+    rate_hz = resistor.permitted_w / worst_edge_j(driver)
+    return StageLimits(
+        permitted_w=resistor.permitted_w,
+        max_duty=min(1.0, resistor.permitted_w / worst_channel_w),
+        max_channel_edge_rate_hz=rate_hz,
+        max_total_edge_rate_hz=channels * rate_hz,
+    )
+
+
+def power_report(
+    board: Board, bank: Bank, resistor: Resistor = RESISTOR, progress: Callable[[int, int], None] | None = None
+) -> dict[str, Any]:
+    """Edges, loss and power of a bank's entries, with the limits that follow.
+
+    Raises
+    ------
+    BankError
+        If an entry is damaged.
+    """
+    edges, loss_j = bank_losses(board, bank, progress)
+    duration_s = bank.samples / bank.header.bit_clock_hz
+    power_w = loss_j / duration_s
+    used = [channel for channel in range(CHANNELS) if board.channel_mask >> channel & 1]
+    per_edge_j = loss_j[:, used] / np.maximum(edges[:, used], 1)
+    naive_w = edges * (half_charge_j(board.driver) / duration_s)
+    limits = stage_limits(board.driver, resistor, float(power_w.max()), len(used))
+    return {
+        "path": str(bank.path),
+        "board": board.name,
+        "emissions": len(edges),
+        "emission_ms": duration_s * 1e3,
+        "edges": {"channel": _spread(edges[:, used]), "all": _spread(edges.sum(axis=1))},
+        "edge_rate_hz": {"channel": _spread(edges[:, used] / duration_s), "all": _spread(edges.sum(axis=1) / duration_s)},
+        "loss_per_edge_uj": _spread(per_edge_j * 1e6)
+        | {"far_apart": half_charge_j(board.driver) * 1e6, "worst_possible": worst_edge_j(board.driver) * 1e6},
+        "full_duty_w": {
+            "channel": _spread(power_w[:, used]),
+            "all": _spread(power_w.sum(axis=1)),
+            "all_if_far_apart": _spread(naive_w.sum(axis=1)),
+        },
+        "max_duty": board.limits.max_duty,
+        "max_duty_w": {
+            "channel": _spread(power_w[:, used] * board.limits.max_duty),
+            "all": _spread(power_w.sum(axis=1) * board.limits.max_duty),
+        },
+        "resistor": asdict(resistor) | {"holds": float(power_w.max()) * board.limits.max_duty <= resistor.permitted_w},
+        "limits": asdict(limits),
+        "channels": [
+            {"channel": channel, "edges": _spread(edges[:, channel]), "full_duty_w": _spread(power_w[:, channel])}
+            for channel in used
+        ],
+    }
+
+
+def _spread(values: NDArray[Any]) -> dict[str, float]:
+    return {"median": float(np.median(values)), "max": float(values.max())}

@@ -1,0 +1,84 @@
+"""The limits of the stages tick by tick, written straight from what `stage_limits.v` says they are.
+
+Slow and plain on purpose: the bench of the Verilog and the tests of the model compare with it.
+"""
+
+from dataclasses import dataclass
+
+SHORT_PULSE, CHANNEL_EDGES, TOTAL_EDGES, LONG_EMISSION, DUTY = 1, 2, 4, 8, 16
+NO_LIMITS = {
+    "pulse_ticks": 0,
+    "channel_edges": 2**32 - 1,
+    "total_edges": 2**32 - 1,
+    "emission_ticks": 2**32 - 1,
+    "duty_share": 65536,
+    "duty_ticks": 2**32 - 1,
+}
+
+
+@dataclass
+class Inputs:
+    """What one tick brings."""
+
+    word: int = 0
+    active: bool = False
+    emission: bool = False
+    start: bool = False
+    clear: bool = False
+
+
+@dataclass
+class Outputs:
+    """What is to be seen in one tick."""
+
+    cause: int
+    channels: int
+    duty_level: int
+
+
+def limits_reference(inputs, settings, window_ticks):
+    """Outputs of tick 0, 1 ... for the `Inputs` of tick 0, 1 ..., and of the 3 ticks after the last."""
+    ticks = len(inputs)
+    cause = [0] * (ticks + 3)
+    culprits = [0] * (ticks + 3)
+    channel_edges = min(settings["channel_edges"], 2**24 - 1)
+
+    word_before, last_change, recent = 0, None, set()
+    for t, now in enumerate(inputs):
+        if t % window_ticks == 0:
+            counts, total = [0] * 32, 0
+        changed = {channel for channel in range(32) if (now.word ^ word_before) >> channel & 1}
+        word_before = now.word
+        if not changed:
+            continue
+        rested = last_change is None or t - last_change >= settings["pulse_ticks"]
+        if rested:
+            recent = set()
+        short = changed & recent
+        recent |= changed
+        last_change = t
+        too_many = {channel for channel in changed if counts[channel] >= channel_edges}
+        for channel in changed - too_many:
+            counts[channel] += 1
+        total += len(changed)
+        cause[t + 2] |= SHORT_PULSE * bool(short) | CHANNEL_EDGES * bool(too_many)
+        culprits[t + 2] = sum(1 << channel for channel in short | too_many)
+        cause[t + 3] |= TOTAL_EDGES * (total > settings["total_edges"])
+
+    age = 0
+    for t, now in enumerate(inputs):
+        begins = t == 0 or inputs[t - 1].start or not inputs[t - 1].emission
+        age = (1 if begins else age + 1) if now.emission else 0
+        cause[t + 1] |= LONG_EMISSION * (age > settings["emission_ticks"])
+
+    levels = [0]
+    for t, now in enumerate(inputs):
+        cause[t + 1] |= DUTY * (now.active and levels[t] > settings["duty_ticks"] << 16)
+        level = levels[t] + (65536 if now.active else 0) - settings["duty_share"]
+        levels.append(min(max(level, 0), 2**48 - 1))
+
+    channels = [0]
+    for t in range(ticks):
+        kept = 0 if inputs[t].clear else channels[t]
+        channels.append(kept or culprits[t + 1])
+    return [Outputs(cause[t], channels[t], levels[t] >> 16) for t in range(ticks)]

