@@ -1,4 +1,7 @@
-"""Arming, ramps, disarming and every cause for which the gateware model shuts its outputs."""
+"""Arming, ramps, disarming and every cause for which the gateware model shuts its outputs.
+
+SHORT_PULSE and LONG_EMISSION stand behind what registers and PLAY refuse already: test_model_limits.py has them.
+"""
 
 from dataclasses import replace
 
@@ -23,7 +26,6 @@ from model_host import (
 
 from controller.fpga import frames
 from controller.fpga.gateware import Permit
-from controller.fpga.model_limits import Cause, LimitSettings, StageLimits
 from controller.fpga.model_pins import modulate, ramp_bits
 from controller.fpga.registers import DUTY_FULL, Control, Fault, Register, Result, Start, State
 
@@ -295,32 +297,6 @@ def test_the_bucket_drains_while_nothing_plays(host):
         assert host.read(Register.DUTY_LEVEL) == 0
     assert host.status().faults == Fault(0)
     assert capture.hv.all()
-
-
-@pytest.mark.parametrize(("pulse_ticks", "short"), [(10, False), (11, True)])
-def test_a_channel_that_changes_again_too_soon_is_a_short_pulse(pulse_ticks, short):
-    """By itself: what the registers allow never makes one, so this limit stands behind all the others."""
-    limits = StageLimits(LimitSettings(pulse_ticks=pulse_ticks), 1000)
-    limits.show(np.array([100, 110, 120]), np.array([1, 3, 1], np.uint32))
-    assert [tick for tick in range(90, 130) if limits.cause(tick)] == ([122] if short else [])
-    assert limits.next_change(0) == (122 if short else None)
-    assert limits.channels(130) == (0b10 if short else 0)
-
-
-def test_a_channel_may_change_soon_after_another_one():
-    limits = StageLimits(LimitSettings(pulse_ticks=50), 1000)
-    limits.show(np.array([100, 110, 120]), np.array([1, 3, 7], np.uint32))
-    assert limits.next_change(0) is None
-
-
-@pytest.mark.parametrize(("end", "late"), [(400, False), (401, True)])
-def test_an_emission_that_goes_on_too_long_is_shut(end, late):
-    """By itself, as a PLAY that would do so is refused as TOO_LONG."""
-    limits = StageLimits(LimitSettings(emission_ticks=300), 1000)
-    limits.emission(100, sounding=True)
-    limits.emission(end, sounding=False)
-    assert limits.next_change(0) == (401 if late else None)
-    assert limits.cause(401) == (Cause.LONG_EMISSION if late else Cause(0))
 
 
 def test_a_fault_at_the_end_of_an_emission_takes_its_focus(armed):
