@@ -202,7 +202,9 @@ def test_a_scheduled_play_has_its_first_word_on_the_pins_at_its_time(armed):
     assert armed.read_time(Register.EMISSION_TIME_LOW) == at
 
 
-@pytest.mark.parametrize(("lead", "expected"), [(LEAD_TICKS, Result.OK), (LEAD_TICKS - 1, Result.TOO_LATE), (-(10**9), Result.TOO_LATE)])
+@pytest.mark.parametrize(
+    ("lead", "expected"), [(LEAD_TICKS, Result.OK), (LEAD_TICKS - 1, Result.TOO_LATE), (-(10**9), Result.TOO_LATE)]
+)
 def test_a_time_that_is_too_near_or_past_is_refused_and_any_accepted_one_is_kept(armed, lead, expected):
     carried_out = armed.tick + 5 + 36 * 48 + 4
     at = max(carried_out + lead, 0)
@@ -213,7 +215,9 @@ def test_a_time_that_is_too_near_or_past_is_refused_and_any_accepted_one_is_kept
     assert armed.read(Register.PLAYS_MISSED) == 0
 
 
-@pytest.mark.parametrize(("gap", "expected"), [(T + GAP_TICKS, Result.OK), (T + GAP_TICKS - 1, Result.OVERLAP), (-5000, Result.OVERLAP)])
+@pytest.mark.parametrize(
+    ("gap", "expected"), [(T + GAP_TICKS, Result.OK), (T + GAP_TICKS - 1, Result.OVERLAP), (-5000, Result.OVERLAP)]
+)
 def test_a_play_scheduled_into_the_one_before_is_refused_and_any_accepted_one_is_played(armed, gap, expected):
     first = armed.tick + 20_000
     armed.play(start=Start.TIME, when_ticks=first)
@@ -477,7 +481,9 @@ def test_no_word_plays_that_did_not_come_in_an_accepted_frame(live):
     assert live.unlock_and_arm() is Result.FAULTED
 
 
-@pytest.mark.parametrize(("slack", "expected"), [(SLOWEST_BIT_TICKS * 125 - 24581 - 1, Result.OK), (SLOWEST_BIT_TICKS * 125 - 24581, Result.LINK_SLOW)])
+@pytest.mark.parametrize(
+    ("slack", "expected"), [(SLOWEST_BIT_TICKS * 125 - 24581 - 1, Result.OK), (SLOWEST_BIT_TICKS * 125 - 24581, Result.LINK_SLOW)]
+)
 def test_a_link_must_bring_words_as_fast_as_they_play(slack, expected):
     host = Host().arm(BIT_PERIOD=SLOWEST_BIT_TICKS << 16)
     frame = host.packed(frames.pack_load, 0, memoryview(CHUNK.tobytes()))
