@@ -43,7 +43,7 @@ lint_off -file "*/primitives.v"
 lint_off -rule DECLFILENAME -file "*/top.v"
 lint_off -rule PROCASSINIT -file "*/top.v" -match "*released_q*"
 lint_off -rule SYNCASYNCNET -file "*/ulx3s/top.v" -match "*'gp'*"
-"""  # top is the name all builds ask for; a reset generator begins with a value of its own; SCK and others share the bus of a header
+"""  # all builds ask for top; a reset generator begins with a value of its own; SCK shares the bus of a header with others
 
 
 def site_of(board):
