@@ -63,7 +63,7 @@ class Start(IntEnum):
 
 
 class Description(NamedTuple):
-    """One register: `access` is RO, WO, RW (written only while disarmed) or RW idle (written while nothing plays or waits)."""
+    """One register: `access` is RO, WO or RW (written only while disarmed, but for BIT_PERIOD)."""
 
     access: str
     bits: str
@@ -124,27 +124,24 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.BUILD_HASH: Description("RO", "31:0", "built in", "CRC-32 of the Verilog it was built from"),
     Register.BOARD: Description("RO", "31:0", "built in", "four letters that name the board"),
     Register.CLOCK_HZ: Description("RO", "31:0", "built in", "clocks per second: what a tick is"),
-    Register.GEOMETRY: Description("RO", "7:0 slots, 23:8 words per slot, 31:24 channels", "built in", "what it holds and drives"),
+    Register.GEOMETRY: Description("RO", "31:0", "built in", "slots (7:0), words per slot (23:8), channels (31:24)"),
     Register.PARAMETERS: Description(
-        "RO",
-        "7:0 plays in the queue, 15:8 ticks from trigger to first word, 23:16 ticks of the glitch filter",
-        "built in",
-        "what it can do",
+        "RO", "23:0", "built in", "plays in the queue (7:0), ticks from trigger to first word (15:8), of the glitch filter (23:16)"
     ),
     Register.EDGE_WINDOW_TICKS: Description("RO", "31:0", "built in", "ticks over which edges are counted"),
     Register.CONTROL: Description(
         "WO",
         "31:0",
-        "-",
+        "nothing",
         "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; directly before ARM), 6 TRIGGER",
     ),
     Register.IDLE_WORD: Description("RW", "31:0", "0", "level of each channel while armed and not playing"),
     Register.CHANNEL_MASK: Description("RW", "31:0", "0xFFFFFFFF", "channels that may move; the others are low"),
     Register.BIT_PERIOD: Description(
-        "RW idle",
-        "31:16 ticks, 15:0 parts of 65536",
+        "RW",
+        "31:0",
         "500 kHz",
-        "time one drive word is held; 2 MHz to 100 kHz, and 4 ticks or more",
+        "time one drive word is held, in 65536ths of a tick: 2 MHz to 100 kHz, 4 ticks or more; written while nothing plays",
     ),
     Register.RAMP_SAMPLES: Description("RW", "17:0", "5000", "drive words in the glide between 0 and idle"),
     Register.HEARTBEAT_TICKS: Description(
@@ -167,7 +164,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
     Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
     Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW was read last"),
-    Register.INPUTS: Description("RO", "0 run permit, 1 temperature good, 2 trigger", "pins", "levels of the input pins"),
+    Register.INPUTS: Description("RO", "2:0", "the pins", "levels of the pins: run permit (0), temperature good (1), trigger (2)"),
     Register.INPUT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last change of run permit or temperature; holds its HIGH"),
     Register.INPUT_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
     Register.TRIGGERS: Description("RO", "31:0", "0", "trigger edges and TRIGGER commands"),

@@ -1,389 +1,461 @@
-"""The gateware model by itself: each result, each state, and what the pins do; tests/rtl compares it with the Verilog."""
+"""The gateware model by itself: each result, each register, and what can be read back; the Verilog is compared in conformance/."""
+
+import zlib
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from model_host import (
+    ARMED,
+    BIT_TICKS,
+    HASH,
+    HEARTBEAT_TICKS,
+    IDLE,
+    ON,
+    PARAMETERS,
+    SLOTS,
+    SLOWEST_BIT_TICKS,
+    WORDS,
+    Host,
+    T,
+)
 
 from controller.fpga import frames
-from controller.fpga.frames import parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.model import GatewareModel
-from controller.fpga.model_pins import modulate, ramp_bits
-from controller.fpga.registers import Control, Fault, Register, Result, State
-
-HASH = 0xC0FFEE
-HEARTBEAT_TICKS = 100_000
-BIT_TICKS = 10
-RAMP_SAMPLES = 8
-IDLE = 0x0F0F0F0F
-LATENCY = 6  # ticks from the trigger's rise to the first word
-TICKS_PER_BYTE = 48
-ON = State.RUN_PERMIT | State.HEARTBEAT
-ARMED = ON | State.ARMED | State.HV_ENABLE
-WORDS = np.arange(1, 31, dtype=np.uint32)
+from controller.fpga.registers import (
+    PLAY_LANDING,
+    READ_MEMORY,
+    READ_QUEUE,
+    READ_SLOT_CRC,
+    REGISTERS,
+    Control,
+    Register,
+    Result,
+    State,
+)
 
 
-class Host:
-    """Sends frames to a model one after another, as fast as it may."""
-
-    def __init__(self):
-        self.model = GatewareModel(1_000_000, 2, HASH, HEARTBEAT_TICKS)
-        self.tick = 10
-        self.buffer = bytearray(512)
-
-    def exchange(self, frame):
-        answer = bytearray(max(len(frame), 32))
-        release = self.tick + 5 + len(frame) * TICKS_PER_BYTE
-        self.model.exchange(self.tick, release, frame, memoryview(answer)[: len(frame)])
-        self.tick = release + 4
-        return answer
-
-    def send(self, pack, *arguments, **named):
-        end = pack(self.buffer, 0, 7, *arguments, **named)
-        return parse_status(self.exchange(bytes(self.buffer[:end])))
-
-    def status(self):
-        return self.send(frames.pack_nop)
-
-    def result(self, pack, *arguments, **named):
-        self.send(pack, *arguments, **named)
-        return self.status().result
-
-    def read(self, register):
-        self.send(frames.pack_read, register)
-        return self.status().data
-
-    def upload(self, slot, words=WORDS):
-        data = memoryview(np.asarray(words, "<u4")).cast("B")
-        for chunk in range(-(-len(words) // 125)):
-            self.send(frames.pack_load, chunk, data[500 * chunk : 500 * chunk + 500])
-        return self.result(frames.pack_store, slot, len(words))
-
-    def arm(self):
-        self.model.permit(self.tick, True)
-        for register, value in ((Register.IDLE_WORD, IDLE), (Register.BIT_TICKS, BIT_TICKS), (Register.RAMP_SAMPLES, RAMP_SAMPLES)):
-            assert self.result(frames.pack_write, register, value) is Result.OK
-        assert self.result(frames.pack_arm, HASH) is Result.OK
-        self.tick += RAMP_SAMPLES * BIT_TICKS
-        return self
-
-    def trigger(self):
-        tick = self.tick
-        self.model.trigger(tick)
-        self.tick += 4  # high for two clocks, low for two
-        return tick + LATENCY
-
-    def pins_after(self, ticks):
-        self.tick += ticks
-        self.model.advance(self.tick)
-        return self.model.take_capture()
-
-
-@pytest.fixture
-def armed():
-    host = Host().arm()
-    assert host.upload(0) is Result.OK
-    assert host.status().state == ARMED
-    host.pins_after(0)
-    return host
-
-
-def word_at(capture, tick):
-    return int(capture.words[np.searchsorted(capture.ticks, tick, "right") - 1])
-
-
-def test_an_emission_is_the_words_stored_each_held_one_bit_and_then_the_idle_word(armed):
-    assert armed.result(frames.pack_play, 0) is Result.OK
-    assert armed.status().state == ARMED | State.PENDING
-    start = armed.trigger()
-    capture = armed.pins_after(1000)
-    assert capture.ticks.tolist() == [start + BIT_TICKS * n for n in range(31)]
-    assert capture.words.tolist() == [*WORDS.tolist(), IDLE]
-    assert capture.focus_ticks.tolist() == [start + BIT_TICKS * 30]
-    assert armed.status().emissions == 1
-
-
-def test_captures_taken_at_any_time_add_up_to_the_same(armed):
-    armed.send(frames.pack_play, 0, count=3, period_ticks=30 * BIT_TICKS)
-    start = armed.trigger()
-    parts = [armed.pins_after(ticks) for ticks in (3, 1, 6, 137, 0, 300, 453, 200)]
-    expected = np.append(np.tile(WORDS, 3), np.uint32(IDLE))
-    assert np.array_equal(np.concatenate([part.words for part in parts]), expected)
-    assert np.array_equal(np.concatenate([part.ticks for part in parts]), start + BIT_TICKS * np.arange(91))
-    assert np.concatenate([part.focus_ticks for part in parts]).tolist() == [start + 300, start + 600, start + 900]
+def short(kind, argument=0, *words):
+    return lambda b, o, s: frames.pack_short(b, o, kind, s, argument, *words)
 
 
 @pytest.mark.parametrize(
     ("expected", "pack", "arguments"),
     [
         (Result.OK, frames.pack_nop, ()),
-        (Result.UNKNOWN_TYPE, lambda b, o, s: frames.pack_short(b, o, 6, s, 0), ()),
-        (Result.UNKNOWN_REGISTER, frames.pack_read, (16,)),
-        (Result.UNKNOWN_REGISTER, frames.pack_write, (99, 0)),
-        (Result.READ_ONLY, frames.pack_write, (Register.FAULT, 0)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.BIT_TICKS, 3)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.BIT_TICKS, 65536)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.RAMP_SAMPLES, 0)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.HEARTBEAT_TICKS, HEARTBEAT_TICKS + 1)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.HEARTBEAT_TICKS, 0)),
-        (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 5)),
-        (Result.BAD_SLOT, frames.pack_store, (2, 30)),
-        (Result.BAD_VALUE, frames.pack_store, (0, 1001)),
-        (Result.BAD_VALUE, frames.pack_store, (0, 0)),
-        (Result.INCOMPLETE, frames.pack_store, (0, 30)),
+        (Result.OK, frames.pack_test, (bytes(20),)),
+        (Result.UNKNOWN_TYPE, short(7), ()),
+        (Result.UNKNOWN_TYPE, short(255), ()),
+        (Result.UNKNOWN_REGISTER, frames.pack_read, (42,)),
+        (Result.UNKNOWN_REGISTER, frames.pack_read, (0x0300,)),
+        (Result.UNKNOWN_REGISTER, frames.pack_read, (0x7FFF,)),
+        (Result.UNKNOWN_REGISTER, frames.pack_write, (42, 0)),
+        (Result.UNKNOWN_REGISTER, frames.pack_write, (READ_MEMORY, 0)),
+        (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 0)),
+        (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 7)),
+        (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 0x10001)),
+        (Result.BAD_SLOT, frames.pack_store, (SLOTS, 30, 0)),
+        (Result.BAD_VALUE, frames.pack_store, (0, 1001, 0)),
+        (Result.BAD_VALUE, frames.pack_store, (0, 0, 0)),
+        (Result.INCOMPLETE, frames.pack_store, (0, 30, 0)),
         (Result.BAD_CHUNK, frames.pack_load, (8, memoryview(bytes(20)))),
-        (Result.BAD_SLOT, frames.pack_play, (2,)),
+        (Result.OK, frames.pack_load, (7, memoryview(bytes(20)))),
+        (Result.BAD_SLOT, frames.pack_play, (SLOTS,)),
+        (Result.BAD_SLOT, frames.pack_play, (PLAY_LANDING - 1,)),
         (Result.NOT_ARMED, frames.pack_play, (0,)),
-        (Result.NO_PERMIT, frames.pack_arm, (HASH,)),
-        (Result.BAD_KEY, frames.pack_arm, (HASH + 1,)),
+        (Result.NOT_ARMED, frames.pack_play, (PLAY_LANDING,)),
+        (Result.BAD_SLOT, frames.pack_read, (READ_SLOT_CRC + SLOTS,)),
+        (Result.EMPTY_SLOT, frames.pack_read, (READ_SLOT_CRC,)),
+        (Result.BAD_SLOT, frames.pack_read, (READ_MEMORY + 1024 * SLOTS,)),
+        (Result.BAD_RANGE, frames.pack_read, (READ_MEMORY,)),
+        (Result.BAD_RANGE, frames.pack_read, (READ_QUEUE,)),
+        (Result.LOCKED, frames.pack_control, (Control.ARM,)),
+        (Result.OK, frames.pack_control, (Control.DISARM,)),
+        (Result.OK, frames.pack_control, (Control.CLEAR,)),
+        (Result.OK, frames.pack_control, (Control.STOP,)),
+        (Result.OK, frames.pack_control, (Control.TRIGGER,)),
+        (Result.OK, frames.pack_unlock, (HASH,)),
+        (Result.BAD_KEY, frames.pack_unlock, (HASH ^ 1,)),
+        (Result.BAD_KEY, short(2, Register.CONTROL, Control.UNLOCK, 0x4C4E5049, 2, HASH), ()),
+        (Result.BAD_KEY, short(2, Register.CONTROL, Control.UNLOCK, 0x4C4E5048, 1, HASH), ()),
+        (Result.OK, short(2, Register.CONTROL, Control.UNLOCK, 0x4C4E5048, 2, HASH), ()),
     ],
 )
-def test_says_in_the_next_answer_what_became_of_a_frame(expected, pack, arguments):
-    assert Host().result(pack, *arguments) is expected
+def test_says_in_the_next_answer_what_became_of_a_frame(host, expected, pack, arguments):
+    assert host.result(pack, *arguments) is expected
+
+
+RANGES = {
+    Register.IDLE_WORD: (0, 0xFFFFFFFF),
+    Register.CHANNEL_MASK: (0, 0xFFFFFFFF),
+    Register.BIT_PERIOD: (BIT_TICKS << 16, SLOWEST_BIT_TICKS << 16),
+    Register.RAMP_SAMPLES: (1, 262143),
+    Register.HEARTBEAT_TICKS: (1, HEARTBEAT_TICKS),
+    Register.PULSE_TICKS: (PARAMETERS.pulse_ticks_min, 40),  # 40: a drive word after reset
+    Register.CHANNEL_EDGES: (0, PARAMETERS.channel_edges_max),
+    Register.TOTAL_EDGES: (0, PARAMETERS.total_edges_max),
+    Register.EMISSION_TICKS: (0, PARAMETERS.emission_ticks_max),
+    Register.DUTY_SHARE: (0, PARAMETERS.duty_share_max),
+    Register.DUTY_TICKS: (0, PARAMETERS.duty_ticks_max),
+}
+
+
+@pytest.mark.parametrize("register", [register for register, described in REGISTERS.items() if described.access.startswith("RW")])
+def test_a_setting_takes_what_lies_in_its_range_and_keeps_its_value_otherwise(register):
+    low, high = RANGES[register]
+    for value in (low, high):
+        host = Host()
+        assert host.write(register, value) is Result.OK
+        assert host.read(register) == value
+    for value in (low - 1, high + 1, 0xFFFFFFFF):
+        host = Host()
+        before = host.read(register)
+        if not low <= value <= high and 0 <= value < 1 << 32:
+            assert host.write(register, value) is Result.BAD_VALUE, value
+            assert host.read(register) == before
+
+
+def test_pulse_and_bit_period_keep_each_other_apart(host):
+    assert host.write(Register.PULSE_TICKS, 40) is Result.OK
+    assert host.write(Register.BIT_PERIOD, (40 << 16) - 1) is Result.BAD_VALUE
+    assert host.write(Register.BIT_PERIOD, 40 << 16) is Result.OK
+    assert host.write(Register.BIT_PERIOD, (41 << 16) + 65535) is Result.OK
+    assert host.write(Register.PULSE_TICKS, 42) is Result.BAD_VALUE
+    assert host.write(Register.PULSE_TICKS, 41) is Result.OK
+
+
+@pytest.mark.parametrize("register", [register for register, described in REGISTERS.items() if described.access == "RO"])
+def test_what_is_read_only_is_not_written(host, register):
+    assert host.result(frames.pack_write, register, 0) is Result.READ_ONLY
+
+
+@pytest.mark.parametrize("register", [r for r, described in REGISTERS.items() if described.reset.removeprefix("0x").isalnum()])
+def test_registers_hold_after_reset_what_their_description_says(register):
+    reset = REGISTERS[register].reset
+    if reset[0].isdigit():
+        host = Host(permits=())
+        if register is Register.SEQUENCE_GAPS:
+            host.sequence = 0
+        assert host.read(register) == int(reset, 0)
+    else:
+        assert reset in {"largest", "smallest", "pins"}
+
+
+def test_says_what_it_is_and_what_it_can_do(host):
+    assert host.read(Register.IDENTITY) == int.from_bytes(b"HPNL", "little")
+    assert host.read(Register.BUILD_HASH) == HASH
+    assert host.read(Register.BOARD).to_bytes(4, "little") == b"SIM "
+    assert host.read(Register.CLOCK_HZ) == PARAMETERS.clock_hz
+    assert host.read(Register.GEOMETRY) == SLOTS | 1000 << 8 | 32 << 24
+    assert host.read(Register.PARAMETERS) == 8 | 8 << 8 | 3 << 16
+    assert host.read(Register.EDGE_WINDOW_TICKS) == PARAMETERS.edge_window_ticks
+    assert host.read(Register.CONTROL) == 0
+    for register, reset in (
+        ("BIT_PERIOD", 40 << 16),
+        ("PULSE_TICKS", 8),
+        ("HEARTBEAT_TICKS", HEARTBEAT_TICKS),
+        ("DUTY_SHARE", 65536),
+    ):
+        assert host.read(Register[register]) == reset
+
+
+@pytest.mark.parametrize("register", [register for register, described in REGISTERS.items() if described.access == "RW"])
+def test_settings_of_the_stages_stay_as_they_are_while_armed(armed, register):
+    before = armed.read(register)
+    assert armed.write(register, before) is Result.ARMED
+    assert armed.read(register) == before
+
+
+def test_the_bit_clock_may_change_between_emissions_but_not_under_what_plays_or_waits(armed):
+    assert armed.write(Register.BIT_PERIOD, 11 << 16) is Result.OK
+    armed.play()
+    assert armed.write(Register.BIT_PERIOD, 12 << 16) is Result.BUSY
+    armed.trigger()
+    armed.model.advance(armed.tick + 100)
+    armed.pins_after(400)
+    assert armed.write(Register.BIT_PERIOD, 12 << 16) is Result.OK
+    armed.play(count=0, period_ticks=50_000)
+    armed.trigger()
+    assert armed.write(Register.BIT_PERIOD, 13 << 16) is Result.BUSY, "a repetition in its pause counts as playing"
+    armed.control(Control.STOP)
+    assert armed.write(Register.BIT_PERIOD, 13 << 16) is Result.OK
 
 
 def test_refuses_while_armed_what_would_surprise(armed):
-    assert armed.result(frames.pack_write, Register.IDLE_WORD, 0) is Result.ARMED
-    assert armed.result(frames.pack_arm, HASH) is Result.ARMED
+    assert armed.unlock_and_arm() is Result.ARMED
     assert armed.result(frames.pack_play, 1) is Result.EMPTY_SLOT
-    for count in (0, 2):
-        assert armed.result(frames.pack_play, 0, count=count, period_ticks=299) is Result.BAD_VALUE
-    assert armed.result(frames.pack_play, 0, count=1, period_ticks=0) is Result.OK
-    assert armed.result(frames.pack_play, 0) is Result.BUSY
+    for count in (0, 2, 65535):
+        for period_ticks in (T - 1, T + 1, T + BIT_TICKS - 1):
+            assert armed.result(frames.pack_play, 0, count=count, period_ticks=period_ticks) is Result.BAD_PERIOD
+        for period_ticks in (T, T + BIT_TICKS):
+            assert armed.result(frames.pack_play, 0, count=count, period_ticks=period_ticks) is Result.OK
+    assert armed.result(frames.pack_play, 0, count=1, period_ticks=0) is Result.OK, "what is played once has no period"
+    assert armed.status().state & State.ARMED, "and nothing of it disarms"
+
+
+@pytest.mark.parametrize(
+    ("named", "expected"),
+    [
+        ({"first": 29}, Result.OK),
+        ({"first": 30}, Result.BAD_RANGE),
+        ({"first": 65535}, Result.BAD_RANGE),
+        ({"length": 30}, Result.OK),
+        ({"length": 31}, Result.BAD_RANGE),
+        ({"first": 10, "length": 20}, Result.OK),
+        ({"first": 10, "length": 21}, Result.BAD_RANGE),
+        ({"first": 1, "length": 65535}, Result.BAD_RANGE),
+        ({"start": 3}, Result.BAD_VALUE),
+        ({"start": 255}, Result.BAD_VALUE),
+        ({"inverted": 2}, Result.BAD_VALUE),
+        ({"inverted": 255}, Result.BAD_VALUE),
+        ({"mask": 0}, Result.OK),
+        ({"count": 65535, "period_ticks": 0xFFFFFFFF}, Result.OK),
+        ({"when_ticks": 0xFFFFFFFF}, Result.OK),
+    ],
+)
+def test_refuses_a_play_whose_fields_cannot_be_meant(armed, named, expected):
+    assert armed.result(frames.pack_play, 0, **named) is expected
+    assert bool(armed.status().queued) is (expected is Result.OK)
+
+
+def test_a_play_longer_than_an_emission_may_be_is_refused(host):
+    host.arm(EMISSION_TICKS=20 * BIT_TICKS).store(0)
+    assert host.result(frames.pack_play, 0) is Result.TOO_LONG
+    assert host.result(frames.pack_play, 0, length=21) is Result.TOO_LONG
+    assert host.result(frames.pack_play, 0, length=20) is Result.OK
 
 
 @pytest.mark.parametrize(
     ("damage", "reason"),
     [
         (lambda frame: b"\0" + frame[1:], Result.BAD_SYNC),
+        (lambda frame: frame[:1], Result.BAD_LENGTH),
         (lambda frame: frame[:-1], Result.BAD_LENGTH),
         (lambda frame: frame + b"\0", Result.BAD_LENGTH),
         (lambda frame: frame[:7], Result.BAD_LENGTH),
+        (lambda frame: frame[:4] + b"\x14" + frame[5:32], Result.BAD_LENGTH),  # a whole frame of protocol 1
         (lambda frame: frame[:20] + b"\x55" + frame[21:], Result.BAD_CRC),
     ],
 )
 def test_a_damaged_frame_changes_nothing_but_the_error_counter(damage, reason):
     host = Host()
-    frames.pack_write(host.buffer, 0, 99, Register.IDLE_WORD, 5)
-    host.exchange(damage(bytes(host.buffer[:32])))
+    host.exchange(damage(host.packed(frames.pack_write, Register.IDLE_WORD, 5)))
+    host.sequence -= 1
     status = host.status()
     assert (status.result, status.sequence) == (reason, 0)
     assert not status.state & State.HEARTBEAT, "a refused frame is no sign of life"
     assert host.read(Register.IDLE_WORD) == 0
     assert host.read(Register.FRAME_ERRORS) == 1
+    assert host.read(Register.SEQUENCE_GAPS) == 0
 
 
-def test_a_select_without_bytes_is_nothing():
-    host = Host()
+def test_a_gap_in_the_numbers_of_accepted_frames_is_counted(host):
+    for _ in range(300):
+        host.status()
+    assert host.read(Register.SEQUENCE_GAPS) == 0, "255 is followed by 0"
+    host.sequence += 3
+    host.status()
+    assert host.read(Register.SEQUENCE_GAPS) == 1
+    host.sequence -= 1  # the same number again
+    assert host.read(Register.SEQUENCE_GAPS) == 2
+
+
+def test_a_select_without_bytes_is_nothing(host):
     host.exchange(b"")
     assert host.status().result is Result.OK
     assert host.read(Register.FRAME_ERRORS) == 0
 
 
+def test_a_burst_of_frames_without_pause_is_carried_out_one_by_one(host):
+    host.ticks_per_byte = 24
+    for number in range(50):
+        host.send(frames.pack_write, Register.IDLE_WORD, number)
+    assert host.read(Register.IDLE_WORD) == 49
+    assert host.read(Register.FRAME_ERRORS) == host.read(Register.SEQUENCE_GAPS) == 0
+
+
+@given(st.binary(min_size=20, max_size=500).filter(lambda payload: len(payload) % 4 == 0))
+@settings(max_examples=40)
+def test_a_test_frame_comes_back_two_bytes_later_behind_the_status(payload):
+    host = Host()
+    sent = host.packed(frames.pack_test, payload)
+    answer = host.exchange(sent)
+    assert answer[FRAME_BYTES:] == sent[FRAME_BYTES - 2 : -2]
+    assert host.status().result is Result.OK
+
+
+def test_an_echo_shows_what_arrived_even_of_a_frame_that_is_refused(host):
+    sent = bytearray(host.packed(frames.pack_test, bytes(range(100))))
+    sent[60] ^= 8
+    assert host.exchange(bytes(sent))[FRAME_BYTES:] == sent[FRAME_BYTES - 2 : -2]
+    assert host.status().result is Result.BAD_CRC
+
+
+def test_only_a_test_is_echoed(host):
+    sent = host.packed(frames.pack_load, 0, memoryview(bytes(range(100))))
+    assert not any(host.exchange(sent)[FRAME_BYTES:])
+
+
 def test_a_chunk_counts_only_whole_and_undamaged(armed):
     chunk = memoryview(bytes(80))
+    crc = zlib.crc32(chunk)
     armed.send(frames.pack_load, 0, chunk)
-    assert armed.result(frames.pack_store, 1, 21) is Result.INCOMPLETE
-    end = frames.pack_load(armed.buffer, 0, 1, 0, chunk)
-    armed.exchange(bytes(armed.buffer[: end - 1]))
-    assert armed.result(frames.pack_store, 1, 20) is Result.INCOMPLETE
+    assert armed.status().chunks == 1
+    assert armed.result(frames.pack_store, 1, 21, 0) is Result.INCOMPLETE
+    armed.exchange(armed.packed(frames.pack_load, 0, chunk)[:-1])
+    assert armed.status().chunks == 0
+    assert armed.result(frames.pack_store, 1, 20, crc) is Result.INCOMPLETE
     armed.send(frames.pack_load, 0, chunk)
-    assert armed.result(frames.pack_store, 1, 20) is Result.OK
-    assert armed.result(frames.pack_store, 1, 20) is Result.INCOMPLETE, "what was stored is not there twice"
+    assert armed.result(frames.pack_store, 1, 20, crc) is Result.OK
+    assert armed.status().chunks == 0
+    assert armed.result(frames.pack_store, 1, 20, crc) is Result.INCOMPLETE, "what was stored is not there twice"
     assert armed.read(Register.SLOTS_LOADED) == 0b11
 
 
-def test_each_trigger_starts_one_play_or_is_counted_as_ignored(armed):
+def test_each_chunk_of_a_whole_waveform_is_needed_and_told(host):
+    words = np.arange(1000, dtype=np.uint32)
+    for chunk in (7, 0, 3, 5, 1, 6, 2):
+        host.load(words[125 * chunk : 125 * chunk + 125], chunk)
+        assert host.result(frames.pack_store, 0, 1000, 0) is Result.INCOMPLETE
+    assert host.status().chunks == 0b11101111
+    host.load(words[500:625], 4)
+    assert host.result(frames.pack_store, 0, 1000, zlib.crc32(words.tobytes())) is Result.OK
+
+
+def test_a_slot_whose_memory_has_another_crc_is_told_and_never_played(armed):
+    good = zlib.crc32(WORDS.tobytes())
+    armed.upload(1, crc=good ^ 1 << 7)
+    assert armed.status().result is Result.OK, "the STORE itself is done: its check follows"
+    assert armed.read(Register.SLOTS_LOADED) == 0b01
+    assert armed.result(frames.pack_play, 1) is Result.SLOT_DAMAGED
+    assert armed.read(READ_SLOT_CRC + 1) == good, "of what is really there"
+    armed.upload(1)
+    assert armed.read(Register.SLOTS_LOADED) == 0b11
+    assert armed.result(frames.pack_play, 1) is Result.OK
+
+
+def test_a_slot_is_busy_until_it_is_checked_and_others_are_not(armed):
+    words = np.arange(1000, dtype=np.uint32)
+    armed.ticks_per_byte = 24  # a short frame takes less than the 1005 ticks of the check
+    armed.upload(1, words)
+    assert armed.result(frames.pack_play, 1) is Result.BUSY
+    armed.upload(1, words)
+    assert armed.send(frames.pack_play, 0).state & State.CHECKING
+    assert armed.status().result is Result.OK, "what another slot holds"
+    armed.upload(1, words)
+    assert armed.result(frames.pack_read, READ_SLOT_CRC + 1) is Result.BUSY
+    armed.upload(1, words)
+    assert armed.result(frames.pack_read, READ_MEMORY) is Result.BUSY, "the check has the memory"
+
+
+@pytest.mark.parametrize(("after", "expected"), [(1004, Result.BUSY), (1005, Result.OK)])
+def test_a_check_takes_a_tick_for_each_word_and_five(armed, after, expected):
+    armed.upload(1, np.arange(1000))
+    armed.tick += after - (5 + 36 * 24 + 4)
+    armed.ticks_per_byte = 24
+    assert armed.result(frames.pack_play, 1) is expected
+
+
+def test_a_store_waits_for_the_check_before(armed):
+    armed.ticks_per_byte = 24
+    words = np.arange(1000)
+    for chunk in range(8):
+        armed.load(words[125 * chunk : 125 * chunk + 125], chunk)
+    armed.send(frames.pack_store, 1, 1000, 0)
+    assert armed.result(frames.pack_store, 0, 1, 0) is Result.BUSY, "said before that nothing has arrived"
+    assert armed.result(frames.pack_store, 0, 1, 0) is Result.INCOMPLETE
+
+
+def test_the_memory_of_a_slot_is_read_back_word_by_word(armed):
+    assert [armed.read(READ_MEMORY + word) for word in range(30)] == WORDS.tolist()
+    assert armed.result(frames.pack_read, READ_MEMORY + 30) is Result.BAD_RANGE
+    armed.store(1, np.arange(1000) + 0xFFFFF000)
+    assert armed.read(READ_MEMORY + 1024 + 999) == 0xFFFFF3E7
+    assert armed.result(frames.pack_read, READ_MEMORY + 1024 + 1000) is Result.BAD_RANGE
+    assert armed.read(READ_SLOT_CRC) == zlib.crc32(WORDS.tobytes())
+
+
+def test_the_memory_that_sounds_cannot_be_read_meanwhile_and_other_memory_can(armed):
+    armed.store(1)
+    armed.play(0, count=0, period_ticks=T)  # always at work
     armed.trigger()
-    armed.send(frames.pack_play, 0)
-    armed.trigger()
-    armed.tick += 50
-    armed.trigger()
-    armed.pins_after(400)
-    armed.trigger()
-    armed.pins_after(400)
-    status = armed.status()
-    assert (status.trigger_count, status.emissions) == (4, 1)
-    assert armed.read(Register.TRIGGERS_IGNORED) == 3
+    assert armed.result(frames.pack_read, READ_MEMORY) is Result.BUSY
+    assert armed.read(READ_MEMORY + 1024) == 1
+    armed.control(Control.STOP)
+    assert armed.read(READ_MEMORY) == 1
 
 
-def test_a_pending_play_waits_while_another_sounds_and_replaces_it_in_its_pause(armed):
-    armed.upload(1, WORDS + 100)
-    armed.send(frames.pack_play, 0, count=0, period_ticks=1_000_000)
-    start = armed.trigger()
-    armed.send(frames.pack_play, 1)
-    armed.model.advance(start + 100)
-    assert State.PLAYING | State.REPEATING in armed.model.status().state
-    armed.tick = max(armed.tick, start + 400)
-    second = armed.trigger()
-    capture = armed.pins_after(2_000)
-    assert word_at(capture, second) == 101
-    assert State.REPEATING not in armed.status().state
-    assert armed.status().emissions == 2
+def test_a_frame_of_another_kind_leaves_the_data_of_the_last_read(host):
+    host.read(Register.IDENTITY)
+    assert host.write(Register.IDLE_WORD, 3) is Result.OK
+    assert host.result(frames.pack_read, 42) is Result.UNKNOWN_REGISTER
+    assert host.status().data == int.from_bytes(b"HPNL", "little")
 
 
-def test_a_counted_repetition_plays_exactly_its_count_exactly_a_period_apart(armed):
-    armed.send(frames.pack_play, 0, count=3, period_ticks=777)
-    start = armed.trigger()
-    capture = armed.pins_after(5000)
-    assert capture.focus_ticks.tolist() == [start + 300 + 777 * n for n in range(3)]
-    assert np.flatnonzero(capture.words == 1).size == 3
+def test_times_are_64_bits_whose_halves_belong_together():
+    start = (5 << 32) - 60_000
+    host = Host(start=start)
+    host.model.advance(start)
+    host.model.permit(start, False)
+    changed = start + 2
+    host.tick += 100
+    assert host.read_time(Register.INPUT_TIME_LOW) == changed
+    host.model.permit(host.tick, True)
+    host.arm()
+    host.store(0)
+    host.play()
+    host.tick = (5 << 32) - 3 - 4  # the trigger is decided on before the wrap, the first word comes after it
+    first_word = host.trigger()
+    assert host.status().timestamp_ticks == host.tick - (5 + 36 * 48 + 4) + 2 > 5 << 32
+    assert host.read_time(Register.TRIGGER_TIME_LOW) == (5 << 32) - 3
+    assert host.read_time(Register.EMISSION_TIME_LOW) == first_word == (5 << 32) + 2
+    assert host.read(Register.TRIGGER_TIME_LOW) == (1 << 32) - 3
+    assert host.read(Register.EMISSION_TIME_HIGH) == 4, "HIGH is that of the LOW read last, whichever it was"
+    lost = host.tick
+    host.model.permit(lost, False)
+    host.tick += 100
+    assert host.read_time(Register.FAULT_TIME_LOW) == lost + 2
 
 
-def test_an_endless_repetition_goes_on_until_stop_lets_the_last_emission_end(armed):
-    armed.send(frames.pack_play, 0, count=0, period_ticks=301)
-    armed.trigger()
-    for _ in range(10):
-        assert armed.status().state & State.REPEATING
-        armed.pins_after(5000)
-    armed.send(frames.pack_control, Control.STOP)
-    before = armed.status()
-    assert State.REPEATING not in before.state
-    capture = armed.pins_after(2000)
-    assert armed.status().emissions - before.emissions in (0, 1)
-    assert word_at(capture, armed.tick) == IDLE
-
-
-def test_stop_drops_a_pending_play(armed):
-    armed.send(frames.pack_play, 0)
-    armed.send(frames.pack_control, Control.STOP)
-    armed.trigger()
-    assert armed.pins_after(1000).words.size == 0
-
-
-def test_a_slot_is_replaced_while_it_plays_and_the_emission_stays_what_it_was(armed):
-    armed.upload(0, np.arange(1, 126))
-    armed.send(frames.pack_play, 0, count=0, period_ticks=2000)
-    armed.trigger()
-    assert armed.upload(0, WORDS + 1000) is Result.OK
-    assert State.LANDING_BUSY in armed.status().state
-    assert armed.result(frames.pack_load, 0, memoryview(bytes(40))) is Result.BUSY
-    assert armed.result(frames.pack_store, 1, 10) is Result.INCOMPLETE
-    armed.send(frames.pack_control, Control.STOP)
-    armed.send(frames.pack_play, 0)
-    capture = armed.pins_after(8000)
-    assert set(capture.words.tolist()) <= {*range(1, 126), IDLE}
-    assert State.LANDING_BUSY not in armed.status().state
-    start = armed.trigger()
-    assert word_at(armed.pins_after(100), start) == 1001
-
-
-def test_masked_channels_stay_low():
-    host = Host()
-    assert host.result(frames.pack_write, Register.CHANNEL_MASK, 0x6) is Result.OK
-    host.arm().upload(0)
-    host.send(frames.pack_play, 0)
-    start = host.trigger()
-    capture = host.pins_after(1000)
-    assert set(capture.words.tolist()) <= {0, 2, 4, 6}
-    assert word_at(capture, start + 2 * BIT_TICKS) == 3 & 6
-
-
-def test_shuts_when_the_permit_goes_and_stays_so_until_cleared(armed):
-    armed.send(frames.pack_play, 0)
-    start = armed.trigger()
-    lost = start + 42
-    armed.model.permit(lost, False)
-    armed.model.permit(lost + 1, True)
-    capture = armed.pins_after(1000)
-    assert (capture.ticks[-1], capture.words[-1], capture.hv[-1]) == (lost + 3, 0, 0)
-    assert capture.focus_ticks.size == 0
-    status = armed.status()
-    assert (status.faults, status.state, status.emissions) == (Fault.NO_PERMIT, ON, 0)
-    assert armed.result(frames.pack_arm, HASH) is Result.FAULTED
-    assert armed.result(frames.pack_play, 0) is Result.FAULTED
-    assert armed.read(Register.FAULT) == Fault.NO_PERMIT
-    assert armed.result(frames.pack_control, Control.CLEAR) is Result.OK
-    assert armed.result(frames.pack_arm, HASH) is Result.OK
-
-
-def test_shuts_one_heartbeat_time_after_the_last_good_frame(armed):
-    armed.status()
-    accepted = armed.tick  # four ticks after chip select rose
-    armed.pins_after(0)
-    capture = armed.pins_after(HEARTBEAT_TICKS - 10)
-    assert capture.ticks.size == 0
-    capture = armed.pins_after(20)
-    assert capture.ticks.tolist() == [accepted + HEARTBEAT_TICKS + 2]
-    assert capture.hv.tolist() == [0]
-    assert armed.status().faults == Fault.HOST_SILENT
-
-
-def test_arming_glides_to_the_idle_word_and_disarming_back():
-    host = Host().arm()
-    capture = host.pins_after(0)
-    assert capture.hv[0] == 1
-    assert set(capture.words.tolist()) <= {0, IDLE}
-    assert word_at(capture, host.tick) == IDLE
-    rise = int(capture.ticks[0])
-    up = [word_at(capture, rise + BIT_TICKS * n) == IDLE for n in range(RAMP_SAMPLES)]
-    assert up == ramp_bits(RAMP_SAMPLES, up=True).tolist()
-    host.send(frames.pack_control, Control.DISARM)
-    assert State.RAMPING in host.status().state or RAMP_SAMPLES * BIT_TICKS < 32 * TICKS_PER_BYTE
-    capture = host.pins_after(RAMP_SAMPLES * BIT_TICKS + 10)
-    assert (capture.words[-1], capture.hv[-1]) == (0, 0)
-    assert host.status().state == ON
-
-
-def test_disarming_drops_what_plays_and_what_waits(armed):
-    armed.send(frames.pack_play, 0, count=0, period_ticks=5000)
-    armed.trigger()
-    armed.send(frames.pack_play, 0)
-    armed.send(frames.pack_control, Control.DISARM)
-    armed.pins_after(1000)
-    assert armed.status().state == ON
-    armed.trigger()
-    assert armed.pins_after(10_000).words.size == 0
+def test_the_levels_of_the_input_pins_can_be_read(host):
+    assert host.read(Register.INPUTS) == 0b011
+    end = host.packed(frames.pack_read, Register.INPUTS)
+    host.model.permit(host.tick, False)
+    host.model.trigger(host.tick + 5 + len(end) * 48)  # two ticks later it is seen, and the READ carried out
+    host.exchange(end)
+    assert host.status().data == 0b110
 
 
 def test_inputs_in_the_past_are_refused():
-    model = GatewareModel(1_000_000, 2, HASH, HEARTBEAT_TICKS)
+    model = GatewareModel(PARAMETERS)
     model.advance(1000)
-    with pytest.raises(ValueError, match="TRIGGER for tick 502 after"):
+    with pytest.raises(ValueError, match="TRIGGER for tick 504 after"):
         model.trigger(500)
+    with pytest.raises(ValueError, match="PERMIT for tick 501 after"):
+        model.permit(500, True)
+    with pytest.raises(ValueError, match="a frame for tick 900 after"):
+        model.exchange(900, 3000, bytes(36), memoryview(bytearray(36)))
 
 
-def test_knows_when_it_has_next_something_to_do(armed):
-    armed.send(frames.pack_play, 0, count=2, period_ticks=900)
-    assert armed.model.next_change() == armed.tick  # carrying out the frame
-    start = armed.trigger()
-    armed.model.advance(start)
-    changes = []
-    for _ in range(3):
-        changes.append(armed.model.next_change())
-        armed.model.advance(changes[-1] + 1)
-    state = start - 3  # of the player, before its way to the pins
-    assert changes == [state + 299, state + 302, state + 899]
-    assert GatewareModel(1_000_000, 2, HASH, HEARTBEAT_TICKS).next_change() is None
+def test_what_the_pins_could_not_show_is_refused():
+    model = GatewareModel(PARAMETERS)
+    for tick, high_ticks, said in ((7, 4, "before tick 8"), (100, 0, "high for 0"), (100, 5, "high for 5")):
+        with pytest.raises(ValueError, match=said):
+            model.trigger(tick, high_ticks)
+    with pytest.raises(ValueError, match="36 bytes need 869 ticks, not 868"):
+        model.exchange(100, 968, bytes(36), memoryview(bytearray(36)))
 
 
-@given(st.integers(1, 4000))
-def test_the_ramp_is_full_scale_at_its_end_and_its_density_follows_a_straight_line(samples):
-    bits = ramp_bits(samples, up=True).astype(float)
-    line = np.arange(1, samples + 1) / samples
-    # second-order shaping keeps the running sum of bit - line within a few samples; a density 1 % off would leave it
-    drift = np.abs(np.cumsum(bits - line))
-    assert drift.max() < 12
-    assert ramp_bits(samples, up=False).sum() == pytest.approx(samples / 2, abs=12)
+def test_nothing_is_foreseen_of_a_model_at_rest():
+    assert GatewareModel(PARAMETERS).next_change() is None
 
 
-def test_the_low_passed_ramp_is_smooth_and_its_audible_part_below_that_of_a_first_order_one():
-    samples, bit_clock_hz = 5000, 500e3
-    line = np.arange(1, samples + 1) / samples
-    first_order = np.diff(np.floor(np.cumsum(line)), prepend=0.0)
-    smooth = np.hanning(121) / np.hanning(121).sum()  # about 8 kHz
-    error = ramp_bits(samples, up=True) - line
-    assert np.abs(np.convolve(error, smooth, "valid")).max() < 0.05
-
-    def audible(error):
-        spectrum = np.abs(np.fft.rfft(error, 8 * samples)) ** 2
-        frequency_hz = np.fft.rfftfreq(8 * samples, 1 / bit_clock_hz)
-        return spectrum[(frequency_hz > 2e3) & (frequency_hz < 16e3)].sum()
-
-    assert audible(error) < audible(first_order - line) / 2
-
-
-def test_the_errors_of_the_ramp_stay_within_their_limit_where_the_loop_has_no_headroom():
-    for samples in (1, 2, 3, 100, 5000):
-        _, errors = modulate(range(1, samples + 1), samples)
-        assert all(abs(error) <= 1.5 * samples for error in errors)
+def test_a_status_is_that_of_an_idle_panel_until_something_happens(host):
+    assert host.status().state == State.RUN_PERMIT | State.TEMPERATURE_GOOD, "nobody has been heard yet"
+    assert host.status().state == ON
+    host.arm()
+    assert host.status().state == ARMED
+    assert host.model.status().queued == 0
+    assert host.pins_after(0).words[-1] == IDLE

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.registers import QUEUE_PLAYS, Result
+from controller.fpga.registers import QUEUE_PLAYS, Result, Start
 
 FETCH = 9  # ticks until the head is valid, after the push or the pop that made it the head
 
@@ -31,11 +31,13 @@ class Play:
             "period_ticks_o": w[2],
             "mask_o": w[3],
             "when_o": w[4] | w[5] << 32,
+            "delayed_o": w[1] >> 16 & 3 != Start.TIME and w[4] != 0,
+            "delayed_one_o": w[4] == 1,
         }
 
 
 def random_play(**fields):
-    words = [random.choice([0, 0xFFFFFFFF, random.getrandbits(32)]) for _ in range(6)]
+    words = [random.choice([0, 1, 0xFFFFFFFF, random.getrandbits(32)]) for _ in range(6)]
     return Play(words, random.randrange(8), random.randrange(1, 1001), **fields)
 
 

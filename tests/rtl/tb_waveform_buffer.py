@@ -12,6 +12,7 @@ from clocked import after_reset, clocks, settled
 from controller.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLOT_CRC, WAVEFORM_WORDS, Result
 
 CHECK_TICKS = 5  # and one for each word, from a STORE until its slot's CRC is known
+LOOK_TICKS = 16  # a STORE and the chunks before it are there at least so long before it is accepted
 SETTLE_TICKS = 4  # a READ of memory needs so many in which nobody else has the buffer
 
 
@@ -147,7 +148,7 @@ class Bench:
                 assert self.seen("store") is expected, (self.seen("store"), expected, self.tick, s)
                 reference.store(self.tick, argument, s["word0"], s["word1"], s["live"])
             self.results = {name: self.seen(name) for name in ("load", "store", "memory", "crc")}
-            self.data = {name: int(getattr(dut, f"{name}_data_o").value) for name in ("memory", "crc")}
+            self.data = {name: getattr(dut, f"{name}_data_o").value for name in ("memory", "crc")}
             after = self.player_reads()  # what is written in the very clock in which it is read is neither
             self.played = [self.played[1], (s["play_buffer"], before if before == after else None)]
             self.tick += 1
@@ -216,7 +217,7 @@ class Bench:
 
     async def store(self, slot, length, crc=0, live=0, wait=True):
         self.ask(argument=slot, word0=length, word1=crc, live=live)
-        await self.step()
+        await self.step(LOOK_TICKS)
         await self.step(store=True)
         result = self.results["store"]
         self.ask(live=0)
@@ -245,7 +246,7 @@ class Bench:
     async def peek(self, name):
         await self.step()
         result = self.results[name]
-        return (result, self.data[name]) if result is Result.OK else result
+        return (result, int(self.data[name])) if result is Result.OK else result
 
     async def play(self, buffer, first, length):
         """What the player reads, a word a clock."""

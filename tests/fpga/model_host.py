@@ -1,0 +1,140 @@
+"""The gateware model with its pins in the hands of a test: frames one after another, triggers, and what comes out."""
+
+import zlib
+from dataclasses import replace
+
+import numpy as np
+
+from controller.fpga import frames
+from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
+
+CLOCK_HZ = 20_000_000
+HASH = 0xC0FFEE
+SLOTS = 2
+HEARTBEAT_TICKS = 400_000
+PARAMETERS = replace(Parameters.of(CLOCK_HZ, SLOTS, HASH), heartbeat_ticks_max=HEARTBEAT_TICKS)
+BIT_TICKS = 10  # 2 MHz, the fastest
+SLOWEST_BIT_TICKS = 200
+RAMP_SAMPLES = 8
+IDLE = 0x0F0F0F0F
+LATENCY = TRIGGER_LATENCY_TICKS + 1  # ticks from the trigger's rise to the first word: the pin is sampled as its tick ends
+COMMAND_TICKS = 6  # from the tick in which a TRIGGER command is carried out
+NOW_TICKS = 14  # from the tick in which a play without a wait is carried out
+FETCHED_TICKS = 5  # from there until a trigger's rise can start it
+ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT
+ARMED = ON | State.ARMED | State.HV_ENABLE
+WORDS = np.arange(1, 31, dtype=np.uint32)
+T = len(WORDS) * BIT_TICKS
+
+
+class Host:
+    """Sends frames to a model one after another, as fast as it may; `tick` is then when the last one is carried out."""
+
+    def __init__(self, parameters=PARAMETERS, start=10, permits=Permit):
+        self.model = GatewareModel(parameters)
+        self.tick = start
+        self.ticks_per_byte = 48
+        self.sequence = 0
+        for permit in permits:
+            self.model.permit(1, True, permit)
+        self._buffer = bytearray(frames.LOAD_FRAME_BYTES)
+
+    def exchange(self, frame):
+        answer = bytearray(len(frame))
+        release = self.tick + 5 + len(frame) * self.ticks_per_byte
+        self.model.exchange(self.tick, release, frame, memoryview(answer))
+        self.tick = release + 4
+        return answer
+
+    def packed(self, pack, *arguments, **named):
+        self.sequence += 1
+        end = pack(self._buffer, 0, self.sequence, *arguments, **named)
+        return bytes(self._buffer[:end])
+
+    def send(self, pack, *arguments, **named):
+        """The status that comes meanwhile; None if the frame is too short to bring it whole."""
+        answer = self.exchange(self.packed(pack, *arguments, **named))
+        return parse_status(answer) if len(answer) >= FRAME_BYTES else None
+
+    def status(self):
+        return self.send(frames.pack_nop)
+
+    def result(self, pack, *arguments, **named):
+        self.send(pack, *arguments, **named)
+        return self.status().result
+
+    def control(self, command):
+        return self.result(frames.pack_control, command)
+
+    def write(self, register, value):
+        return self.result(frames.pack_write, register, value)
+
+    def read(self, address):
+        self.send(frames.pack_read, address)
+        status = self.status()
+        assert status.result is Result.OK
+        return status.data
+
+    def read_time(self, low):
+        return self.read(low) | self.read(low + 1) << 32
+
+    def load(self, words, chunk=0):
+        self.send(frames.pack_load, chunk, memoryview(np.asarray(words, "<u4")).cast("B"))
+
+    def upload(self, slot, words=WORDS, crc=None):
+        """The frames of an upload; the STORE is the last one, its result not yet fetched."""
+        for chunk in range(-(-len(words) // CHUNK_WORDS)):
+            self.load(words[CHUNK_WORDS * chunk : CHUNK_WORDS * (chunk + 1)], chunk)
+        crc = zlib.crc32(np.asarray(words, "<u4").tobytes()) if crc is None else crc
+        self.send(frames.pack_store, slot, len(words), crc)
+
+    def store(self, slot, words=WORDS):
+        self.upload(slot, words)
+        assert self.status().result is Result.OK
+        self.tick += len(words)
+
+    def settings(self, **values):
+        values = {"IDLE_WORD": IDLE, "BIT_PERIOD": BIT_TICKS << 16, "RAMP_SAMPLES": RAMP_SAMPLES} | values
+        for name, value in values.items():
+            assert self.write(Register[name], value) is Result.OK, name
+
+    def unlock_and_arm(self):
+        self.send(frames.pack_unlock, HASH)
+        self.send(frames.pack_control, Control.ARM)
+        return self.status().result
+
+    def arm(self, **settings):
+        self.settings(**settings)
+        assert self.unlock_and_arm() is Result.OK
+        self.tick += RAMP_SAMPLES * SLOWEST_BIT_TICKS
+        return self
+
+    def play(self, slot=0, **named):
+        """Have a play accepted, and wait until a trigger finds it; the tick in which it was carried out."""
+        self.send(frames.pack_play, slot, **named)
+        carried_out = self.tick
+        assert self.status().result is Result.OK
+        return carried_out
+
+    def trigger(self, high_ticks=4):
+        tick = self.tick
+        self.model.trigger(tick, high_ticks)
+        self.tick += 8  # high for four clocks, low for four
+        return tick + LATENCY
+
+    def pins_after(self, ticks):
+        self.tick += ticks
+        self.model.advance(self.tick)
+        return self.model.take_capture()
+
+
+def word_at(capture, tick):
+    """Channel pins at a tick, of a capture that begins before it."""
+    return int(capture.words[np.searchsorted(capture.ticks, tick, "right") - 1])
+
+
+def words_from(capture, start, number, bit_ticks=BIT_TICKS):
+    return [word_at(capture, start + bit_ticks * n) for n in range(number)]
