@@ -364,9 +364,12 @@ async def arming_says_what_is_in_its_way_the_lock_first(dut):
         await bench.unlock()
         assert await bench.arm() is reason
         assert await bench.arm() is Result.LOCKED
-    bench.state |= {"off": 1, "fault": 0, "permitted": 1, "quiet": 0}
-    await bench.unlock()
-    assert await bench.arm() is Result.OK
+    good = {"off": 1, "fault": 0, "permitted": 1, "quiet": 0}
+    for reason, change in ((Result.OK, {}), *reasons):  # each alone
+        bench.state |= good | change
+        await bench.unlock()
+        assert await bench.arm() is reason
+    bench.state |= good
     for bit in range(16):
         bench.state["fault"] = 1 << bit
         await bench.unlock()
