@@ -363,8 +363,8 @@ class Panel:
         now = self.tick
         model = GatewareModel(PARAMETERS)
         answers = []
-        for tick, method, arguments in sorted(self.inputs, key=lambda entry: (entry[0], ORDER.index(entry[1]))):
-            tick += method == late
+        for at, method, arguments in sorted(self.inputs, key=lambda entry: (entry[0], ORDER.index(entry[1]))):
+            tick = at + (method == late)
             if method == "exchange":
                 release_tick, frame = arguments
                 answers.append(bytearray(len(frame)))
