@@ -28,7 +28,7 @@ BUILT_IN = {  # of register_file: limits that no others could be taken for
     "DUTY_TICKS_MAX": 1_000_000,
 }
 BENCHES = {  # by module, and behind a hyphen which of several ways to build it
-    "haptic_core": panel.PARAMETERS,
+    "haptic_core": panel.PARAMETERS.verilog(),
     "crc32": {},
     "crc32_word": {},
     "spi_peripheral": {},
