@@ -274,7 +274,7 @@ def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file):
     assert figures["full_duty_w"]["all"]["median"] == pytest.approx(8.0, rel=0.05)
     assert [row["channel"] for row in figures["channels"]] == sorted(actuator.channel for actuator in board.actuators)
     table = printed(capsys, "bank", "info", bank_file, "--power").out
-    assert "TOO LITTLE at max_duty" in table
+    assert "holds at max_duty" in table
     assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
 
 
