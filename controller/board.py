@@ -158,7 +158,7 @@ class LinkSettings(Record, frozen=True):
 
 
 class Limits(Record, frozen=True):
-    """What the panel may be asked for; the FPGA keeps them, and has its own limits for all but the last."""
+    """What the panel may be asked for, and the resistors it follows from; the FPGA keeps all that has to do with time."""
 
     heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
     ramp_ms: Annotated[float, Meta(gt=0, le=100)]
@@ -169,6 +169,8 @@ class Limits(Record, frozen=True):
     max_channel_edge_rate_hz: Annotated[float, Meta(gt=0, le=500e3)]
     max_total_edge_rate_hz: Annotated[float, Meta(gt=0, le=16e6)]
     max_edge_rate_hz: Positive
+    resistor_rating_w: Annotated[float, Meta(gt=0, le=100)]
+    derating: Share
 
 
 class Board(Record, frozen=True):

@@ -88,7 +88,11 @@ def test_no_two_discs_are_mirror_images():
         ("duty_budget_ms = 100.0", "duty_budget_ms = 19.0", r"limits\.duty_budget_ms = 19\.0: .*>= 20"),
         ("duty_budget_ms = 100.0", "duty_budget_ms = 1001.0", r"limits\.duty_budget_ms = 1001\.0: .*<= 1000"),
         ("longest_emission_ms = 2.5", "longest_emission_ms = 10.1", r"limits\.longest_emission_ms = 10\.1: .*<= 10"),
-        ("longest_emission_ms = 2.5", "longest_emission_ms = 1.9", r"duration_ms = 2 is longer than limits\.longest_emission_ms = 1\.9"),
+        (
+            "longest_emission_ms = 2.5",
+            "longest_emission_ms = 1.9",
+            r"duration_ms = 2 is longer than limits\.longest_emission_ms = 1\.9",
+        ),
         ("min_pulse_us = 1.5", "min_pulse_us = 0.39", r"limits\.min_pulse_us = 0\.39: .*>= 0\.4"),
         ("min_pulse_us = 1.5", "min_pulse_us = 2.01", r"min_pulse_us = 2\.01 is longer than a drive word, 2 us"),
         ("max_total_edge_rate_hz = 4e6\n", "", r"limits: .*missing required field `max_total_edge_rate_hz`"),
@@ -113,7 +117,9 @@ def test_refuses_what_cannot_be_meant(tmp_path, was, becomes, said):
 def test_a_bit_clock_need_not_divide_the_clock(tmp_path):
     """BIT_PERIOD is in 65536ths of a tick: every bit clock is met within 10 millionths."""
     for bit_clock_hz, period in ((500_000.0, 160 << 16), (300_000.0, 17_476_267), (2_000_000.0, 40 << 16), (333_333.0, 15_728_656)):
-        text = SHIPPED.replace("bit_clock_hz = 500e3", f"bit_clock_hz = {bit_clock_hz}").replace("duration_ms = 2.0", "duration_ms = 0.4")
+        text = SHIPPED.replace("bit_clock_hz = 500e3", f"bit_clock_hz = {bit_clock_hz}").replace(
+            "duration_ms = 2.0", "duration_ms = 0.4"
+        )
         (tmp_path / "board.toml").write_text(text.replace("min_pulse_us = 1.5", "min_pulse_us = 0.5"))
         board = load_board(tmp_path)
         assert board.bit_period == period

@@ -126,7 +126,9 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
     assert run.counters.uploads == 1
     assert run.counters.resident == run.counters.skipped.uploads == 19
     silent = perform([(0.0, {}), (0.5, {})], TRAIN)
-    played_bytes = run.link.bytes_sent - silent.link.bytes_sent - FRAME_BYTES * (run.counters.heartbeats - silent.counters.heartbeats)
+    played_bytes = (
+        run.link.bytes_sent - silent.link.bytes_sent - FRAME_BYTES * (run.counters.heartbeats - silent.counters.heartbeats)
+    )
     assert played_bytes == UPLOAD_BYTES + 19 * RESIDENT_BYTES
     assert np.diff(starts_ms(run))[1:] == pytest.approx(20, abs=1e-3)  # the first one waits for its upload
     wire = run.counters.upload_latency.wire, run.counters.resident_latency.wire

@@ -273,7 +273,7 @@ async def settings_take_the_values_allowed_and_only_while_they_may(dut):
     reference = bench.reference
     for register in reference.settings:
         low, high = reference.range_of(register)
-        for value in (low, high, low + 1, (low + high) // 2):
+        for value in (low, high, min(low + 1, high), (low + high) // 2):
             assert await bench.write(register, value, ALL, ALL, ALL) is Result.OK, (register.name, value)
             assert await bench.read(register) == (Result.OK, value)
         refused = [
