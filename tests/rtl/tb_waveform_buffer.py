@@ -320,6 +320,10 @@ async def stores_only_what_has_arrived_whole(dut):
         await bench.load(6, random_words(125))
         assert await bench.store(0, length + 6) is (Result.BAD_VALUE if length > 900 else Result.INCOMPLETE)
         assert await bench.store(0, length) is Result.OK
+    for chunk in range(CHUNKS):
+        await bench.load(chunk, random_words(125 if chunk < 7 else 124))
+    assert await bench.store(0, 1000) is Result.INCOMPLETE
+    assert await bench.store(0, 999) is Result.OK
 
 
 @cocotb.test(timeout_time=10, timeout_unit="ms")
