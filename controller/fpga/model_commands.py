@@ -30,6 +30,7 @@ from controller.fpga.registers import (
     Start,
 )
 
+FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
 _HIGH_OF = {
     Register.FAULT_TIME_LOW: Register.FAULT_TIME_HIGH,
@@ -270,7 +271,7 @@ class Commands:
         def push(tick: int) -> None:
             self.queue.push(tick, play)
             if start is Start.TIME:
-                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest & 0xFFFFFFFFFFFFFFFF
+                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest + FETCH_GAP_TICKS & 0xFFFFFFFFFFFFFFFF
 
         return Result.OK, Effect(push)
 

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 
 from controller.board import data_folder
 from controller.fpga.frames import CRC, HEADER
-from controller.fpga.gateware import SCK_TICKS, SELECT_TO_SCK_TICKS, TRIGGER_HIGH_TICKS
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, frame_ticks
 from controller.fpga.registers import LOAD_PAYLOAD_MIN_BYTES, SHORT_PAYLOAD_BYTES
 from controller.offline.timing_table import IDLE, INPUTS, Case, Change, drive_words, load_cases
 
@@ -83,11 +83,11 @@ def pulse_ticks(case: Case, change: Change) -> int:
     return int(case.bit_ticks) if change.signal == "focus" else 0
 
 
-def frame_ticks(text: str) -> int:
+def length_ticks(text: str) -> int:
     """How long chip select is low for a frame, at the highest SCK."""
     kind, *words = text.split()
     payload = max(4 * len(drive_words(" ".join(words))), LOAD_PAYLOAD_MIN_BYTES) if kind == "LOAD" else SHORT_PAYLOAD_BYTES
-    return SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * (HEADER.size + payload + CRC.size)
+    return frame_ticks(HEADER.size + payload + CRC.size)
 
 
 def draw(case: Case, path: Path) -> None:
@@ -137,7 +137,7 @@ def _edges(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> li
 def _stretches(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> list[tuple[float, float, str]]:
     """(begin, end, text) of what a bus carries; no text: nothing."""
     if signal == "frame":
-        return [(axis.at(change.tick - frame_ticks(change.value)), axis.at(change.tick), change.value) for change in own]
+        return [(axis.at(change.tick - length_ticks(change.value)), axis.at(change.tick), change.value) for change in own]
     first = IDLE if case.setup == "armed" else "0"
     begins = [(0.0, first), *((axis.at(change.tick), change.value) for change in own)]
     ends = [begin for begin, _ in begins[1:]] + [axis.end]

@@ -35,7 +35,7 @@ from controller.fpga.registers import (
     State,
 )
 
-GAP_TICKS = BIT_TICKS  # between the end of a scheduled play and the next: the idle word
+GAP_TICKS = BIT_TICKS + 2  # between the end of a scheduled play and the next: the idle word, and time to fetch
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # from the tick in which a scheduled play is carried out: its time is that of two ticks before
 
 
