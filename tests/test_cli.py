@@ -291,13 +291,17 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
     assert "damaged" in told_off(capsys, "bank", "verify", file)
 
 
-def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file):
+def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file, tmp_path):
     figures = json.loads(printed(capsys, "bank", "info", bank_file, "--power", "--json").out)
     assert figures["full_duty_w"]["all"]["median"] == pytest.approx(8.0, rel=0.05)
     assert [row["channel"] for row in figures["channels"]] == sorted(actuator.channel for actuator in board.actuators)
     table = printed(capsys, "bank", "info", bank_file, "--power").out
-    assert "TOO LITTLE at max_duty" in table
+    assert "a resistor of 1 W, derated to 0.5, may burn 0.5 W: holds at max_duty" in table
     assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
+    text = (find_board("simulated") / "board.toml").read_text()
+    (tmp_path / "board.toml").write_text(text.replace("resistor_rating_w = 1.0", "resistor_rating_w = 0.5"))
+    table = printed(capsys, "bank", "info", bank_file, "--power", "--board", tmp_path).out
+    assert "a resistor of 0.5 W, derated to 0.5, may burn 0.25 W: TOO LITTLE at max_duty" in table
 
 
 def test_info_and_verify_without_a_file_take_the_bank_built_last(capsys, small_board):
