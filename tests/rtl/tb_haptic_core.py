@@ -60,6 +60,7 @@ FINE = (BIT_TICKS << 16) + 21846  # 6 1/3 ticks a word
 UART_BYTE = 10 * UART_BIT_TICKS
 SAME_CLOCK = 17  # a frame by SPI so many ticks behind the start of a UART's byte has bytes in the same clock: 120 is 5 x 24
 RANDOM_FRAMES = 1000
+SCRIPTS_LATE = 3  # of which the model also gets inputs one tick late
 ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.ARMED | State.HV_ENABLE
 OFF = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT
 
@@ -655,9 +656,9 @@ async def disarming_in_the_middle_of_a_word_makes_no_short_pulse(dut, bit_period
     """At every tick of a word, and around the end of an emission: the word and the idle word behind it are whole."""
     panel = await Panel.after_reset(dut)
     await panel.arm(bit_period=bit_period)
-    words = np.array([0x55555555 << number % 2 & 0xFFFFFFFF for number in range(5)], np.uint32)  # every channel, every word
+    words = np.array([0x55555555 << number % 2 & 0xFFFFFFFF for number in range(3)], np.uint32)  # every channel, every word
     await panel.upload(0, words)
-    sounding, lengths = 5 * bit_period >> 16, set()
+    sounding, lengths = len(words) * bit_period >> 16, set()
     for offset in range(sounding + 2 * BIT_TICKS):
         await panel.send(frames.pack_play, 0)
         control = cocotb.start_soon(panel.control(Control.DISARM))
@@ -678,7 +679,7 @@ async def disarming_in_the_middle_of_a_word_makes_no_short_pulse(dut, bit_period
             assert panel.words[seen + len(expected)][0] >= expected[-1][0] + BIT_TICKS
         lengths.add(whole)
         await panel.arm_again(RAMP_SAMPLES * bit_period >> 16)
-    assert lengths == set(range(6)), "from before the first word to behind the last"
+    assert lengths == set(range(4)), "from before the first word to behind the last"
     assert len(panel.focus_ticks) > 3
     assert shortest_pulse_ticks(panel.words) == BIT_TICKS
     panel.check_against_model()
@@ -937,13 +938,10 @@ async def does_what_the_model_does_through_random_sequences(dut):
             emissions += len(panel.check_against_model().focus_ticks)
         except AssertionError as error:
             raise AssertionError(f"random_script({seed}): {error}") from None
-        for late in noticed:
+        for late in noticed if seed < SCRIPTS_LATE else ():
             try:
                 panel.check_against_model(late)
             except AssertionError:
                 noticed[late] += 1
-    dut._log.info("%d scripts, %d emissions, late: %s", seed + 1, emissions, noticed)
-    assert emissions > 100, "too few emissions to mean anything"
-    assert noticed["trigger"] > 3
-    assert noticed["exchange"] == seed + 1, "every status has its time"
-    assert noticed["permit"] > 1
+    assert emissions > 500, "too few emissions to mean anything"
+    assert noticed == dict.fromkeys(noticed, SCRIPTS_LATE), "one tick more of any input is a difference"
