@@ -26,7 +26,7 @@ T = TypeVar("T")
 CHANNELS = 32
 LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
 FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
-FEWEST_SCK_TICKS = 3  # of the gateware: gateware.SCK_TICKS
+FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
 
 Positive = Annotated[float, Meta(gt=0)]
@@ -152,13 +152,13 @@ class LinkSettings(Record, frozen=True):
 
     def __post_init__(self) -> None:
         if self.sck_hz * FEWEST_SCK_TICKS > self.clock_hz:
-            raise ValueError(f"sck_hz = {self.sck_hz} is above a third of clock_hz = {self.clock_hz}")
+            raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
         if self.kind == "serial" and not self.device:
             raise ValueError("device is missing: the serial port of the FPGA, such as /dev/ttyUSB0")
 
 
 class Limits(Record, frozen=True):
-    """What the panel may be asked for; the FPGA keeps them, and has its own limits for all but the last."""
+    """What the panel may be asked for, and the resistors it follows from; the FPGA keeps all that has to do with time."""
 
     heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
     ramp_ms: Annotated[float, Meta(gt=0, le=100)]
@@ -169,6 +169,8 @@ class Limits(Record, frozen=True):
     max_channel_edge_rate_hz: Annotated[float, Meta(gt=0, le=500e3)]
     max_total_edge_rate_hz: Annotated[float, Meta(gt=0, le=16e6)]
     max_edge_rate_hz: Positive
+    resistor_rating_w: Annotated[float, Meta(gt=0, le=100)]
+    derating: Share
 
 
 class Board(Record, frozen=True):

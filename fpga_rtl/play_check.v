@@ -71,7 +71,7 @@ module play_check #(
             product_q  <= 48'd0;
         end else if (step_q == 6'd28) begin
             step_q <= 6'd63;
-            span_q <= {1'b0, product_q} + {17'd0, sounding_q} + {17'd0, rest} + 49'd2;  // the idle word; until the next can be fetched
+            span_q <= {1'b0, product_q} + {17'd0, sounding_q} + {17'd0, rest} + 49'd2;  // so that the next can be fetched
         end else if (step_q != 6'd63) begin
             step_q    <= step_q + 6'd1;
             bits_q    <= {bits_q[14:0], 1'b0};

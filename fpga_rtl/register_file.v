@@ -92,9 +92,11 @@ module register_file #(
     reg [31:0] high_q;             // half of the time whose LOW was read last
     reg        unlocked_q;         // by the frame before
 
+    wire [15:0] register = {10'd0, address_i[5:0]};  // where known_q
+
     reg [31:0] value;
     always @* begin
-        case (address_i)
+        case (register)
             `REGISTER_IDENTITY:          value = `IDENTITY_MAGIC;
             `REGISTER_PROTOCOL:          value = `PROTOCOL_VERSION;
             `REGISTER_BUILD_HASH:        value = BUILD_HASH;
@@ -142,7 +144,7 @@ module register_file #(
     reg        low;                // a time's LOW is asked for, whose other half this is
     always @* begin
         low = 1'b1;
-        case (address_i)
+        case (register)
             `REGISTER_FAULT_TIME_LOW:    high = fault_time_i[63:32];
             `REGISTER_INPUT_TIME_LOW:    high = input_time_i[63:32];
             `REGISTER_TRIGGER_TIME_LOW:  high = trigger_time_i[63:32];
@@ -161,7 +163,7 @@ module register_file #(
     always @* begin
         setting  = 1'b1;
         in_range = 1'b1;
-        case (address_i)
+        case (register)
             `REGISTER_IDLE_WORD, `REGISTER_CHANNEL_MASK: ;
             `REGISTER_BIT_PERIOD:      in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH
                                                   && word0[31:16] >= pulse_ticks_q;
@@ -180,7 +182,7 @@ module register_file #(
     always @(posedge clk_i) begin
         known_q    <= address_i <= `REGISTER_DUTY_LEVEL;
         control_q  <= address_i == `REGISTER_CONTROL;
-        idle_q     <= address_i == `REGISTER_BIT_PERIOD;
+        idle_q     <= register == `REGISTER_BIT_PERIOD;
         arm_q      <= word0 == `CONTROL_ARM;
         disarm_q   <= word0 == `CONTROL_DISARM;
         clear_q    <= word0 == `CONTROL_CLEAR;
@@ -205,15 +207,15 @@ module register_file #(
 
     wire command  = write_i && control_q;
     wire free     = idle_q ? quiet_i : off_i;            // BIT_PERIOD is written while nothing plays or waits, all others while disarmed
-    wire change   = write_i && setting_q && free && in_range_q;
+    wire change   = write_i && known_q && setting_q && free && in_range_q;
 
     always @(posedge clk_i) begin
-        if (read_i && low) high_q <= high;
+        if (read_i && known_q && low) high_q <= high;
         if (refused_i) frame_errors_q <= frame_errors_q + 32'd1;
         if (gap_i) gaps_q <= gaps_q + 32'd1;
         if (accept_i || refused_i) unlocked_q <= command && unlock_q && key_good_q;
         if (change) begin
-            case (address_i)
+            case (register)
                 `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
                 `REGISTER_CHANNEL_MASK:    channel_mask_q    <= word0;
                 `REGISTER_BIT_PERIOD:      bit_period_q      <= word0;

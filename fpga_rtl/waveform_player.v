@@ -93,7 +93,7 @@ module waveform_player #(
 
     wire repeating = endless_q || remaining_q != 16'd0;
     wire resting   = resting_q;
-    wire halted    = stop_i || disarm_i || fault_i;  // nothing begins in this clock
+    wire halted    = stop_i || disarm_i;     // nothing begins in this clock; what begins with a fault ends with it
     wire room      = armed_i && !playing_q && !delayed_q && !resting;
     wire free      = room && !halted;
     wire by_trigger = head_i && head_start_i == `START_TRIGGER && trigger_i;

@@ -79,10 +79,29 @@ def test_no_two_discs_are_mirror_images():
         ("band_high_hz = 70e3", "band_high_hz = 250e3", r"band_high_hz = 250000\.0 is not below half of bit_clock_hz"),
         ("band_high_hz = 70e3", "band_high_hz = 10e3", r"band_high_hz = 10000\.0 is not above band_low_hz"),
         ("supply_v = 60.0", "supply_v = 61.0", r"driver\.supply_v = 61\.0"),
-        ("bit_clock_hz = 500e3", "bit_clock_hz = 300e3", r"bit_clock_hz = 300000\.0 is not link\.clock_hz"),
-        ("clock_hz = 80_000_000", "clock_hz = 1_000_000", r"sck_hz = 13000000 is above a sixth"),
-        ("bit_clock_hz = 500e3", "bit_clock_hz = 301e3", r"bit_clock_hz = 301000\.0 is not link\.clock_hz"),
-        ("sck_hz = 13_000_000", "sck_hz = 20_000_000", r"sck_hz = 20000000 is above a sixth"),
+        ("bit_clock_hz = 500e3", "bit_clock_hz = 99e3", r"waveform\.bit_clock_hz = 99000\.0: .*>= 100000"),
+        ("bit_clock_hz = 500e3", "bit_clock_hz = 2.001e6", r"waveform\.bit_clock_hz = 2001000\.0: .*<= 2000000"),
+        ("clock_hz = 80_000_000", "clock_hz = 1_000_000", r"sck_hz = 25000000 is above a third of clock_hz = 1000000"),
+        ("sck_hz = 25_000_000", "sck_hz = 26_666_667", r"sck_hz = 26666667 is above a third"),
+        ("max_duty = 1.0", "max_duty = 1.01", r"limits\.max_duty = 1\.01"),
+        ("max_duty = 1.0", "max_duty = 0.0", r"limits\.max_duty = 0\.0"),
+        ("duty_budget_ms = 100.0", "duty_budget_ms = 19.0", r"limits\.duty_budget_ms = 19\.0: .*>= 20"),
+        ("duty_budget_ms = 100.0", "duty_budget_ms = 1001.0", r"limits\.duty_budget_ms = 1001\.0: .*<= 1000"),
+        ("longest_emission_ms = 2.5", "longest_emission_ms = 10.1", r"limits\.longest_emission_ms = 10\.1: .*<= 10"),
+        (
+            "longest_emission_ms = 2.5",
+            "longest_emission_ms = 1.9",
+            r"duration_ms = 2 is longer than limits\.longest_emission_ms = 1\.9",
+        ),
+        ("min_pulse_us = 1.5", "min_pulse_us = 0.39", r"limits\.min_pulse_us = 0\.39: .*>= 0\.4"),
+        ("min_pulse_us = 1.5", "min_pulse_us = 2.01", r"min_pulse_us = 2\.01 is longer than a drive word, 2 us"),
+        ("max_total_edge_rate_hz = 4e6\n", "", r"limits: .*missing required field `max_total_edge_rate_hz`"),
+        ("max_channel_edge_rate_hz = 150e3", "max_channel_edge_rate_hz = 501e3", r"limits\.max_channel_edge_rate_hz = 501000\.0"),
+        ("max_channel_edge_rate_hz = 150e3", "max_channel_edge_rate_hz = 0.0", r"limits\.max_channel_edge_rate_hz = 0\.0"),
+        ("max_total_edge_rate_hz = 4e6", "max_total_edge_rate_hz = 17e6", r"limits\.max_total_edge_rate_hz = 17000000\.0"),
+        ('kind = "simulated"', 'kind = "spy"', r"link\.kind = 'spy'"),
+        ('kind = "simulated"', 'kind = "serial"', r"device is missing: the serial port"),
+        ("slots = 4", "slots = 17", r"link\.slots = 17: .*<= 16"),
         ("duration_ms = 2.0", "duration_ms = 3.0", r"duration_ms = 3\.0 is not 1 to 1000 samples"),
         ("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 251.0", r"heartbeat_timeout_ms = 251\.0"),
         ("[210.0, 0.0, 0.0]", "[210.0, 0.0]", r"touch\.x_mm_from_axes"),
@@ -93,6 +112,38 @@ def test_no_two_discs_are_mirror_images():
 def test_refuses_what_cannot_be_meant(tmp_path, was, becomes, said):
     assert was in SHIPPED
     assert re.search(said, refused(tmp_path, SHIPPED.replace(was, becomes, 1)))
+
+
+def test_a_bit_clock_need_not_divide_the_clock(tmp_path):
+    """BIT_PERIOD is in 65536ths of a tick: every bit clock is met within 10 millionths."""
+    for bit_clock_hz, period in ((500_000.0, 160 << 16), (300_000.0, 17_476_267), (2_000_000.0, 40 << 16), (333_333.0, 15_728_656)):
+        text = SHIPPED.replace("bit_clock_hz = 500e3", f"bit_clock_hz = {bit_clock_hz}").replace(
+            "duration_ms = 2.0", "duration_ms = 0.4"
+        )
+        (tmp_path / "board.toml").write_text(text.replace("min_pulse_us = 1.5", "min_pulse_us = 0.5"))
+        board = load_board(tmp_path)
+        assert board.bit_period == period
+        assert board.link.clock_hz * 65536 / period == pytest.approx(bit_clock_hz, rel=10e-6)
+        assert board.bit_ticks == round(period / 65536)
+
+
+def test_the_shortest_drive_word_has_four_ticks(tmp_path):
+    slow = SHIPPED.replace("sck_hz = 25_000_000", "sck_hz = 600_000").replace("clock_hz = 80_000_000", "clock_hz = 2_000_000")
+    (tmp_path / "board.toml").write_text(slow)
+    assert load_board(tmp_path).bit_ticks == 4
+    slow = slow.replace("clock_hz = 2_000_000", "clock_hz = 1_999_999")
+    assert "waveform.bit_clock_hz = 500000.0 is above a 4th of link.clock_hz = 1999999" in refused(tmp_path, slow)
+
+
+def test_sck_may_be_a_third_of_the_clock(tmp_path):
+    (tmp_path / "board.toml").write_text(SHIPPED.replace("sck_hz = 25_000_000", "sck_hz = 26_666_666"))
+    assert load_board(tmp_path).link.sck_hz == 26_666_666
+
+
+def test_a_serial_link_names_its_port(tmp_path):
+    (tmp_path / "board.toml").write_text(SHIPPED.replace('kind = "simulated"', 'kind = "serial"\ndevice = "/dev/ttyUSB0"'))
+    link = load_board(tmp_path).link
+    assert (link.device, link.baud) == ("/dev/ttyUSB0", 1_000_000)
 
 
 def test_refuses_more_than_32_channels(tmp_path):
@@ -137,7 +188,7 @@ def test_the_digest_changes_with_what_a_bank_is_computed_from_and_with_nothing_e
 
 
 def test_a_heartbeat_that_one_frame_would_outlast_is_refused(tmp_path):
-    slow = SHIPPED.replace("sck_hz = 13_000_000", "sck_hz = 100_000")
+    slow = SHIPPED.replace("sck_hz = 25_000_000", "sck_hz = 100_000")
     said = refused(tmp_path, slow.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 81.0"))
     assert "limits.heartbeat_timeout_ms = 81 is less than twice the 41 ms" in said
     (tmp_path / "board.toml").write_text(slow.replace("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 82.0"))

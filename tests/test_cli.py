@@ -108,7 +108,7 @@ def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
             assert summary["count"] == count
             assert summary["p999"] is None
     wire = figures["latency_us"]["wire"]["uploads"]["p50"]
-    assert wire == pytest.approx(8 * (4096 + 96) / 13, rel=0.01), "µs at 13 MHz; 1 % for the pauses between frames"
+    assert wire == pytest.approx(8 * (4096 + 4 * 36) / 25, rel=0.01), "µs at 25 MHz; 1 % for the pauses between frames"
     for name in ("relative_amplitude", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
         assert set(figures["focus"][name]) == {"median", "worst"}
     assert figures["focus"]["relative_amplitude"]["median"] > 0.7, "a click within 1.5 mm of a cell of the 10 mm grid"

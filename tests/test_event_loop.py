@@ -17,6 +17,7 @@ from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.errors import FaultError, TouchError
 from controller.event_loop import EventLoop, VirtualClock
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
 from controller.hardware import open_fpga
 from controller.latency import Counters
@@ -45,8 +46,8 @@ def nearby(end_s):
     return [(0.0, {}), (end_s, {9: (200.0, 140.0)}), (end_s + 0.001, {9: None})]
 
 
-UPLOAD_BYTES = 4096 + 3 * 32
-RESIDENT_BYTES = 2 * 32
+UPLOAD_BYTES = 4096 + 4 * FRAME_BYTES  # STORE, NOP while the slot is checked, PLAY, NOP
+RESIDENT_BYTES = 2 * FRAME_BYTES
 T_S = 2e-3
 
 
@@ -109,7 +110,7 @@ def test_without_touch_there_is_nothing_but_the_heartbeat(perform):
     short = perform([(0.0, {}), (1.0, {})], CLICK)
     long = perform([(0.0, {}), (11.0, {})], CLICK)
     assert long.capture.focus_ticks.size == 0
-    assert long.link.bytes_sent - short.link.bytes_sent == 32 * (long.counters.heartbeats - short.counters.heartbeats)
+    assert long.link.bytes_sent - short.link.bytes_sent == FRAME_BYTES * (long.counters.heartbeats - short.counters.heartbeats)
     assert long.counters.heartbeats - short.counters.heartbeats == pytest.approx(10 / (0.1 / 3), abs=1)
 
 
@@ -125,7 +126,9 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
     assert run.counters.uploads == 1
     assert run.counters.resident == run.counters.skipped.uploads == 19
     silent = perform([(0.0, {}), (0.5, {})], TRAIN)
-    played_bytes = run.link.bytes_sent - 32 * run.counters.heartbeats - (silent.link.bytes_sent - 32 * silent.counters.heartbeats)
+    played_bytes = (
+        run.link.bytes_sent - silent.link.bytes_sent - FRAME_BYTES * (run.counters.heartbeats - silent.counters.heartbeats)
+    )
     assert played_bytes == UPLOAD_BYTES + 19 * RESIDENT_BYTES
     assert np.diff(starts_ms(run))[1:] == pytest.approx(20, abs=1e-3)  # the first one waits for its upload
     wire = run.counters.upload_latency.wire, run.counters.resident_latency.wire
@@ -206,7 +209,7 @@ def test_a_spot_is_handed_to_the_fpga_which_repeats_it_without_the_host(perform)
     assert long.counters.emissions == 1
     assert long.capture.focus_ticks.size - short.capture.focus_ticks.size == 40
     assert np.unique(np.diff(long.capture.focus_ticks.astype(np.int64))).tolist() == [PERIOD_TICKS]
-    assert long.link.bytes_sent - short.link.bytes_sent == 32 * (long.counters.heartbeats - short.counters.heartbeats)
+    assert long.link.bytes_sent - short.link.bytes_sent == FRAME_BYTES * (long.counters.heartbeats - short.counters.heartbeats)
 
 
 def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on_in_its_beat(perform):

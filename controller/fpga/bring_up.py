@@ -108,16 +108,16 @@ def check(
     for channel in channel_self_test(session, board, clock, pause_s, lambda: take_capture and take_capture()):
         channels.append(channel)
         if take_capture:
-            moved.append(_moved(take_capture(), board.idle_word))
+            moved.append(_moved(take_capture()))
     wrong = [channel for channel, pins in zip(channels, moved, strict=False) if pins != [channel]]
     if wrong:
         complaints.append(f"channels {wrong} moved other pins than their own, or none: check the pin constraints")
     return Checked(registers, errors, board.link.slots, damaged, channels, moved if take_capture else None, complaints)
 
 
-def _moved(capture: Capture, idle_word: int) -> list[int]:
-    """Channels whose pins left their idle level."""
-    changed = int(np.bitwise_or.reduce(capture.words ^ np.uint32(idle_word), initial=0))
+def _moved(capture: Capture) -> list[int]:
+    """Channels whose pins went there and back."""
+    changed = int(np.bitwise_or.reduce(capture.words[1:] ^ capture.words[:-1], initial=0))
     return [channel for channel in range(CHANNELS) if changed >> channel & 1]
 
 

@@ -16,7 +16,8 @@ from controller.fpga.registers import DUTY_FULL
 
 READY_TICKS = 8  # from reset to the first frame and the first trigger: inputs pass through registers
 SELECT_TO_SCK_TICKS = 5  # chip select falls at least this long before the first SCK edge
-SCK_TICKS = 3  # shortest period of SCK
+SCK_TICKS = 2  # shortest period of SCK
+SCK_TO_RELEASE_TICKS = 3  # from its last rise to the rise of chip select at least
 SELECT_HIGH_TICKS = 4  # chip select stays high at least this long between frames
 TRIGGER_HIGH_TICKS = 4  # of a trigger, as it is given here
 TRIGGER_PERIOD_TICKS = 8  # between rises of the trigger: high for four clocks, low for four
@@ -109,6 +110,11 @@ GatewareFactory = Callable[[Parameters], Gateware]
 """Gateware just out of reset."""
 
 
+def frame_ticks(size_bytes: int) -> int:
+    """The least from the fall of chip select to its rise."""
+    return SELECT_TO_SCK_TICKS + SCK_TICKS * (8 * size_bytes - 1) + SCK_TO_RELEASE_TICKS
+
+
 class InputTiming:
     """When chip select may fall and rise, and when the trigger may rise; all errors are ValueErrors."""
 
@@ -120,7 +126,7 @@ class InputTiming:
         """Take note of a frame; one that begins too early, or whose bits come too fast, could not be read."""
         if select_tick < self._select_from:
             raise ValueError(f"chip select falls at tick {select_tick}, before tick {self._select_from}")
-        shortest = SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * size_bytes
+        shortest = frame_ticks(size_bytes)
         if release_tick - select_tick < shortest:
             raise ValueError(f"{size_bytes} bytes need {shortest} ticks, not {release_tick - select_tick}")
         self._select_from = release_tick + SELECT_HIGH_TICKS

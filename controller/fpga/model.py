@@ -247,7 +247,7 @@ class GatewareModel:
         if ended and not cause:
             self._telemetry.emissions += 1
             self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
-        halted = bool(cause) or (effect is not None and effect.halts)
+        halted = effect is not None and effect.halts
         self._move_player(tick, trigger, halted)
         if effect is not None:
             effect.take(tick)

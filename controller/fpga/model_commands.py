@@ -30,8 +30,8 @@ from controller.fpga.registers import (
     Start,
 )
 
+FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
-GAP_TICKS = 2  # beyond the idle word's bit period, until a play scheduled behind another can begin
 _HIGH_OF = {
     Register.FAULT_TIME_LOW: Register.FAULT_TIME_HIGH,
     Register.INPUT_TIME_LOW: Register.INPUT_TIME_HIGH,
@@ -271,7 +271,7 @@ class Commands:
         def push(tick: int) -> None:
             self.queue.push(tick, play)
             if start is Start.TIME:
-                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest + GAP_TICKS & 0xFFFFFFFFFFFFFFFF
+                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest + FETCH_GAP_TICKS & 0xFFFFFFFFFFFFFFFF
 
         return Result.OK, Effect(push)
 

@@ -192,7 +192,7 @@ class Player:
 
     def drop(self, tick: int) -> None:
         """Everything is off after this tick."""
-        if self.playing and self.running:
+        if self.playing and self.running and self.start <= tick:
             self.played_until[self.running.buffer] = tick + 1
         self.running = None
         self.playing = self.halting = False

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from controller.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
+from controller.fpga.clock_relation import ClockRelation
 from controller.fpga.exchange import Exchange, Refused
 from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status, upload_slices
 from controller.fpga.link import Link
@@ -34,6 +35,13 @@ class Session:
     now_s : callable
         The loop's clock.
 
+    Attributes
+    ----------
+    exchange : Exchange
+        The messages below.
+    clock_relation : ClockRelation or None
+        If it is set, each heartbeat tells it the FPGA's time, for plays that are scheduled.
+
     Raises
     ------
     LinkError
@@ -53,6 +61,7 @@ class Session:
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
         self._on = False
+        self.clock_relation: ClockRelation | None = None
         self.exchange.short(frames.pack_nop(self._sent, 0, 0), faults_matter=False)
         configuration.verify(self.exchange.read, board, build_hash)
         self._configure()
@@ -125,7 +134,11 @@ class Session:
         LinkError
             If its answers are damaged again and again.
         """
-        return self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        before_s = self._now_s()
+        status = self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        if self.clock_relation is not None:
+            self.clock_relation.add(before_s, max(self._now_s(), self._link.free_s()), status.timestamp_ticks)
+        return status
 
     def play(
         self,

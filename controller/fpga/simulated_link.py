@@ -15,6 +15,7 @@ from controller.fpga.capture import Capture
 from controller.fpga.gateware import READY_TICKS, Gateware, Permit
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
+SELECT_PAUSE_TICKS = 10  # and at least so many clocks
 TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger pin: the frame must have been judged
 
 
@@ -39,7 +40,7 @@ class SimulatedLink:
         self._now_s = now_s
         self._start_s = now_s()
         self._ticks_per_bit = settings.clock_hz / settings.sck_hz
-        self._pause_ticks = round(SELECT_PAUSE_SCK * self._ticks_per_bit)
+        self._pause_ticks = max(round(SELECT_PAUSE_SCK * self._ticks_per_bit), SELECT_PAUSE_TICKS)
         self._free_tick = READY_TICKS  # when the wire is free
         self.gateware = gateware
         for permit in Permit:

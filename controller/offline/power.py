@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from controller.bank.packing import CHANNELS, WORD, channel_bits
 from controller.bank.reader import Bank
 from controller.board import Board, Driver
-from controller.errors import ConfigError
 from controller.offline.driver import DriverResponse
 
 Floats = NDArray[np.float64]
@@ -33,19 +32,10 @@ class Resistor:
     rating_w: float
     derating: float
 
-    def __post_init__(self) -> None:
-        if not self.rating_w > 0:
-            raise ConfigError(f"resistor_rating_w = {self.rating_w:g} is not above 0")
-        if not 0 < self.derating <= 1:
-            raise ConfigError(f"derating = {self.derating:g} is not above 0 and at most 1")
-
     @property
     def permitted_w(self) -> float:
         """What it may burn."""
         return self.rating_w * self.derating
-
-
-RESISTOR = Resistor(rating_w=0.5, derating=0.5)  # thick film, case 1210, rated at 70 °C; in a closed case among 31 others
 
 
 @dataclass(frozen=True)
@@ -154,9 +144,7 @@ def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, cha
     )
 
 
-def power_report(
-    board: Board, bank: Bank, resistor: Resistor = RESISTOR, progress: Callable[[int, int], None] | None = None
-) -> dict[str, Any]:
+def power_report(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Edges, loss and power of a bank's entries, with the limits that follow.
 
     Raises
@@ -164,6 +152,7 @@ def power_report(
     BankError
         If an entry is damaged.
     """
+    resistor = Resistor(board.limits.resistor_rating_w, board.limits.derating)
     edges, loss_j = bank_losses(board, bank, progress)
     duration_s = bank.samples / bank.header.bit_clock_hz
     power_w = loss_j / duration_s

@@ -16,8 +16,8 @@ from controller.board import data_folder
 from controller.fpga.registers import REGISTERS, Register
 
 HEADER = ("address", "name", "access", "bits", "after reset", "what")
-ACCESS = ("RO", "RW", "WO")
-_BITS = re.compile(r"(\d+)(?::(\d+))?")
+ACCESS = ("RO", "RW", "RW idle", "WO")
+_BITS = re.compile(r"(\d+)(?::(\d+))?(?: [^|\n]+)?")
 
 
 class Described(Protocol):
@@ -26,9 +26,9 @@ class Described(Protocol):
     Attributes
     ----------
     access : str
-        RO, RW or WO.
+        One of `ACCESS`.
     bits : str
-        Those that mean something, as in Verilog: `31:0`, `17:0`, `8:0, 15:12`.
+        Those that mean something, as in Verilog: `31:0`; what each part of them is may follow it: `7:0 slots, 31:24 channels`.
     reset : str
         Value after reset: a number (decimal or 0x...), or words where it depends on how the gateware was built.
     text : str
@@ -37,7 +37,7 @@ class Described(Protocol):
 
     @property
     def access(self) -> str:
-        """RO, RW or WO."""
+        """One of `ACCESS`."""
 
     @property
     def bits(self) -> str:
@@ -75,7 +75,7 @@ def used_bits(bits: str) -> int:
     Raises
     ------
     ValueError
-        If that is not a list of bits `n` and ranges `high:low` of a 32-bit word, each named once.
+        If that is not a list of bits `n` and ranges `high:low` of a 32-bit word, each there once.
     """
     mask = 0
     for part in bits.split(","):
@@ -124,7 +124,7 @@ def _check(register: Register, description: Described) -> None:
 
 
 def _row(cells: tuple[str, ...]) -> str:
-    return "|" + "|".join(f" {cell} " if cell.strip("-") else cell for cell in cells) + "|"
+    return "|" + "|".join(cell if cell == "---" else f" {cell} " for cell in cells) + "|"
 
 
 def main(readme: Path | None = None) -> None:

@@ -18,7 +18,10 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from controller.board import data_folder
-from controller.offline.timing_table import IDLE, INPUTS, Case, Change, load_cases
+from controller.fpga.frames import CRC, HEADER
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, frame_ticks
+from controller.fpga.registers import LOAD_PAYLOAD_MIN_BYTES, SHORT_PAYLOAD_BYTES
+from controller.offline.timing_table import IDLE, INPUTS, Case, Change, drive_words, load_cases
 
 PINS: Final = {
     "frame": "SPI frame",
@@ -35,12 +38,12 @@ BUSES: Final = ("frame", "channel")
 ALWAYS: Final = ("channel", "hv_enable", "focus")
 HIGH_AT_FIRST: Final = ("permit", "temperature", "hv_enable")  # while armed
 
-TRIGGER_HIGH_TICKS: Final = 3  # as drawn: at least
 LONGEST_TICKS: Final = 14  # more than that without any change is cut short
 CUT: Final = 6.0  # to this width, in ticks
-FRAME: Final = 15.0  # width of a frame, in ticks: it lasts for hundreds
+FRAME: Final = 15.0  # or to this one, in which the name of a frame has room
 LEAD: Final = 4.0  # ticks shown before the first change and behind the last
 INCH: Final = 0.17  # a tick
+LETTER: Final = 0.38  # width of a letter of 7.5 points, in ticks
 RISE: Final = 0.18  # of an edge, in ticks
 ROW: Final = 1.0
 HEIGHT: Final = 0.56
@@ -52,27 +55,39 @@ class TimeAxis:
     """Where a tick lies in the picture, in ticks as drawn; `cuts` are where time was cut out."""
 
     def __init__(self, case: Case) -> None:
-        frames = {change.tick for change in case.inputs if change.signal == "frame"}
-        ticks = sorted({change.tick for change in (*case.inputs, *case.outputs)} | {0})
-        self.ticks = ticks
+        frames = {change.tick: change.value for change in case.inputs if change.signal == "frame"}
+        self.labels = sorted({change.tick for change in (*case.inputs, *case.outputs)} | {0})
+        begins = {tick - frame_ticks(text) for tick, text in frames.items()}
+        ends = {change.tick + pulse_ticks(case, change) for change in (*case.inputs, *case.outputs)}
+        self.ticks = sorted({*self.labels, *begins, *ends})
         self.cuts: list[float] = []
-        self._at = {ticks[0]: LEAD + (FRAME if ticks[0] in frames else 0.0)}
-        for before, tick in pairwise(ticks):
+        self._at = {self.ticks[0]: LEAD}
+        for before, tick in pairwise(self.ticks):
             gap = float(tick - before)
-            if tick in frames:
-                gap = FRAME + CUT
-                self.cuts.append(self._at[before] + CUT / 2)
-            elif gap > LONGEST_TICKS:
-                gap = CUT
-                self.cuts.append(self._at[before] + CUT / 2)
+            if gap > LONGEST_TICKS:
+                gap = max(FRAME, LETTER * len(frames[tick]) + 6) if tick in frames else CUT
+                self.cuts.append(self._at[before] + (2.0 if tick in frames else 0.75 * gap))
             self._at[tick] = self._at[before] + gap
-        self.cuts += [self._at[tick] - 0.86 * FRAME for tick in frames]
-        self.end = self._at[ticks[-1]] + 2 * LEAD
+        self.end = self._at[self.ticks[-1]] + 2 * LEAD
 
     def at(self, tick: int) -> float:
         """Place of a tick of the table, or of one a little later."""
         known = max((other for other in self.ticks if other <= tick), default=self.ticks[0])
         return self._at[known] + tick - known
+
+
+def pulse_ticks(case: Case, change: Change) -> int:
+    """How long a pulse is high; 0 for what is none."""
+    if change.signal == "trigger":
+        return int(change.value or TRIGGER_HIGH_TICKS)
+    return int(case.bit_ticks) if change.signal == "focus" else 0
+
+
+def length_ticks(text: str) -> int:
+    """How long chip select is low for a frame, at the highest SCK."""
+    kind, *words = text.split()
+    payload = max(4 * len(drive_words(" ".join(words))), LOAD_PAYLOAD_MIN_BYTES) if kind == "LOAD" else SHORT_PAYLOAD_BYTES
+    return frame_ticks(HEADER.size + payload + CRC.size)
 
 
 def draw(case: Case, path: Path) -> None:
@@ -111,18 +126,18 @@ def _edges(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> li
     """(place, level from there on) of a pin."""
     armed = case.setup == "armed"
     edges = [(0.0, int(signal in HIGH_AT_FIRST and (armed or signal != "hv_enable")))]
-    high = {"trigger": TRIGGER_HIGH_TICKS, "focus": case.bit_ticks}.get(signal)
     for change in own:
-        edges.append((axis.at(change.tick), 1 if high else int(change.value)))
-        if high:
-            edges.append((min(axis.at(change.tick) + min(high, CUT), axis.end), 0))
+        lasts = pulse_ticks(case, change)
+        edges.append((axis.at(change.tick), 1 if lasts else int(change.value)))
+        if lasts:
+            edges.append((axis.at(change.tick + lasts), 0))
     return edges
 
 
 def _stretches(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> list[tuple[float, float, str]]:
     """(begin, end, text) of what a bus carries; no text: nothing."""
     if signal == "frame":
-        return [(axis.at(change.tick) - FRAME, axis.at(change.tick), change.value) for change in own]
+        return [(axis.at(change.tick - length_ticks(change.value)), axis.at(change.tick), change.value) for change in own]
     first = IDLE if case.setup == "armed" else "0"
     begins = [(0.0, first), *((axis.at(change.tick), change.value) for change in own)]
     ends = [begin for begin, _ in begins[1:]] + [axis.end]
@@ -156,7 +171,9 @@ def _bus(plot: Any, axis: TimeAxis, base: float, stretches: list[tuple[float, fl
         low = [(begin, middle if begin > 0 else base), (left, base), (right, base)]
         for line, level in ((top, base + HEIGHT), (low, base)):
             plot.plot(*zip(*line, (end, middle if end < axis.end else level), strict=True), color=colour, lw=1.0)
-        plot.text((begin + end) / 2, middle, text, ha="center", va="center", size=7.5, clip_on=True)
+        size = 7.5 * min(1.0, (end - begin - 4 * RISE) / (LETTER * len(text)))
+        box = {"facecolor": COLOURS["bus"], "edgecolor": "none", "pad": 0.3}
+        plot.text((begin + end) / 2, middle, text, ha="center", va="center", size=size, zorder=6, bbox=box)
         reached = end
     if reached < axis.end:
         plot.plot([reached, axis.end], [middle, middle], color=colour, lw=1.0)
@@ -165,7 +182,7 @@ def _bus(plot: Any, axis: TimeAxis, base: float, stretches: list[tuple[float, fl
 def _time(plot: Any, axis: TimeAxis, top: float) -> None:
     """Grid, ticks and breaks; labels too close to each other go to a second line."""
     line_of_label, last = 0, -10.0
-    for tick in axis.ticks:
+    for tick in axis.labels:
         place = axis.at(tick)
         plot.plot([place, place], [-0.12, top - 0.3], color=COLOURS["grid"], lw=0.6, zorder=0)
         line_of_label = 1 - line_of_label if place - last < 0.75 * len(str(tick)) + 0.6 else 0

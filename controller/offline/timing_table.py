@@ -8,19 +8,20 @@
     [case.two_words]
     title = "..."
     why = "..."                     # what would go wrong
-    bit_ticks = 4
-    slots = { 0 = "0x11 0x22" }     # stored before tick 0
+    bit_ticks = 4                   # or 4.25
+    slots = { 0 = "0x11 0x22*8" }   # stored before tick 0: a word, another one 8 times
     plays = ["slot=0 count=1"]      # accepted before tick 0
     settings = { RAMP_SAMPLES = 4 } # registers written before arming
     setup = "armed"                 # or "off"
     table = '''
     0:       trigger
     first:   -> channel=0x11
-    first+8: -> channel=idle focus
+    first+2*bit: -> channel=idle focus
     '''
 
-Rows are `tick: inputs -> outputs`. Tick 0 is any tick; `trigger` is a pulse and `focus` its rise, the others are levels
-from that tick on; `frame="NOP"` is a frame whose chip select rises at that tick. What is not in the table does not change.
+Rows are `tick: inputs -> outputs`. Tick 0 is any tick, `bit` is a bit period; `trigger` is a pulse (`trigger=2`: of two
+ticks) and `focus` the rise of one, the others are levels from that tick on; `frame="NOP"` is a frame whose chip select rises
+at that tick, `@7` in it tick 7 by the FPGA's clock. What is not in the table does not change.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ SETUPS: Final = ("off", "armed")
 IDLE: Final = "idle"
 
 _OPTIONAL: Final[dict[str, type]] = {"slots": dict, "plays": list, "settings": dict}
-_NEEDED: Final[dict[str, type]] = {"title": str, "why": str, "setup": str, "bit_ticks": int, "table": str}
+_NEEDED: Final[dict[str, Any]] = {"title": str, "why": str, "setup": str, "bit_ticks": (int, float), "table": str}
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class Case:
     title: str
     why: str
     setup: str
-    bit_ticks: int
+    bit_ticks: float
     inputs: tuple[Change, ...]
     outputs: tuple[Change, ...]
     slots: dict[int, tuple[int, ...]] = field(default_factory=dict)
@@ -122,12 +123,12 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
     """
     for key, kind in _NEEDED.items():
         if not isinstance(entries.get(key), kind):
-            raise ValueError(f"{key!r} has to be there, of type {kind.__name__}")
+            raise ValueError(f"{key!r} has to be there, of type {getattr(kind, '__name__', 'number')}")
     if unknown := set(entries) - set(_NEEDED) - set(_OPTIONAL):
         raise ValueError(f"unknown: {', '.join(sorted(unknown))}")
     if entries["setup"] not in SETUPS:
         raise ValueError(f"setup is {' or '.join(SETUPS)}, not {entries['setup']!r}")
-    inputs, outputs = read_table(entries["table"], ticks)
+    inputs, outputs = read_table(entries["table"], {"bit": int(entries["bit_ticks"])} | ticks)
     return Case(
         name=name,
         title=entries["title"],
@@ -136,7 +137,7 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
         bit_ticks=entries["bit_ticks"],
         inputs=inputs,
         outputs=outputs,
-        slots={int(slot): tuple(int(word, 0) for word in words.split()) for slot, words in entries.get("slots", {}).items()},
+        slots={int(slot): drive_words(words) for slot, words in entries.get("slots", {}).items()},
         plays=tuple(entries.get("plays", ())),
         settings=dict(entries.get("settings", {})),
     )
@@ -169,8 +170,20 @@ def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tu
     return tuple(inputs), tuple(outputs)
 
 
+def drive_words(text: str) -> tuple[int, ...]:
+    """Words of a waveform: `0x11 0x22*8`.
+
+    Raises
+    ------
+    ValueError
+        If one of them is no number.
+    """
+    parts = [part.partition("*") for part in text.split()]
+    return tuple(int(word, 0) for word, _, times in parts for _ in range(int(times or 1)))
+
+
 def read_tick(text: str, ticks: dict[str, int]) -> int:
-    """The tick that a sum of numbers and named ticks gives: `first+4`.
+    """The tick that a sum of numbers and named ticks gives: `first+2*bit`.
 
     Raises
     ------
@@ -178,13 +191,13 @@ def read_tick(text: str, ticks: dict[str, int]) -> int:
         If a name is not known, or it is no sum.
     """
     compact = text.replace(" ", "")
-    if not re.fullmatch(r"\w+([+-]\w+)*", compact):
+    if not re.fullmatch(r"(\d+\*)?\w+([+-](\d+\*)?\w+)*", compact):
         raise ValueError(f"{text!r} is not a tick")
     total = 0
-    for sign, term in re.findall(r"([+-]?)(\w+)", compact):
+    for sign, times, term in re.findall(r"([+-]?)(?:(\d+)\*)?(\w+)", compact):
         if not term.isdigit() and term not in ticks:
             raise ValueError(f"{term!r} is none of the named ticks {', '.join(ticks)}")
-        value = int(term) if term.isdigit() else ticks[term]
+        value = int(times or 1) * (int(term) if term.isdigit() else ticks[term])
         total += -value if sign == "-" else value
     return total
 
@@ -193,9 +206,11 @@ def _change(tick: int, word: str, signals: tuple[str, ...]) -> Change:
     signal, equals, value = word.partition("=")
     if signal not in signals:
         raise ValueError(f"{signal!r} is none of {', '.join(signals)}")
-    if (signal in PULSES) == bool(equals):
-        raise ValueError(f"{word!r}: {signal} {'is a pulse and has no value' if equals else 'needs a value'}")
-    if signal == "channel" and value != IDLE:
+    if signal == "focus" and equals:
+        raise ValueError(f"{word!r}: focus is a pulse and has no value")
+    if signal not in PULSES and not equals:
+        raise ValueError(f"{word!r}: {signal} needs a value")
+    if (signal == "channel" and value != IDLE) or (signal == "trigger" and equals):
         int(value, 0)
     elif signal not in (*PULSES, "channel", "frame") and value not in {"0", "1"}:
         raise ValueError(f"{word!r}: {signal} is 0 or 1")

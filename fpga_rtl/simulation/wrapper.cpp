@@ -19,7 +19,7 @@ void Vhaptic_core___024root___eval(Vhaptic_core___024root *);
 
 namespace {
 
-constexpr uint64_t SELECT_TO_SCK_TICKS = 5;  // as in controller/fpga/gateware.py
+constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/fpga/gateware.py
 constexpr int RESET_CLOCKS = 4;
 constexpr uint64_t NEVER = UINT64_MAX;
 enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2 };
@@ -59,7 +59,7 @@ public:
     }
 
     void exchange(uint64_t select, uint64_t release, size_t size, const uint8_t *mosi, uint8_t *miso) {
-        const uint64_t bits = 8 * size, room = release - select - SELECT_TO_SCK_TICKS;
+        const uint64_t bits = 8 * size, room = release - select - SELECT_TO_SCK_TICKS - (SCK_TO_RELEASE_TICKS - SCK_TICKS);
         const auto rise = [=](uint64_t bit) { return select + SELECT_TO_SCK_TICKS + bit * room / bits; };
         std::fill_n(miso, size, uint8_t{0});
         run(select);

@@ -15,13 +15,13 @@ from controller.fpga.build_hash import build_hash
 from controller.fpga.frames import parse_status
 from controller.fpga.gateware import (
     READY_TICKS,
-    SCK_TICKS,
     SELECT_HIGH_TICKS,
     SELECT_TO_SCK_TICKS,
     TRIGGER_HIGH_TICKS,
     TRIGGER_PERIOD_TICKS,
     Parameters,
     Permit,
+    frame_ticks,
 )
 from controller.fpga.registers import Control, Register
 
@@ -41,7 +41,7 @@ BIT_TICKS = 6
 RAMP_SAMPLES = 9
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
 IDLE_WORD = 0x96969696
-FRAME_TICKS = SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * frames.FRAME_BYTES
+FRAME_TICKS = frame_ticks(frames.FRAME_BYTES)
 JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is carried out
 
 
@@ -75,7 +75,7 @@ class Script:
 
     def exchange(self, frame):
         """One chip-select assertion; returns the tick of its release."""
-        release = self.tick + SELECT_TO_SCK_TICKS + SCK_TICKS * 8 * len(frame) + self.slack_ticks
+        release = self.tick + max(frame_ticks(len(frame)), SELECT_TO_SCK_TICKS) + self.slack_ticks
         self.steps.append(("exchange", (self.tick, release, bytes(frame))))
         self.tick = release + SELECT_HIGH_TICKS
         return release

@@ -18,7 +18,7 @@ from controller.fpga.registers import Control, Register, Result
 QUICK, SLOW = 3_000, 1_000_000
 CS, SCK, MOSI = 1, 2, 4
 LEAD, LAG, REST = 5, 3, 8  # ticks from chip select to the first bit, from the last to its rise, and between frames
-PER_BIT = 3
+PER_BIT = 2
 REFUSED = {Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC}
 
 
@@ -27,7 +27,7 @@ def bits_of(frame):
 
 
 def clocked(bits):
-    """SCK and MOSI for these bits in mode 0: two ticks low, one high."""
+    """SCK and MOSI for these bits in mode 0: a tick low, a tick high."""
     wave = np.repeat(bits.astype(np.uint8) * MOSI, PER_BIT)
     wave[PER_BIT - 1 :: PER_BIT] |= SCK
     return wave

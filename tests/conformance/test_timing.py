@@ -1,6 +1,7 @@
 """Timing by hand: every table of fpga_rtl/timing, performed on every back-end; and what no table can say."""
 
 import dataclasses
+import re
 
 import pytest
 from pin_script import BIT_TICKS, FRAME_TICKS, JUDGED_TICKS, Script, open_gateware
@@ -14,6 +15,7 @@ from controller.offline.timing_table import Change, load_cases
 
 FOLDER = data_folder("fpga_rtl") / "timing"
 CASES = {case.name: case for case in load_cases(FOLDER)}
+FIRST_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the edge that samples the pin
 WORDS = (0x11, 0x22, 0x33)
 
 
@@ -27,7 +29,8 @@ def test_pins_follow_the_table(back_end, name):
 def later(changes, index):
     """The same changes, one of them a tick later."""
     change = changes[index]
-    return (*changes[:index], Change(change.tick + 1, change.signal, change.value), *changes[index + 1 :])
+    value = re.sub(r"@(\d+)", lambda tick: f"@{int(tick[1]) + 1}", change.value)  # a time told to the FPGA
+    return (*changes[:index], Change(change.tick + 1, change.signal, value), *changes[index + 1 :])
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -66,7 +69,7 @@ def test_latency_is_what_the_host_believes(back_end):
     start = run.trigger()
     run.wait(50)
     _, capture = run.perform(back_end)
-    assert seen(capture, start)[0] == (1 + TRIGGER_LATENCY_TICKS, "channel", 0x11)  # tick 0 ends with the edge that samples the pin
+    assert seen(capture, start)[0] == (FIRST_TICKS, "channel", 0x11)
 
 
 def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
@@ -75,10 +78,10 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
     release = run.control(Control.STOP)
     run.wait(100)
     _, capture = run.perform(back_end)
-    emissions, rest = divmod(int(capture.ticks[-1]) - start - 6, 3 * BIT_TICKS)
+    emissions, rest = divmod(int(capture.ticks[-1]) - start - FIRST_TICKS, 3 * BIT_TICKS)
     assert rest == 0
-    assert 0 < start + 6 + 12 * emissions - (release + JUDGED_TICKS) <= 12 + 4
-    assert capture.focus_ticks.tolist()[0] == start + 18
+    assert 0 < start + FIRST_TICKS + 3 * BIT_TICKS * emissions - (release + JUDGED_TICKS) <= 4 * BIT_TICKS
+    assert capture.focus_ticks.tolist()[0] == start + FIRST_TICKS + 3 * BIT_TICKS
 
 
 @pytest.mark.parametrize(
@@ -86,9 +89,9 @@ def test_a_stop_ends_an_endless_repetition_with_its_emission(back_end):
     [
         ("trigger", (3,)),
         ("trigger", (99,)),
-        ("exchange", (3, 2000, bytes(32), memoryview(bytearray(32)))),
-        ("exchange", (97, 2000, bytes(32), memoryview(bytearray(32)))),
-        ("exchange", (200, 200 + FRAME_TICKS - 1, bytes(32), memoryview(bytearray(32)))),
+        ("exchange", (3, 2000, bytes(36), memoryview(bytearray(36)))),
+        ("exchange", (97, 2000, bytes(36), memoryview(bytearray(36)))),
+        ("exchange", (200, 200 + FRAME_TICKS - 1, bytes(36), memoryview(bytearray(36)))),
         ("permit", (90, True)),
     ],
 )

@@ -1,12 +1,14 @@
 """Performs a timing table: its set-up and its inputs as a script of the pins, and what a capture then shows."""
 
-import inspect
+import zlib
 
+import numpy as np
 from pin_script import IDLE_WORD, Script
 
 from controller.fpga import frames
-from controller.fpga.registers import Control, Register
-from controller.offline.timing_table import IDLE
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, Permit
+from controller.fpga.registers import Control, Register, Start
+from controller.offline.timing_table import IDLE, drive_words
 
 SETTLED_TICKS = 20  # between the set-up and the first thing that a table does
 AFTER_TICKS = 100  # for which nothing else may happen
@@ -17,7 +19,7 @@ ORDER = {"permit": 0, "temperature": 0, "trigger": 1, "frame": 2}  # of what hap
 def script_of(case, origin=None):
     """The script, and the tick that the table calls 0: as early as may be, or that given."""
     run = Script()
-    run.settings(bit_ticks=case.bit_ticks)
+    run.settings(bit_period=round(case.bit_ticks * 65536))
     for name, value in case.settings.items():
         run.send(frames.pack_write, Register[name], value)
     if case.setup == "armed":
@@ -38,14 +40,16 @@ def script_of(case, origin=None):
 
 def perform(run, change, origin, tick):
     if change.signal == "trigger":
-        assert run.trigger(tick) == tick, f"the trigger cannot rise again at tick {tick - origin} of the table"
+        assert run.trigger(tick, int(change.value or TRIGGER_HIGH_TICKS)) == tick, (
+            f"the trigger cannot rise again at tick {tick - origin} of the table"
+        )
     elif change.signal == "frame":
         frame = packed(run, change.value, origin)
         assert tick - duration(frame) >= run.tick, f"{change.value} cannot end at tick {tick - origin} of the table"
         run.tick = tick - duration(frame)
         assert run.exchange(frame) == tick
     else:
-        getattr(run, change.signal)(change.value == "1", tick)
+        run.permit(change.value == "1", tick, Permit.RUN if change.signal == "permit" else Permit.TEMPERATURE)
 
 
 def duration(frame):
@@ -56,14 +60,24 @@ def duration(frame):
 
 
 def packed(run, text, origin):
-    """The frame that a table names: kind, then words or arguments of the function of frames that packs it."""
+    """The frame that a table names: a kind with the arguments of the function that packs it, a command, or words to LOAD."""
     kind, *words = text.split()
     if kind in Control.__members__:
         return run.packed(frames.pack_control, Control[kind])
-    pack = getattr(frames, f"pack_{kind.lower()}")
-    arguments = dict(word.split("=") for word in words if "=" in word)
-    assert set(arguments) <= set(inspect.signature(pack).parameters), text
-    return run.packed(pack, **{name: int(value, 0) for name, value in arguments.items()})
+    if kind == "LOAD":
+        run.loaded = np.array(drive_words(" ".join(words)), "<u4")
+        return run.packed(frames.pack_load, 0, memoryview(run.loaded).cast("B"))
+    arguments = {name: value_of(value, origin) for name, value in (word.split("=") for word in words)}
+    if kind == "STORE":
+        arguments |= {"length_words": len(run.loaded), "crc": zlib.crc32(run.loaded)}
+    return run.packed(getattr(frames, f"pack_{kind.lower()}"), **arguments)
+
+
+def value_of(text, origin):
+    """A number, a start by its name, or `@tick`: a tick of the table by the FPGA's clock."""
+    if text in Start.__members__:
+        return Start[text]
+    return origin + int(text[1:]) if text.startswith("@") else int(text, 0)
 
 
 def expected(case):

@@ -79,7 +79,18 @@ def test_a_status_of_zeros_or_of_a_result_unknown_is_refused_with_the_reason():
         parse_status(buffer)
 
 
-@given(st.integers(0, 300), st.integers(0, 15), u16, u16, u16, u32, st.sampled_from(Start), st.integers(0, 2**64 - 1), u32, st.booleans())
+@given(
+    st.integers(0, 300),
+    st.integers(0, 15),
+    u16,
+    u16,
+    u16,
+    u32,
+    st.sampled_from(Start),
+    st.integers(0, 2**64 - 1),
+    u32,
+    st.booleans(),
+)
 def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
     sequence, slot, first, length, count, period_ticks, start, when_ticks, mask, inverted
 ):
@@ -100,7 +111,14 @@ def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
         inverted=inverted,
     )
     assert end - offset == FRAME_BYTES == 36
-    words = (first | length << 16, count | start << 16 | inverted << 24, period_ticks, mask, when_ticks & 0xFFFFFFFF, when_ticks >> 32)
+    words = (
+        first | length << 16,
+        count | start << 16 | inverted << 24,
+        period_ticks,
+        mask,
+        when_ticks & 0xFFFFFFFF,
+        when_ticks >> 32,
+    )
     frame = judge(memoryview(buffer)[offset:end])
     assert frame == (Result.OK, FrameType.PLAY, sequence & 0xFF, slot, words, 0)
     assert not any(buffer[:offset])

@@ -152,7 +152,12 @@ def test_says_what_it_is_and_what_it_can_do(host):
     assert host.read(Register.PARAMETERS) == 8 | 8 << 8 | 3 << 16
     assert host.read(Register.EDGE_WINDOW_TICKS) == PARAMETERS.edge_window_ticks
     assert host.read(Register.CONTROL) == 0
-    for register, reset in (("BIT_PERIOD", 40 << 16), ("PULSE_TICKS", 8), ("HEARTBEAT_TICKS", HEARTBEAT_TICKS), ("DUTY_SHARE", 65536)):
+    for register, reset in (
+        ("BIT_PERIOD", 40 << 16),
+        ("PULSE_TICKS", 8),
+        ("HEARTBEAT_TICKS", HEARTBEAT_TICKS),
+        ("DUTY_SHARE", 65536),
+    ):
         assert host.read(Register[register]) == reset
 
 

@@ -37,7 +37,7 @@ def reference(limit_settings, inputs):
     return limits_reference(inputs, asdict(limit_settings), WINDOW_TICKS)
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=150)
 @given(limits, st.lists(plans, max_size=8), st.lists(st.tuples(st.integers(1, 50), st.booleans()), max_size=8), st.data())
 def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
     """Plans made at rising ticks, each for now or later, replacing what is not past; sounds, activity, clears, settling."""

@@ -18,7 +18,7 @@ from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import Parameters
 from controller.fpga.model import GatewareModel
-from controller.fpga.registers import Control, FrameType, Register, Result, State
+from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
 from controller.fpga.serial_peer import PseudoTerminal, UartPanel, decoded
 from controller.fpga.session import Session

@@ -1,5 +1,9 @@
 """The host's side of the protocol against the gateware model, and on links that damage what they carry."""
 
+import math
+import zlib
+from dataclasses import replace
+
 import msgspec
 import numpy as np
 import pytest
@@ -8,8 +12,10 @@ from controller.errors import LinkError
 from controller.event_loop import VirtualClock
 from controller.fpga import frames
 from controller.fpga.exchange import Refused
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
-from controller.fpga.registers import Result, State
+from controller.fpga.registers import READ_SLOT_CRC, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
@@ -17,8 +23,8 @@ BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
 
 
-def gateware(settings, build_hash=BUILD):
-    return GatewareModel(settings.clock_hz, settings.slots, build_hash, settings.clock_hz // 4)
+def gateware(settings, build_hash=BUILD, **other):
+    return GatewareModel(replace(Parameters.of(settings.clock_hz, settings.slots, build_hash), **other))
 
 
 class NoisyLink(SimulatedLink):
@@ -95,6 +101,119 @@ def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, cl
     assert not link.take_capture().hv.any()
 
 
+@pytest.mark.parametrize(
+    ("register", "smaller"),
+    [
+        ("EMISSION_TICKS", {"emission_ticks_max": 100_000}),
+        ("CHANNEL_EDGES", {"channel_edges_max": 1000}),
+        ("TOTAL_EDGES", {"total_edges_max": 1000}),
+        ("DUTY_SHARE", {"duty_share_max": 1000}),
+        ("DUTY_TICKS", {"duty_ticks_max": 1000}),
+        ("PULSE_TICKS", {"pulse_ticks_min": 121}),
+        ("HEARTBEAT_TICKS", {"heartbeat_ticks_max": 100_000}),
+    ],
+)
+def test_limits_wider_than_those_built_in_are_refused_by_name(board, clock, register, smaller):
+    link = SimulatedLink(board.link, clock.now_s, gateware(board.link, **smaller))
+    with pytest.raises(LinkError, match=f"does not take .* for {register}: The value is outside what the FPGA allows"):
+        Session(link, board, BUILD, clock.now_s)
+    link.close()
+    assert not link.take_capture().hv.any()
+
+
+def test_the_fpga_is_told_every_limit_of_the_board(board, clock, link):
+    limits = msgspec.structs.replace(
+        board.limits,
+        heartbeat_timeout_ms=90.0,
+        ramp_ms=7.0,
+        max_duty=0.3,
+        duty_budget_ms=60.0,
+        longest_emission_ms=2.2,
+        min_pulse_us=1.21,
+        max_channel_edge_rate_hz=12_345.0,
+        max_total_edge_rate_hz=67_890.0,
+    )
+    session = Session(link, msgspec.structs.replace(board, limits=limits), BUILD, clock.now_s)
+    window_s = session.exchange.read(Register.EDGE_WINDOW_TICKS) / board.link.clock_hz
+    told = {
+        Register.IDLE_WORD: board.idle_word,
+        Register.CHANNEL_MASK: 0xFFFFFFFF,
+        Register.BIT_PERIOD: 160 << 16,
+        Register.RAMP_SAMPLES: 3500,
+        Register.HEARTBEAT_TICKS: 7_200_000,
+        Register.PULSE_TICKS: 96,
+        Register.CHANNEL_EDGES: math.floor(12_345 * window_s),
+        Register.TOTAL_EDGES: math.floor(67_890 * window_s),
+        Register.EMISSION_TICKS: 176_000,
+        Register.DUTY_SHARE: 19_661,
+        Register.DUTY_TICKS: 4_800_000,
+    }
+    assert {register: session.exchange.read(register) for register in told} == told
+
+
+@pytest.mark.parametrize("bit_clock_hz", [500e3, 300e3, 333_333.0, 299_999.0, 1.9e6])
+def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock, link, bit_clock_hz):
+    waveform = msgspec.structs.replace(board.waveform, bit_clock_hz=bit_clock_hz, duration_ms=500e3 / bit_clock_hz)
+    limits = msgspec.structs.replace(board.limits, min_pulse_us=0.5)
+    session = Session(link, msgspec.structs.replace(board, waveform=waveform, limits=limits), BUILD, clock.now_s)
+    found_hz = board.link.clock_hz * 65536 / session.exchange.read(Register.BIT_PERIOD)
+    assert found_hz == pytest.approx(bit_clock_hz, rel=10e-6)
+    assert found_hz != pytest.approx(bit_clock_hz * 1.01, rel=10e-6)
+
+
+def test_a_missing_permit_is_told_when_arming(board, clock, link):
+    session = Session(link, board, BUILD, clock.now_s)
+    link.gateware.permit(round(link.free_s() * link.clock_hz), False, Permit.TEMPERATURE)
+    clock._now_s += 1e-3
+    with pytest.raises(Refused, match="run permit") as caught:
+        session.arm()
+    assert caught.value.result is Result.NO_PERMIT
+
+
+def test_arming_with_a_damaged_frame_is_an_error_after_which_outputs_go_off(board, clock, link):
+    for frame in range(3):  # NOP, UNLOCK, ARM
+        session = Session(link, board, BUILD, clock.now_s)
+        link.noise = {link.frames + frame: ("to the FPGA", 9)}
+        with pytest.raises(Refused, match="damaged on its way"):
+            session.arm()
+        session.off()
+        wait(clock, link, board.limits.ramp_ms * 1e-3)  # damage to the NOP before leaves the ARM behind it good
+        assert State.HV_ENABLE not in session.heartbeat().state
+
+
+def test_a_play_at_once_and_one_at_a_time_need_no_trigger(board, clock, link, armed):
+    armed.upload(1, WORDS)
+    armed.play(1, 1, 0.0, stop=False, start=Start.NOW)
+    wait(clock, link, 3e-3)
+    now = armed.heartbeat()
+    assert (now.emissions, now.trigger_count) == (1, 0)
+    at = now.timestamp_ticks + 400_000
+    armed.play(1, 1, 0.0, stop=False, start=Start.TIME, when_ticks=at, mask=0xFF)
+    wait(clock, link, 9e-3)
+    assert armed.heartbeat().emissions == 2
+    capture = link.take_capture()
+    assert int(capture.focus_ticks[-1]) == at + 1000 * board.bit_ticks
+    masked = capture.words[capture.ticks >= at]
+    assert set((masked & 0xFFFFFF00).tolist()) == {board.idle_word & 0xFFFFFF00}
+    with pytest.raises(Refused, match="has passed, or is too near"):
+        armed.play(1, 1, 0.0, stop=False, start=Start.TIME, when_ticks=at)
+
+
+def test_an_upload_whose_slot_is_still_checked_is_waited_for_at_any_sck(board, clock):
+    for sck_hz in (80_000_000 // 3, 25_000_000, 13_000_000, 4_000_000):
+        settings = msgspec.structs.replace(board.link, sck_hz=sck_hz)
+        on = msgspec.structs.replace(board, link=settings)
+        link = SimulatedLink(settings, clock.now_s, gateware(settings))
+        session = Session(link, on, BUILD, clock.now_s)
+        clock._now_s = session.arm()
+        for stop in (False, True):
+            session.upload_and_play(0, WORDS, 1, 0.0, stop=stop)
+        assert session.heartbeat().queued == 1
+        assert session.exchange.read_address(READ_SLOT_CRC) == zlib.crc32(WORDS)
+        session.off()
+        clock._now_s = link.free_s() + 0.1
+
+
 def test_refuses_an_fpga_that_somebody_else_has_armed(board, clock, link, armed):
     with pytest.raises(LinkError, match="armed already"):
         Session(link, board, BUILD, clock.now_s)
@@ -115,6 +234,7 @@ def test_an_upload_comes_out_of_the_pins_word_by_word(board, clock, link, armed)
     wait(clock, link, 3e-3)
     assert armed.heartbeat().emissions == 1
     capture = link.take_capture()
+    assert armed.exchange.read_slot_crc(2) == zlib.crc32(WORDS)
     start = int(capture.focus_ticks[0]) - 1000 * board.bit_ticks
     sampled = start + board.bit_ticks * np.arange(1000)
     words = capture.words[np.searchsorted(capture.ticks.astype(np.int64), sampled, side="right") - 1]
@@ -156,7 +276,7 @@ def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed)
         armed.clear_faults()
 
 
-@pytest.mark.parametrize("frame", range(11))
+@pytest.mark.parametrize("frame", range(12))
 def test_a_damaged_answer_to_an_upload_makes_it_go_again_and_play_once(clock, link, armed, frame):
     link.noise = {link.frames + frame: ("to the host", 9)}
     armed.upload_and_play(0, WORDS, 1, 0.0, stop=False)
@@ -166,7 +286,7 @@ def test_a_damaged_answer_to_an_upload_makes_it_go_again_and_play_once(clock, li
     assert armed.heartbeat().emissions == 1
 
 
-@pytest.mark.parametrize("byte", [0, 2, 4, 20, 31])
+@pytest.mark.parametrize("byte", [0, 2, 4, 20, 35])
 def test_damaged_answers_are_asked_for_again_and_never_believed(link, armed, byte):
     link.noise = {link.frames: ("to the host", byte)}
     assert State.ARMED in armed.heartbeat().state
@@ -180,14 +300,18 @@ def test_what_the_fpga_refuses_is_said_in_a_sentence_and_changes_nothing(armed):
         armed.play(3, 1, 0.0, stop=False)
     assert caught.value.result is Result.EMPTY_SLOT
     armed.upload_and_play(3, WORDS, 1, 0.0, stop=False)
-    with pytest.raises(Refused, match="still in use"):
+    for _ in range(7):
         armed.play(3, 1, 0.0, stop=False)
-    assert State.PENDING in armed.heartbeat().state
+    with pytest.raises(Refused, match="queue of plays is full"):
+        armed.play(3, 1, 0.0, stop=False)
+    assert armed.heartbeat().queued == 8
+    armed.play(3, 1, 0.0, stop=True)
+    assert armed.heartbeat().queued == 1
 
 
 def test_time_on_the_wire_is_that_of_the_bits_at_sck_and_a_pause_between_frames(board, link, armed):
     wire_ns, bytes_sent = link.wire_ns, link.bytes_sent
     armed.upload_and_play(0, WORDS, 1, 0.0, stop=False)
-    assert link.bytes_sent - bytes_sent == 4096 + 3 * 32
-    bits_ns = 8 * (4096 + 3 * 32) / board.link.sck_hz * 1e9
-    assert bits_ns < link.wire_ns - wire_ns < bits_ns * 1.003 + 11 * 300
+    assert link.bytes_sent - bytes_sent == 4096 + 4 * FRAME_BYTES, "STORE, NOP while the slot is checked, PLAY, NOP"
+    bits_ns = 8 * (4096 + 4 * FRAME_BYTES) / board.link.sck_hz * 1e9
+    assert bits_ns < link.wire_ns - wire_ns < bits_ns * 1.003 + 12 * 300

@@ -10,6 +10,7 @@ from controller.offline.register_table import insert, main, reset_value, table, 
 
 class Toy(IntEnum):
     LIMIT = 2
+    CONTROL = 1
     IDENTITY = 0
 
 
@@ -22,12 +23,14 @@ class Description(NamedTuple):
 
 TOYS = {
     Toy.LIMIT: Description("RW", "17:0", "5000", "drive words, 1 to 262143"),
+    Toy.CONTROL: Description("WO", "31:0", "-", "1 ARM, 2 DISARM"),
     Toy.IDENTITY: Description("RO", "31:0", "0x4C4E5048", "'HPNL'"),
 }
 TABLE = [
     "| address | name | access | bits | after reset | what |",
     "|---|---|---|---|---|---|",
     "| 0 | IDENTITY | RO | 31:0 | 0x4C4E5048 | 'HPNL' |",
+    "| 1 | CONTROL | WO | 31:0 | - | 1 ARM, 2 DISARM |",
     "| 2 | LIMIT | RW | 17:0 | 5000 | drive words, 1 to 262143 |",
 ]
 
@@ -59,6 +62,7 @@ def test_a_description_that_cannot_be_right_is_refused(changes, what):
 def test_bits_and_resets():
     assert used_bits("31:0") == 0xFFFFFFFF
     assert used_bits("0, 7:4, 31") == 0x800000F1
+    assert used_bits("7:0 slots, 31:24 channels") == 0xFF0000FF
     assert [reset_value(reset) for reset in ("0", "0xFF", "the limit built in", "HEARTBEAT_TICKS_MAX")] == [0, 255, None, None]
 
 

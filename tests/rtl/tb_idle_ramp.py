@@ -3,7 +3,7 @@
 import random
 
 import cocotb
-from clocked import after_reset, clocks
+from clocked import after_reset, clocks, reset
 
 from controller.fpga.model_pins import ramp_bits, turned_ramp_bits
 
@@ -61,3 +61,14 @@ async def begins_anew_after_being_shut(dut):
     await bits_while(dut, dut.up_i, 4, most=555)
     await clocks(dut, 3)
     assert await bits_while(dut, dut.up_i, 4) == (ramp_bits(300, up=True).tolist(), True)
+
+
+@cocotb.test(timeout_time=2, timeout_unit="ms")
+async def a_reset_in_the_middle_puts_the_level_back_to_zero(dut):
+    for reached in (3, 100, 555):
+        await after_reset(dut, samples_i=300, bit_ticks_i=4, stay_i=1)
+        await bits_while(dut, dut.up_i, 4, most=reached)
+        await reset(dut)
+        assert dut.bit_o.value == 0
+        await clocks(dut, random.randrange(3))
+        assert await bits_while(dut, dut.up_i, 4) == (ramp_bits(300, up=True).tolist(), True)

@@ -89,6 +89,7 @@ def test_a_module_of_no_bench_is_too_little(folder):
     hits = read(write(folder, "a.dat", dat(other=1)))
     rows = table(hits, line_counts(hits), ["blink", "forgotten"])
     assert too_little(rows) == ["forgotten"]
+    assert too_little([("wires", 0, 0, 0, 0, 3, 90), ("nowhere", 0, 0, 0, 0, 0, 0)]) == ["nowhere"]
     assert readable(rows)[2].split()[:4] == ["forgotten", "0/0", "0.0", "%"]
 
 

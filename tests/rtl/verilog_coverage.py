@@ -107,8 +107,8 @@ def table(hits, counts, modules):
 
 
 def too_little(rows):
-    """Modules that do not reach `LEAST`; one without a line was in no bench."""
-    return [module for module, covered, lines, *_ in rows if not lines or covered < LEAST * lines]
+    """Modules that do not reach `LEAST`, or of which nothing at all was in any bench; one may be wires without a line."""
+    return [module for module, covered, lines, *others in rows if not (lines or any(others)) or covered < LEAST * lines]
 
 
 def readable(rows):

@@ -1,0 +1,212 @@
+"""Bring-up: a good FPGA has no complaints, and each fault of a board gives its own."""
+
+import dataclasses
+import json
+import time
+
+import msgspec
+import numpy as np
+import pytest
+
+from controller.board import data_folder
+from controller.cli import main
+from controller.errors import LinkError
+from controller.event_loop import VirtualClock
+from controller.fpga import bring_up
+from controller.fpga.build_hash import build_hash
+from controller.fpga.clock_relation import ClockRelation
+from controller.fpga.cut_through import keep, play_arriving, slowest_sck_hz
+from controller.fpga.exchange import Refused
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.registers import Register, Result, Start
+from controller.fpga.serial_peer import PseudoTerminal, UartPanel
+from controller.fpga.session import Session
+from controller.fpga.simulated_link import SimulatedLink
+
+BUILD = build_hash(data_folder("fpga_rtl"))
+BITS = 3e4
+
+
+class Wired:
+    """Gateware on a board whose wires are not what they should be."""
+
+    def __init__(self, gateware, pins=lambda words: words, bits=lambda mosi: mosi, answer=lambda _: None):
+        self._gateware, self._pins, self._bits, self._answer = gateware, pins, bits, answer
+
+    def __getattr__(self, name):
+        return getattr(self._gateware, name)
+
+    def exchange(self, select_tick, release_tick, mosi, miso):
+        self._gateware.exchange(select_tick, release_tick, self._bits(bytes(mosi)), miso)
+        self._answer(miso)
+
+    def take_capture(self):
+        capture = self._gateware.take_capture()
+        return dataclasses.replace(capture, words=self._pins(capture.words))
+
+
+def opened(board, **wires):
+    clock = VirtualClock()
+    model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+    link = SimulatedLink(board.link, clock.now_s, Wired(model, **wires))
+    return clock, link, Session(link, board, BUILD, clock.now_s)
+
+
+def checked(board, **wires):
+    clock, link, session = opened(board, **wires)
+    return bring_up.check(session, board, clock, BITS, take_capture=link.take_capture)
+
+
+def test_a_good_board_has_no_complaints(board):
+    done = checked(board)
+    assert done.complaints == []
+    assert done.bit_errors.wrong_bits == done.bit_errors.frames_refused == done.bit_errors.answers_damaged == 0
+    assert done.bit_errors.bits >= 0.9 * BITS
+    assert done.channels_moved == [[channel] for channel in range(32)]
+    assert done.registers["clock_hz"] == board.link.clock_hz
+    assert "control" not in done.registers
+
+
+def swapped(words):
+    one = np.uint32(1)
+    return words & ~np.uint32(3) | (words & one) << one | words >> one & one
+
+
+@pytest.mark.parametrize(
+    ("pins", "wrong"),
+    [
+        (lambda words: words & ~np.uint32(1 << 7), [7]),  # dead
+        (swapped, [0, 1]),
+        (lambda words: words | (words & np.uint32(1 << 1)) << np.uint32(8), [1]),  # shorted to channel 9; both idle low
+    ],
+)
+def test_dead_swapped_and_shorted_channels_are_named(board, pins, wrong):
+    assert f"channels {wrong} moved other pins than their own" in checked(board, pins=pins).complaints[0]
+
+
+def test_wrong_bits_on_the_way_back_are_counted(board):
+    def turn_a_bit(miso):
+        if len(miso) > 100:
+            miso[100] ^= 4
+
+    done = checked(board, answer=turn_a_bit)
+    frames = done.bit_errors.frames
+    assert done.bit_errors.wrong_bits == frames
+    assert done.bit_errors.frames_refused == 0
+    assert "damages bits" in done.complaints[0]
+
+
+def test_wrong_bits_on_the_way_there_are_counted_and_the_frames_refused(board):
+    def turn_a_bit(mosi):
+        return mosi[:200] + bytes([mosi[200] ^ 128]) + mosi[201:] if len(mosi) > 200 and mosi[2] == 6 else mosi
+
+    done = checked(board, bits=turn_a_bit)
+    assert done.bit_errors.frames_refused == done.bit_errors.frames == done.bit_errors.wrong_bits
+
+
+def test_a_slot_that_does_not_keep_its_words_is_noticed(board):
+    _, _, session = opened(board)
+    rng = np.random.default_rng(3)
+    assert bring_up.memory_errors(session, board, rng) == 0
+    words = rng.bytes(4000)
+    session.upload(2, memoryview(words))
+    assert bring_up.read_slot(session, 2, 1000) == words
+    assert session.exchange.read_slot_crc(2) == bring_up.zlib.crc32(words)
+    with pytest.raises(Refused, match="beyond the waveform"):
+        session.exchange.read_address(bring_up.READ_MEMORY + 1024 * 2 + 1000)
+
+
+def test_an_fpga_without_its_permit_does_not_chirp(board):
+    clock, link, session = opened(board)
+    link.gateware.permit(link.gateware.now + 100, False, Permit.TEMPERATURE)
+    with pytest.raises(LinkError, match="run permit is not given"):
+        list(bring_up.channel_self_test(session, board, clock))
+
+
+def test_the_queue_is_read_back(board):
+    clock, _, session = opened(board)
+    armed(session, board, clock)
+    for length in (1, 2, 3):
+        session.play(0, 1, 0.0, stop=False, mask=length)
+    assert [words[3] for words in bring_up.read_queue(session)] == [1, 2, 3]
+
+
+def armed(session, board, clock):
+    words = memoryview(np.arange(1000, dtype="<u4").tobytes())
+    session.upload(0, words)
+    rest(session, clock, session.arm())
+    session.require_armed()
+    return words
+
+
+def rest(session, clock, until_s):
+    selector = bring_up.selectors.DefaultSelector()
+    while clock.now_s() < until_s:
+        session.heartbeat()
+        clock.wait(selector, min(until_s, clock.now_s() + 0.01))
+    selector.close()
+
+
+def test_a_waveform_plays_while_it_arrives_and_can_be_kept(board):
+    clock, link, session = opened(board)
+    words = armed(session, board, clock)
+    began = link.free_s()
+    play_arriving(session, board, words)
+    with pytest.raises(Refused) as refused:
+        keep(session, 1, words)
+    assert refused.value.result is Result.BUSY
+    rest(session, clock, clock.now_s() + 0.01)
+    keep(session, 1, words)
+    rest(session, clock, clock.now_s() + 0.01)
+    assert session.exchange.read(Register.SLOTS_LOADED) == 0b11
+    assert session.exchange.read(Register.EMISSIONS) == 1
+    first_s = link.time_s(session.exchange.read(Register.EMISSION_TIME_LOW)) - began
+    assert first_s < 0.2e-3  # a chunk and a frame at 25 MHz; after a whole upload it would be 1.3 ms
+
+
+def test_a_link_too_slow_for_it_is_refused_by_the_host_and_by_the_fpga(board):
+    slow = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, sck_hz=16_000_000))
+    assert slowest_sck_hz(slow) == pytest.approx(16.384e6)
+    clock, _, session = opened(slow)
+    words = armed(session, slow, clock)
+    with pytest.raises(LinkError, match="sck_hz = 16000000 is below 16384000"):
+        play_arriving(session, slow, words)
+    with pytest.raises(Refused) as refused:
+        play_arriving(session, board, words)
+    assert refused.value.result is Result.LINK_SLOW
+    assert session.exchange.read(Register.EMISSIONS) == 0
+
+
+def test_a_play_is_scheduled_at_a_time_of_the_host(board):
+    clock, link, session = opened(board)
+    armed(session, board, clock)
+    session.clock_relation = relation = ClockRelation(board.link.clock_hz)
+    rest(session, clock, clock.now_s() + 0.5)
+    at_s = clock.now_s() + 0.02
+    session.play(0, 3, 5e-3, stop=False, start=Start.TIME, when_ticks=relation.ticks_at(at_s))
+    rest(session, clock, clock.now_s() + 0.05)
+    capture = link.take_capture()
+    starts = capture.focus_ticks.astype(np.int64) - 1000 * board.bit_ticks
+    assert np.diff(starts).tolist() == [400_000, 400_000]
+    assert abs(link.time_s(int(starts[0])) - at_s) <= relation.error_s(at_s) + 1 / board.link.clock_hz
+
+
+def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys):
+    assert main(["gateware", "check", "--bits", "1e4", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["complaints"] == []
+    assert figures["channels_moved"][31] == [31]
+    model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+    panel = UartPanel(model, board.link.clock_hz, 1_000_000, time.monotonic)
+    with PseudoTerminal(panel.receive) as terminal:
+        assert main(["gateware", "check", "--device", terminal.device, "--bits", "1e4", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["channels"] == list(range(32))
+    assert figures["channels_moved"] is None
+    assert figures["bit_errors"]["bits"] == 0
+
+
+def test_a_device_that_is_not_there_is_one_line(capsys):
+    assert main(["gateware", "check", "--device", "/dev/ttyNONE"]) == 69
+    assert "there is no serial port /dev/ttyNONE" in capsys.readouterr().err

