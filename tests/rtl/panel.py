@@ -38,6 +38,7 @@ from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import (
     READY_TICKS,
     SCK_TICKS,
+    SCK_TO_RELEASE_TICKS,
     SELECT_HIGH_TICKS,
     SELECT_TO_SCK_TICKS,
     TRIGGER_HIGH_TICKS,
@@ -66,7 +67,8 @@ __all__ = [
 CLOCK_NS = 10
 CLOCK_PS = 1000 * CLOCK_NS
 PHASE_PS = CLOCK_PS // 2 + 500  # within a tick: inputs move half a nanosecond behind the clock's fall
-SCK_HALF_NS = SCK_TICKS * CLOCK_NS // 2  # a third of the clock, the fastest allowed
+SCK_HALF_NS = SCK_TICKS * CLOCK_NS // 2  # half of the clock, the fastest allowed
+SCK_TO_RELEASE_NS = SCK_TO_RELEASE_TICKS * CLOCK_NS
 ALIVE_HALF_TICKS = CLOCK_HZ // 40_000  # as in haptic_core.v
 BAUD = 1_000_000  # what haptic_core.v has by itself
 UART_BIT_TICKS = CLOCK_HZ // BAUD
@@ -194,25 +196,28 @@ class Panel:
         """
         dut, answer, sck, mosi, miso = self.dut, 0, self.dut.spi_sck_i, self.dut.spi_mosi_i, self.dut.spi_miso_o
         bits = 8 * len(frame) if bits is None else bits
-        as_number = int.from_bytes(frame, "big")
         select_tick = self.tick
         half_ns = self.sck_half_ns
         if release_tick is not None and bits:
-            half_ns = (release_tick - select_tick - SELECT_TO_SCK_TICKS) * CLOCK_NS // (2 * bits)
+            room_ticks = release_tick - select_tick - SELECT_TO_SCK_TICKS - SCK_TO_RELEASE_TICKS
+            half_ns = room_ticks * CLOCK_NS // (2 * bits - 2)
         half = Timer(half_ns, "ns")
+        sent = "".join(f"{byte:08b}" for byte in frame)[:bits] + "0"
         dut.spi_cs_n_i.value = 0
-        mosi.value = as_number >> (8 * len(frame) - 1) & 1 if bits else 0
+        mosi.value = level = int(sent[0])
         await Timer(INPUT_TICKS * CLOCK_NS, "ns")
         pins = {State.READY: bool(dut.ready_o.value), State.HV_ENABLE: bool(dut.hv_enable_o.value)}
         fault = bool(dut.fault_o.value)
         await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS) * CLOCK_NS, "ns")
-        for place in range(8 * len(frame) - 1, 8 * len(frame) - 1 - bits, -1):  # mode 0: MOSI moves with the fall of SCK
-            mosi.value = as_number >> place & 1
+        for number, following in enumerate(sent[1:], 1):  # mode 0: MOSI moves with the fall of SCK
             answer = answer << 1 | int(miso.value)
             sck.value = 1
+            if number == bits:
+                half = Timer(SCK_TO_RELEASE_NS // 2, "ns")
             await half
             sck.value = 0
-            mosi.value = as_number >> (place - 1) & 1 if place else 0
+            if int(following) != level:
+                mosi.value = level = int(following)
             await half
         if release_tick is not None:
             await self.until(release_tick)

@@ -58,8 +58,9 @@ SOUNDING = SHORT * BIT_TICKS
 FIRST_WORD_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the first clock edge that samples the trigger
 FINE = (BIT_TICKS << 16) + 21846  # 6 1/3 ticks a word
 UART_BYTE = 10 * UART_BIT_TICKS
-SAME_CLOCK = 17  # a frame by SPI so many ticks behind the start of a UART's byte has bytes in the same clock: 120 is 5 x 24
+SAME_CLOCK = 17  # at clk/3, a frame by SPI so many ticks behind a UART byte's start has bytes in the same clocks: 120 is 5 x 24
 RANDOM_FRAMES = 1000
+SCRIPTS_LATE = 3  # of which the model also gets inputs one tick late
 ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.ARMED | State.HV_ENABLE
 OFF = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT
 
@@ -110,7 +111,7 @@ async def first_word_comes_a_constant_number_of_clocks_after_the_trigger_at_any_
     assert TRIGGER_LATENCY_TICKS == 8
     panel = await Panel.after_reset(dut)
     await panel.arm()
-    for number, half_ns in enumerate((15, 17, 22, 43)):  # clk/3, clk/3.4, clk/4.4, clk/8.6
+    for number, half_ns in enumerate((10, 11, 17, 22, 43)):  # clk/2, clk/2.2, clk/3.4, clk/4.4, clk/8.6
         panel.sck_half_ns = half_ns
         words = random_words(SHORT)
         await panel.upload(number % SLOTS, words)
@@ -641,6 +642,7 @@ async def disarming_drops_what_plays_and_what_waits(dut):
     await panel.trigger()
     await panel.play(0)
     await panel.control(Control.DISARM)
+    await panel.wait(2 * BIT_TICKS)  # the word that sounds
     assert not (await panel.status()).state & (State.PLAYING | State.REPEATING | State.PENDING)
     await panel.arm_again()
     await panel.trigger()
@@ -655,9 +657,9 @@ async def disarming_in_the_middle_of_a_word_makes_no_short_pulse(dut, bit_period
     """At every tick of a word, and around the end of an emission: the word and the idle word behind it are whole."""
     panel = await Panel.after_reset(dut)
     await panel.arm(bit_period=bit_period)
-    words = np.array([0x55555555 << number % 2 & 0xFFFFFFFF for number in range(5)], np.uint32)  # every channel, every word
+    words = np.array([0x55555555 << number % 2 & 0xFFFFFFFF for number in range(3)], np.uint32)  # every channel, every word
     await panel.upload(0, words)
-    sounding, lengths = 5 * bit_period >> 16, set()
+    sounding, lengths = len(words) * bit_period >> 16, set()
     for offset in range(sounding + 2 * BIT_TICKS):
         await panel.send(frames.pack_play, 0)
         control = cocotb.start_soon(panel.control(Control.DISARM))
@@ -678,7 +680,7 @@ async def disarming_in_the_middle_of_a_word_makes_no_short_pulse(dut, bit_period
             assert panel.words[seen + len(expected)][0] >= expected[-1][0] + BIT_TICKS
         lengths.add(whole)
         await panel.arm_again(RAMP_SAMPLES * bit_period >> 16)
-    assert lengths == set(range(6)), "from before the first word to behind the last"
+    assert lengths == set(range(4)), "from before the first word to behind the last"
     assert len(panel.focus_ticks) > 3
     assert shortest_pulse_ticks(panel.words) == BIT_TICKS
     panel.check_against_model()
@@ -836,6 +838,7 @@ async def on_both_links(panel, uart_begins, spi_begins):
 async def frames_on_both_links_at_once_are_refused_and_play_nothing(dut):
     panel, _ = await armed(dut, SHORT)
     await panel.open_uart()
+    panel.sck_half_ns = 15
     begins = [(0, tick) for tick in random.sample(range(UART_BYTE, 35 * UART_BYTE), 8) if tick % 24 != SAME_CLOCK]
     begins += [(random.randrange(1, FRAME_TICKS - 2 * UART_BYTE), 0) for _ in range(4)]
     for number, (uart_begins, spi_begins) in enumerate(begins):
@@ -859,6 +862,7 @@ async def a_frame_by_spi_that_loses_no_byte_to_the_uart_counts_and_the_one_over_
     """Bytes of both in the same clock: SPI's is taken, so what was sent whole by SPI arrives whole, whatever the UART hears."""
     panel, words = await armed(dut, SHORT)
     await panel.open_uart()
+    panel.sck_half_ns = 15
     for number, byte in enumerate((4, 20)):
         seen = len(panel.words)
         await on_both_links(panel, 0, byte * UART_BYTE + SAME_CLOCK)
@@ -883,7 +887,7 @@ async def a_reset_in_the_middle_of_everything_leaves_nothing_behind(dut):
         await panel.trigger()
         wire = cocotb.start_soon(panel.wire.send(cobs.encode(panel.packed(frames.pack_play, 0)) + b"\0"))
         frame = cocotb.start_soon(panel.exchange(panel.packed(frames.pack_store, 1, SHORT, 0)))
-        await panel.wait(random.randrange(5, 800))
+        await panel.wait(random.randrange(5, FRAME_TICKS - 60))
         assert dut.hv_enable_o.value == 1
         dut.rst_i.value = 1
         dut.trigger_i.value = 1  # no edge: it was high before anything was seen
@@ -937,13 +941,10 @@ async def does_what_the_model_does_through_random_sequences(dut):
             emissions += len(panel.check_against_model().focus_ticks)
         except AssertionError as error:
             raise AssertionError(f"random_script({seed}): {error}") from None
-        for late in noticed:
+        for late in noticed if seed < SCRIPTS_LATE else ():
             try:
                 panel.check_against_model(late)
             except AssertionError:
                 noticed[late] += 1
-    dut._log.info("%d scripts, %d emissions, late: %s", seed + 1, emissions, noticed)
-    assert emissions > 100, "too few emissions to mean anything"
-    assert noticed["trigger"] > 3
-    assert noticed["exchange"] == seed + 1, "every status has its time"
-    assert noticed["permit"] > 1
+    assert emissions > 500, "too few emissions to mean anything"
+    assert noticed == dict.fromkeys(noticed, SCRIPTS_LATE), "one tick more of any input is a difference"
