@@ -181,6 +181,7 @@ module haptic_core #(
     wire [3:0]  queued;
     wire        quiet, settled;
 
+    wire channels_at_fault = fault[`FAULT_SHORT_PULSE] || fault[`FAULT_CHANNEL_EDGES];
     register_file #(
         .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
         .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
@@ -193,7 +194,7 @@ module haptic_core #(
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
         .off_i(off), .quiet_i((off || armed) && quiet && queued == 4'd0), .permitted_i(run_permit && temperature_ok),
         .refused_i(refuse), .gap_i(accept && sequence_number != expected_sequence),
-        .fault_i(fault), .fault_channels_i(fault_channels), .fault_count_i(fault_count), .fault_time_i(fault_time),
+        .fault_i(fault), .fault_channels_i(channels_at_fault ? fault_channels : 32'd0), .fault_count_i(fault_count), .fault_time_i(fault_time),
         .inputs_i({trigger_q[1], temperature_ok, run_permit}), .input_time_i(input_time_q),
         .triggers_i(triggers), .ignored_i(ignored), .trigger_time_i(trigger_time),
         .emissions_i(emissions), .emission_time_i(emission_time),

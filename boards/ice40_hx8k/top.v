@@ -23,12 +23,12 @@ module top #(
     output wire        ready,
     output wire        fault
 );
-    localparam [31:0] CLOCK_HZ = 32'd48_000_000;    // board.toml says the same
+    localparam [31:0] CLOCK_HZ = 32'd30_000_000;    // board.toml says the same
 
-    // 12 MHz * 64 / 16: the recipe of `icepll -i 12 -o 48`; VCO at 768 MHz
+    // 12 MHz * 80 / 32: the recipe of `icepll -i 12 -o 30`; VCO at 960 MHz
     wire clk, locked;
     SB_PLL40_CORE #(
-        .FEEDBACK_PATH("SIMPLE"), .DIVR(4'd0), .DIVF(7'd63), .DIVQ(3'd4), .FILTER_RANGE(3'd1)
+        .FEEDBACK_PATH("SIMPLE"), .DIVR(4'd0), .DIVF(7'd79), .DIVQ(3'd5), .FILTER_RANGE(3'd1)
     ) pll (
         .REFERENCECLK(iceclk), .PLLOUTGLOBAL(clk), .LOCK(locked), .RESETB(1'b1), .BYPASS(1'b0)
     );

@@ -13,17 +13,17 @@ module top #(
     inout  wire [27:0] gp,
     inout  wire [27:0] gn
 );
-    localparam [31:0] CLOCK_HZ = 32'd75_000_000;    // board.toml says the same
+    localparam [31:0] CLOCK_HZ = 32'd62_500_000;    // board.toml says the same
 
-    // 25 MHz * 3: the recipe of `ecppll -i 25 -o 75`; phase detector at 25 MHz, VCO at 600 MHz
+    // 25 MHz * 5 / 2: the recipe of `ecppll -i 25 -o 62.5`; phase detector at 12.5 MHz, VCO at 625 MHz
     wire clk, locked;
-    (* FREQUENCY_PIN_CLKI="25", FREQUENCY_PIN_CLKOP="75", ICP_CURRENT="12", LPF_RESISTOR="8",
+    (* FREQUENCY_PIN_CLKI="25", FREQUENCY_PIN_CLKOP="62.5", ICP_CURRENT="12", LPF_RESISTOR="8",
        MFG_ENABLE_FILTEROPAMP="1", MFG_GMCREF_SEL="2" *)
     EHXPLLL #(
         .PLLRST_ENA("DISABLED"), .INTFB_WAKE("DISABLED"), .STDBY_ENABLE("DISABLED"), .DPHASE_SOURCE("DISABLED"),
         .OUTDIVIDER_MUXA("DIVA"), .OUTDIVIDER_MUXB("DIVB"), .OUTDIVIDER_MUXC("DIVC"), .OUTDIVIDER_MUXD("DIVD"),
-        .CLKI_DIV(1), .CLKFB_DIV(3), .FEEDBK_PATH("CLKOP"),
-        .CLKOP_ENABLE("ENABLED"), .CLKOP_DIV(8), .CLKOP_CPHASE(4), .CLKOP_FPHASE(0)
+        .CLKI_DIV(2), .CLKFB_DIV(5), .FEEDBK_PATH("CLKOP"),
+        .CLKOP_ENABLE("ENABLED"), .CLKOP_DIV(10), .CLKOP_CPHASE(4), .CLKOP_FPHASE(0)
     ) pll (
         .CLKI(clk_25mhz), .CLKOP(clk), .CLKFB(clk), .LOCK(locked),
         .RST(1'b0), .STDBY(1'b0), .ENCLKOP(1'b0), .PLLWAKESYNC(1'b0),

@@ -24,6 +24,7 @@ from controller.fpga.registers import (
     TIME_LEAD_TICKS,
     WAVEFORM_WORDS,
     Control,
+    Fault,
     FrameType,
     Register,
     Result,
@@ -185,12 +186,13 @@ class Commands:
             return times[register]
         if register in _HIGH_OF.values():
             return telemetry.high
+        at_fault = gate.faults & (Fault.SHORT_PULSE | Fault.CHANNEL_EDGES)
         trigger = any(start <= tick < end for start, end in telemetry.trigger_pin)
         inputs = gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2
         return {
             Register.CONTROL: 0,
             Register.FAULT: int(gate.faults),
-            Register.FAULT_CHANNELS: gate.limits.channels(tick),
+            Register.FAULT_CHANNELS: gate.limits.channels(tick) if at_fault else 0,
             Register.FAULT_COUNT: gate.fault_count,
             Register.INPUTS: inputs,
             Register.TRIGGERS: telemetry.triggers,

@@ -127,7 +127,7 @@ def clock_glitch(rng, bits):
     wave = framed(clocked(bits))
     place = LEAD + PER_BIT * int(rng.integers(1, bits.size)) - PER_BIT
     wave[place] |= SCK
-    return np.insert(wave, place + 1, wave[place] & ~SCK)
+    return np.insert(wave, place + 1, wave[place] & (CS | MOSI))
 
 
 DAMAGE = [wave_of_bits(damage) for damage in (flip, burst, dropped_bits, added_bits, dropped_bytes, added_bytes, cut)]
