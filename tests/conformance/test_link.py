@@ -125,9 +125,8 @@ def select_glitch(rng, bits):
 def clock_glitch(rng, bits):
     """One pulse of SCK too many."""
     wave = framed(clocked(bits))
-    place = LEAD + PER_BIT * int(rng.integers(1, bits.size)) - PER_BIT
-    wave[place] |= SCK
-    return np.insert(wave, place + 1, wave[place] & (CS | MOSI))
+    place = LEAD + PER_BIT * int(rng.integers(0, bits.size))  # a tick with SCK low
+    return np.insert(wave, place + 1, [wave[place] | SCK, wave[place]])
 
 
 DAMAGE = [wave_of_bits(damage) for damage in (flip, burst, dropped_bits, added_bits, dropped_bytes, added_bytes, cut)]
