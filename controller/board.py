@@ -228,6 +228,16 @@ class Board(Record, frozen=True):
         """The same in whole clocks."""
         return round(self.link.clock_hz / self.waveform.bit_clock_hz)
 
+    @property
+    def emission_ticks(self) -> int:
+        """Clocks of the FPGA from the first drive word of an emission to the end of its last."""
+        return self.waveform.samples * self.bit_period >> 16
+
+    def period_ticks(self, period_s: float) -> int:
+        """Clocks from the start of one emission to the next; a period that rounding sets a clock off the emission's is that."""
+        ticks = round(period_s * self.link.clock_hz)
+        return self.emission_ticks if abs(ticks - self.emission_ticks) <= 1 else ticks
+
     def digest(self) -> bytes:
         """SHA-256 of the plate, actuator, driver and waveform tables: what a bank is computed from."""
         tables = (self.plate, self.actuators, self.driver, self.waveform)

@@ -28,7 +28,7 @@ from controller.event_loop import MonotonicClock, VirtualClock
 from controller.fpga.gateware import GatewareFactory
 from controller.fpga.model import GatewareModel
 from controller.hardware import open_fpga, open_serial, recording_path
-from controller.scene import Scene, load_scene, reach
+from controller.scene import Scene, edge_warnings, load_scene, reach
 from controller.scene_file import find_scene
 from controller.tables import plain_table, power_table, run_table
 from controller.touch.recording import Recording
@@ -95,6 +95,9 @@ def run(options: argparse.Namespace) -> int:
 
     # the loop's and the twin's products are small: a second BLAS thread costs more to wake than it saves
     with _open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
+        overdone = [f"{scene_file}: {warning}" for warning in edge_warnings(scene, board, *bank.worst_edges)]
+        for warning in overdone:
+            print(f"haptic-panel: {warning}", file=sys.stderr)
         done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
         judged = simulated_run.judge(done, _progress("plate"))
     if judged.left_out:
@@ -102,6 +105,7 @@ def run(options: argparse.Namespace) -> int:
     figures = {"link": options.link} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
+    figures["warnings"] = overdone + figures["warnings"]
     _show(options, figures, run_table)
     if picture:
         _plot_run(picture, board, judged, recording.name)

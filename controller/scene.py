@@ -26,7 +26,19 @@ from controller.scene_file import Always, Click, Region, Texture, Train, always_
 from controller.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.touch.samples import TouchSample
 
-__all__ = ["Emission", "FingerState", "Scene", "Spot", "find_scene", "load_scene", "next_time_s", "on_time", "on_touch", "reach"]
+__all__ = [
+    "Emission",
+    "FingerState",
+    "Scene",
+    "Spot",
+    "edge_warnings",
+    "find_scene",
+    "load_scene",
+    "next_time_s",
+    "on_time",
+    "on_touch",
+    "reach",
+]
 
 OUTSIDE = -1
 ROUNDING_M = ROUNDING_S = 1e-9  # so that a spacing reached exactly is reached, and a train of 3 beats has 3
@@ -163,6 +175,29 @@ def on_time(scene: Scene, state: FingerState, now_s: float) -> tuple[FingerState
         due_s, next_s = next_s, next_s + period_s
     emission = Emission(due_s, state.x_m, state.y_m, state.finger, area.name)
     return state._replace(train_next_s=_before(next_s, state.train_end_s)), (emission,)
+
+
+def edge_warnings(scene: Scene, board: Board, channel_edges: int, all_edges: int) -> list[str]:
+    """What the FPGA's edge limits would end: one line for each limit that the scene's repetitions exceed.
+
+    Parameters
+    ----------
+    channel_edges, all_edges : int
+        In an emission, of its busiest channel and of all channels together: the worst of a bank.
+    """
+    spots_hz = sum({spot.rate_hz for spot in scene.spots})  # those of one rate are one emission
+    trains_hz = max((area.train.rate_hz for area in scene.areas if area.train), default=0.0)
+    rate_hz = min(spots_hz + trains_hz, board.limits.max_duty / board.waveform.duration_s)
+    limits = board.limits
+    return [
+        f"up to {rate_hz:g} emissions a second make {rate_hz * edges:.4g} edges a second {whose}, above"
+        f" limits.{name} = {limit:g} of board {board.name!r}: the FPGA will switch off"
+        for name, limit, edges, whose in (
+            ("max_channel_edge_rate_hz", limits.max_channel_edge_rate_hz, channel_edges, "on one channel"),
+            ("max_total_edge_rate_hz", limits.max_total_edge_rate_hz, all_edges, "on all channels"),
+        )
+        if rate_hz * edges > limit * (1 + 1e-9)
+    ]
 
 
 def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArray[np.bool_]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -181,6 +182,15 @@ def _check(key: str, effect: Effect, board: Board) -> None:
                 f" {board.waveform.duration_ms:g} ms fit into limits.max_duty = {board.limits.max_duty:g}"
             )
     if isinstance(effect, Always):
+        rest_ticks = board.period_ticks(1 / effect.rate_hz) - board.emission_ticks
+        word_ticks = board.bit_period >> 16
+        if 0 < rest_ticks < word_ticks:
+            clock_hz = board.link.clock_hz
+            raise ConfigError(
+                f"{key}.rate_hz = {effect.rate_hz:g} leaves {rest_ticks / clock_hz * 1e6:.3g} us between emissions, less than a"
+                f" drive word: give {clock_hz / board.emission_ticks:.7g} (no pause)"
+                f" or at most {math.floor(clock_hz / (board.emission_ticks + word_ticks) * 1e3) / 1e3:.7g}"
+            )
         for name, value, most in (("x_mm", effect.x_mm, board.plate.length_mm), ("y_mm", effect.y_mm, board.plate.width_mm)):
             if value is not None and value > most:
                 raise ConfigError(f"{key}.{name} = {value:g} is off the plate (0 to {most:g} mm)")

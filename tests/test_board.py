@@ -81,8 +81,8 @@ def test_no_two_discs_are_mirror_images():
         ("supply_v = 60.0", "supply_v = 61.0", r"driver\.supply_v = 61\.0"),
         ("bit_clock_hz = 500e3", "bit_clock_hz = 99e3", r"waveform\.bit_clock_hz = 99000\.0: .*>= 100000"),
         ("bit_clock_hz = 500e3", "bit_clock_hz = 2.001e6", r"waveform\.bit_clock_hz = 2001000\.0: .*<= 2000000"),
-        ("clock_hz = 80_000_000", "clock_hz = 1_000_000", r"sck_hz = 25000000 is above a third of clock_hz = 1000000"),
-        ("sck_hz = 25_000_000", "sck_hz = 26_666_667", r"sck_hz = 26666667 is above a third"),
+        ("clock_hz = 80_000_000", "clock_hz = 1_000_000", r"sck_hz = 25000000 is above half of clock_hz = 1000000"),
+        ("sck_hz = 25_000_000", "sck_hz = 40_000_001", r"sck_hz = 40000001 is above half"),
         ("max_duty = 1.0", "max_duty = 1.01", r"limits\.max_duty = 1\.01"),
         ("max_duty = 1.0", "max_duty = 0.0", r"limits\.max_duty = 0\.0"),
         ("duty_budget_ms = 100.0", "duty_budget_ms = 19.0", r"limits\.duty_budget_ms = 19\.0: .*>= 20"),
@@ -135,9 +135,9 @@ def test_the_shortest_drive_word_has_four_ticks(tmp_path):
     assert "waveform.bit_clock_hz = 500000.0 is above a 4th of link.clock_hz = 1999999" in refused(tmp_path, slow)
 
 
-def test_sck_may_be_a_third_of_the_clock(tmp_path):
-    (tmp_path / "board.toml").write_text(SHIPPED.replace("sck_hz = 25_000_000", "sck_hz = 26_666_666"))
-    assert load_board(tmp_path).link.sck_hz == 26_666_666
+def test_sck_may_be_half_of_the_clock(tmp_path):
+    (tmp_path / "board.toml").write_text(SHIPPED.replace("sck_hz = 25_000_000", "sck_hz = 40_000_000"))
+    assert load_board(tmp_path).link.sck_hz == 40_000_000
 
 
 def test_a_serial_link_names_its_port(tmp_path):

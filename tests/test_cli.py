@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -33,6 +34,9 @@ def own_cache(tmp_path_factory, monkeypatch):
     return folder
 
 
+SPOT = (
+    'name = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 5.0\neffects = [{ effect = "always", rate_hz = 25.0 }]'
+)
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "click" }]\n'
 
 
@@ -112,6 +116,24 @@ def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
     for name in ("relative_amplitude", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
         assert set(figures["focus"][name]) == {"median", "worst"}
     assert figures["focus"]["relative_amplitude"]["median"] > 0.7, "a click within 1.5 mm of a cell of the 10 mm grid"
+
+
+def test_a_scene_that_the_fpga_will_end_is_warned_of_before_it_plays(capsys, small_board):
+    """With the bank's own count of edges: about 160 of a channel in an emission, 25 times a second."""
+    file = small_board / "board.toml"
+    scene = small_board / "scene.toml"
+    scene.write_text(scene.read_text() + f"[[regions]]\n{SPOT}\n")
+    run = ("run", "--board", small_board, "--speed", "max", "--json")
+    good = json.loads(printed(capsys, *run).out)
+    assert good["warnings"] == []
+    file.write_text(re.sub(r"max_channel_edge_rate_hz = \S+", "max_channel_edge_rate_hz = 2000.0", file.read_text()))
+    assert main([str(argument) for argument in run]) == 1, "the FPGA's own limit is there for the rest"
+    err = capsys.readouterr().err
+    warning, fault = err.splitlines()
+    assert re.search(
+        r"scene\.toml: up to 25 emissions a second make \d+ edges a second on one channel, above limits\.max_channel", warning
+    )
+    assert "A channel had more edges in a window than its stage may be given." in fault
 
 
 @pytest.mark.parametrize("file", sorted(file.name for file in RECORDINGS.iterdir() if file.name != "LICENSE"))
@@ -269,13 +291,17 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
     assert "damaged" in told_off(capsys, "bank", "verify", file)
 
 
-def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file):
+def test_info_tells_what_a_bank_costs_the_stages(capsys, board, bank_file, tmp_path):
     figures = json.loads(printed(capsys, "bank", "info", bank_file, "--power", "--json").out)
     assert figures["full_duty_w"]["all"]["median"] == pytest.approx(8.0, rel=0.05)
     assert [row["channel"] for row in figures["channels"]] == sorted(actuator.channel for actuator in board.actuators)
     table = printed(capsys, "bank", "info", bank_file, "--power").out
-    assert "TOO LITTLE at max_duty" in table
+    assert "a resistor of 1 W, derated to 0.5, may burn 0.5 W: holds at max_duty" in table
     assert f"{figures['full_duty_w']['all']['median']:.4g}" in table
+    text = (find_board("simulated") / "board.toml").read_text()
+    (tmp_path / "board.toml").write_text(text.replace("resistor_rating_w = 1.0", "resistor_rating_w = 0.5"))
+    table = printed(capsys, "bank", "info", bank_file, "--power", "--board", tmp_path).out
+    assert "a resistor of 0.5 W, derated to 0.5, may burn 0.25 W: TOO LITTLE at max_duty" in table
 
 
 def test_info_and_verify_without_a_file_take_the_bank_built_last(capsys, small_board):

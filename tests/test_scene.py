@@ -10,7 +10,19 @@ from controller.bank.grid import Grid
 from controller.bank.selection import LATTICE_M
 from controller.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene import Area, FingerState, Scene, Spot, find_scene, load_scene, next_time_s, on_time, on_touch, reach
+from controller.scene import (
+    Area,
+    FingerState,
+    Scene,
+    Spot,
+    edge_warnings,
+    find_scene,
+    load_scene,
+    next_time_s,
+    on_time,
+    on_touch,
+    reach,
+)
 from controller.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -240,6 +252,66 @@ def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_o
         scene_of(region)
     assert words in str(caught.value)
     assert str(caught.value).startswith(str(tmp_path / "scene.toml"))
+
+
+def on_board(tmp_path, text, **limits):
+    """The scene on the simulated board with other limits."""
+    file = tmp_path / "scene.toml"
+    file.write_text(text)
+    board = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, **limits))
+    return load_scene(file, board), board
+
+
+@pytest.mark.parametrize(("rate_hz", "good"), [(500, True), (499.9, False), (499.51, False), (499.5, True), (25, True)])
+def test_a_spot_whose_pause_is_shorter_than_a_drive_word_is_refused_before_the_fpga_does(scene_of, rate_hz, good):
+    """The FPGA takes T = 160,000 ticks or T + 160 and more, and calls what lies between BAD_PERIOD: above 499.5005 Hz."""
+    effect = f'{{ effect = "always", rate_hz = {rate_hz} }}'
+    if good:
+        scene_of(square(effect))
+        return
+    said = r"effects\[0\]\.rate_hz = 499\.\d+ leaves [\d.]+ us between emissions, .*: give 500 \(no pause\) or at most 499\.5$"
+    with pytest.raises(ConfigError, match=said):
+        scene_of(square(effect))
+
+
+def test_a_period_that_rounding_puts_a_tick_off_the_emission_is_the_emissions():
+    waveform = msgspec.structs.replace(BOARD.waveform, bit_clock_hz=333_333.0, duration_ms=3.0)
+    board = msgspec.structs.replace(BOARD, waveform=waveform)
+    assert board.emission_ticks == 1000 * board.bit_period >> 16 == 240_000
+    assert board.period_ticks(1 / 333.333) == 240_000
+    assert board.period_ticks(1 / 333.33) == 240_002
+    assert BOARD.period_ticks(1 / 500) == BOARD.emission_ticks == 160_000
+    assert BOARD.period_ticks(1 / 25) == 3_200_000
+
+
+def test_repetitions_that_the_fpgas_edge_limits_would_end_are_warned_of(tmp_path):
+    spots = [
+        square(f'{{ effect = "always", rate_hz = {rate_hz} }}', name, x_mm) for name, rate_hz, x_mm in (("a", 20, 0), ("b", 30, 50))
+    ]
+    train = square(TRAIN, "c", 100)
+    text = "".join(f"[[regions]]\n{region}\n" for region in (*spots, train))  # 20 + 30 + 100 emissions a second
+    scene, board = on_board(tmp_path, text, max_channel_edge_rate_hz=15_000.0, max_total_edge_rate_hz=400_000.0)
+    assert edge_warnings(scene, board, 100, 2666) == []
+    (channel,) = edge_warnings(scene, board, 101, 2666)
+    assert "up to 150 emissions a second make 1.515e+04 edges a second on one channel" in channel
+    assert "limits.max_channel_edge_rate_hz = 15000 of board 'simulated': the FPGA will switch off" in channel
+    (together,) = edge_warnings(scene, board, 100, 2667)
+    assert "on all channels, above limits.max_total_edge_rate_hz = 400000" in together
+    assert len(edge_warnings(scene, board, 101, 2667)) == 2
+
+
+def test_spots_of_one_rate_are_one_emission_and_no_scene_plays_more_than_the_duty_allows(tmp_path):
+    spots = [square('{ effect = "always", rate_hz = 50 }', name, x_mm) for name, x_mm in (("a", 0), ("b", 50))]
+    text = "".join(f"[[regions]]\n{region}\n" for region in spots)
+    assert edge_warnings(*on_board(tmp_path, text, max_channel_edge_rate_hz=5000.0), 100, 100) == []
+    text += f"[[regions]]\n{square(TRAIN, 'c', 100)}\n"
+    assert edge_warnings(*on_board(tmp_path, text, max_duty=0.2, max_channel_edge_rate_hz=10_000.0), 100, 100) == []
+    assert edge_warnings(*on_board(tmp_path, text, max_duty=0.202, max_channel_edge_rate_hz=10_000.0), 100, 100)
+
+
+def test_a_scene_without_repetitions_is_warned_of_nothing(tmp_path):
+    scene, board = on_board(tmp_path, f"[[regions]]\n{square(CLICK + ',' + TEXTURE)}\n", max_channel_edge_rate_hz=1.0)
+    assert edge_warnings(scene, board, 1000, 32_000) == []
 
 
 @pytest.mark.parametrize("text", ["", "regions = []", "regions = 3", "not toml", "speed = 3"])

@@ -119,6 +119,8 @@ def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_
             needed = np.ones(grid.cells, bool) if cells is None else cells
             if bank.grid != grid or (needed & ~bank.cells).any() or bank.header.creator != creator():
                 return False
+            if bank.header.parameters.get("channel_edges") is None:
+                return False
         verify_bank(path)
     except BankError:
         return False

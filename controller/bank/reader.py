@@ -110,6 +110,14 @@ class Bank:
         return np.array(self._entry_of) >= 0
 
     @property
+    def worst_edges(self) -> tuple[int, int]:
+        """Edges in an emission, with those from and to the idle word: of the busiest channel, of all; of any if it does not say."""
+        told = self.header.parameters.get("channel_edges"), self.header.parameters.get("all_edges")
+        most = self.samples + 1
+        channel, together = (edges if type(edges) is int and edges >= 0 else None for edges in told)
+        return most if channel is None else channel, CHANNELS * most if together is None else together
+
+    @property
     def checksums(self) -> list[list[int]]:
         """CRC-32 of the drive words and of the response of each entry."""
         return self._crc_of

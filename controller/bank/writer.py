@@ -115,6 +115,8 @@ class BankWriter:
     def _commit(self) -> None:
         if not self._written.all():
             raise BankError(f"{self.path}: {np.count_nonzero(~self._written)} of {self._written.size} entries were never written")
+        if self._header.header_bytes != self._sections["index"].offset:
+            raise ValueError("the build parameters have grown beyond the header's pages")
         with self._disk_errors():
             sections = tuple(self._finished(s) for s in self._sections.values())
             _write(self._fd, memoryview(self._header.pack(sections)), 0)

@@ -112,7 +112,8 @@ GatewareFactory = Callable[[Parameters], Gateware]
 
 def frame_ticks(size_bytes: int) -> int:
     """The least from the fall of chip select to its rise."""
-    return SELECT_TO_SCK_TICKS + SCK_TICKS * (8 * size_bytes - 1) + SCK_TO_RELEASE_TICKS
+    clocked = SCK_TICKS * (8 * size_bytes - 1) + SCK_TO_RELEASE_TICKS if size_bytes else 0
+    return SELECT_TO_SCK_TICKS + clocked
 
 
 class InputTiming:

@@ -178,7 +178,7 @@ class Session:
                 sequence + (stop or again),
                 slot,
                 count=count,
-                period_ticks=round(period_s * self._board.link.clock_hz),
+                period_ticks=self._board.period_ticks(period_s),
                 start=start,
                 when_ticks=when_ticks,
                 mask=mask,
@@ -247,7 +247,7 @@ class Session:
         for _ in range(self._check_frames - stop):  # the FPGA takes the CRC of what it stored meanwhile
             end = frames.pack_nop(self._sent, end, sequence)
             sequence += 1
-        period_ticks = round(period_s * self._board.link.clock_hz)
+        period_ticks = self._board.period_ticks(period_s)
         end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
         return frames.pack_nop(self._sent, end, sequence + 1)
 

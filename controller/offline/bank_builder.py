@@ -7,6 +7,7 @@ import hashlib
 import resource
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,6 +97,16 @@ def build_bank(
         raise ConfigError(f"{scene or 'scene'}: no region reaches a cell of the {grid.pitch_m * 1e3:g} mm grid: nothing to build")
     numbers = np.flatnonzero(wanted)
     points_m = grid.points()[numbers]
+    parameters: dict[str, Any] = {
+        "board": board.name,
+        "pitch_mm": grid.pitch_m * 1e3,
+        "highest_hz": highest_hz,
+        "precision": "float32",
+        "scene": scene,
+        "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
+        "channel_edges": 0,  # filled in as entries are made; the header is written last
+        "all_edges": 0,
+    }
     header = Header(
         creator=creator(),
         board_digest=board.digest(),
@@ -103,14 +114,7 @@ def build_bank(
         bit_clock_hz=board.waveform.bit_clock_hz,
         samples=board.waveform.samples,
         entries=len(numbers),
-        parameters={
-            "board": board.name,
-            "pitch_mm": grid.pitch_m * 1e3,
-            "highest_hz": highest_hz,
-            "precision": "float32",
-            "scene": scene,
-            "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        },
+        parameters=parameters,
     )
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -118,6 +122,7 @@ def build_bank(
         raise BankError(f"{path}: its folder cannot be made ({error.strerror})") from error
     response_seconds = 0.0
     worst_edge_rate_hz = 0.0
+    idle = np.array([board.idle_word], np.uint32)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread is mostly waited for
         BankWriter(path, header, wanted) as writer,  # a folder or disk that cannot take it is refused before the work
@@ -135,6 +140,9 @@ def build_bank(
             for cell, response in zip(numbers[some].tolist(), responses, strict=True):
                 words = drive_words(response, board.idle_word)
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, words, cell))
+                counts = edges(np.concatenate([idle, words, idle]))
+                parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
+                parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
                 writer.add(cell, words, *quantise(response))
             bar.update(len(responses))
     seconds = time.perf_counter() - started

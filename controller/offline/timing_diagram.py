@@ -57,7 +57,7 @@ class TimeAxis:
     def __init__(self, case: Case) -> None:
         frames = {change.tick: change.value for change in case.inputs if change.signal == "frame"}
         self.labels = sorted({change.tick for change in (*case.inputs, *case.outputs)} | {0})
-        begins = {tick - frame_ticks(text) for tick, text in frames.items()}
+        begins = {tick - length_ticks(text) for tick, text in frames.items()}
         ends = {change.tick + pulse_ticks(case, change) for change in (*case.inputs, *case.outputs)}
         self.ticks = sorted({*self.labels, *begins, *ends})
         self.cuts: list[float] = []

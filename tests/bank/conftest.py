@@ -23,13 +23,14 @@ def board() -> Board:
 def make_bank(board: Board) -> MakeBank:
     """Write a bank of random responses, or of those given; returns the responses by cell."""
 
-    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, digest=None):
+    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, digest=None, **told):
         grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
         cells = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
         if responses is None:
             random = np.random.default_rng(seed)
             responses = {int(c): 1e-9 * random.standard_normal((samples, CHANNELS)) for c in np.flatnonzero(cells)}
-        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), {"board": "simulated"})
+        told = {"board": "simulated", "channel_edges": samples + 1, "all_edges": CHANNELS} | told
+        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told)
         with BankWriter(path, header, cells) as writer:
             for cell, response in responses.items():
                 writer.add(cell, drive_words(response, IDLE_WORD), *quantise(response))

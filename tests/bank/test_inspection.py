@@ -99,5 +99,7 @@ def test_a_cached_bank_is_current_only_for_its_board_grid_and_cells(tmp_path, ma
         file.seek(-1, os.SEEK_END)
         file.write(b"\x01")
     assert not is_current(path, board, pitch_m, some)  # damaged, if only in the padding
+    make_bank(path, grid, some, channel_edges=None)
+    assert not is_current(path, board, pitch_m, some)  # built before banks said how many edges an emission has
     make_bank(path, grid, some, digest=bytes(32))
     assert not is_current(path, board, pitch_m, some)  # of another board

@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.gateware import Parameters, Permit, frame_ticks
 from controller.fpga.model import GatewareModel
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
 
@@ -44,7 +44,7 @@ class Host:
 
     def exchange(self, frame):
         answer = bytearray(len(frame))
-        release = self.tick + 5 + len(frame) * self.ticks_per_byte
+        release = self.tick + max(5 + len(frame) * self.ticks_per_byte, frame_ticks(0))
         self.model.exchange(self.tick, release, frame, memoryview(answer))
         self.tick = release + 4
         return answer

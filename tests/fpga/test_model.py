@@ -140,7 +140,7 @@ def test_registers_hold_after_reset_what_their_description_says(register):
             host.sequence = 0
         assert host.read(register) == int(reset, 0)
     else:
-        assert reset in {"largest", "smallest", "pins"}
+        assert reset in {"largest", "smallest", "pins", "nothing"}
 
 
 def test_says_what_it_is_and_what_it_can_do(host):
@@ -161,7 +161,7 @@ def test_says_what_it_is_and_what_it_can_do(host):
         assert host.read(Register[register]) == reset
 
 
-@pytest.mark.parametrize("register", [register for register, described in REGISTERS.items() if described.access == "RW"])
+@pytest.mark.parametrize("register", sorted(set(RANGES) - {Register.BIT_PERIOD}), ids=lambda register: register.name)
 def test_settings_of_the_stages_stay_as_they_are_while_armed(armed, register):
     before = armed.read(register)
     assert armed.write(register, before) is Result.ARMED
@@ -444,8 +444,8 @@ def test_what_the_pins_could_not_show_is_refused():
     for tick, high_ticks, said in ((7, 4, "before tick 8"), (100, 0, "high for 0"), (100, 5, "high for 5")):
         with pytest.raises(ValueError, match=said):
             model.trigger(tick, high_ticks)
-    with pytest.raises(ValueError, match="36 bytes need 869 ticks, not 868"):
-        model.exchange(100, 968, bytes(36), memoryview(bytearray(36)))
+    with pytest.raises(ValueError, match="36 bytes need 582 ticks, not 581"):
+        model.exchange(100, 681, bytes(36), memoryview(bytearray(36)))
 
 
 def test_nothing_is_foreseen_of_a_model_at_rest():

@@ -1,6 +1,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import msgspec
 import numpy as np
@@ -129,3 +130,24 @@ def test_a_waveform_that_switches_more_often_than_the_board_allows_is_refused(bo
     with pytest.raises(ConfigError, match="max_edge_rate_hz"):
         build_bank(msgspec.structs.replace(board, limits=limits), tmp_path / "bank", 20e-3, measure_sgemm=False)
     assert (tmp_path / "bank").read_bytes() == before
+
+
+def test_a_bank_says_the_worst_edges_of_its_entries_with_those_of_the_idle_word(board, built):
+    with Bank.open(built[1], board) as bank:
+        counts = []
+        for cell in np.flatnonzero(bank.cells).tolist():
+            levels = np.concatenate([[board.idle_word], np.frombuffer(bank.words(cell), "<u4"), [board.idle_word]]).astype("<u4")
+            bits = np.unpackbits(levels.view(np.uint8).reshape(-1, 4), axis=1, bitorder="little")
+            counts.append(np.abs(np.diff(bits.astype(int), axis=0)).sum(axis=0))
+        assert bank.worst_edges == (max(count.max() for count in counts), max(count.sum() for count in counts))
+        channel, together = bank.worst_edges
+        rate_hz = 1 / board.waveform.duration_s
+        assert channel * rate_hz < board.limits.max_channel_edge_rate_hz, "the paper's endless 500 Hz is within the board's limits"
+        assert together * rate_hz < board.limits.max_total_edge_rate_hz
+
+
+@pytest.mark.parametrize("told", [{}, {"channel_edges": "9", "all_edges": None}, {"channel_edges": True, "all_edges": -1}])
+def test_a_bank_that_does_not_say_its_edges_may_have_as_many_as_samples_allow(board, built, told):
+    with Bank.open(built[1], board) as bank:
+        bank.header = replace(bank.header, parameters=told)
+        assert bank.worst_edges == (1001, 32 * 1001)
