@@ -208,6 +208,8 @@ async def eight_plays_wait_their_turn_and_the_ninth_is_refused(dut):
     assert await panel.result_of(frames.pack_play, 0) is Result.QUEUE_FULL
     assert await panel.read(READ_QUEUE + 8 * 7 + 3) == plays[7][1]
     assert await panel.read(Register.QUEUE) == 8
+    for beyond in (6, 8 * 8, 8 * 8 + 3):  # a word, a play that there is not
+        assert await panel.result_of(frames.pack_read, READ_QUEUE + beyond) is Result.BAD_RANGE
     seen = len(panel.words)
     expected = []
     for slot, mask in plays:
@@ -756,8 +758,9 @@ async def says_what_it_is(dut):
         Register.DUTY_SHARE: parameters.duty_share_max,
         Register.DUTY_TICKS: parameters.duty_ticks_max,
     }
-    for register, value in expected.items():
-        assert await panel.read(register) == value, register.name
+    await panel.send(frames.pack_read, Register.IDENTITY)
+    for register, following in pairwise([*expected, Register.IDENTITY]):
+        assert (await panel.send(frames.pack_read, following)).data == expected[register], register.name
     assert await panel.result_of(frames.pack_read, 42) is Result.UNKNOWN_REGISTER
     panel.check_against_model()
 
