@@ -276,7 +276,7 @@ async def what_is_scheduled_does_not_overlap(dut):
     bench = await Bench.ready(dut)
     longest = replace(scheduled, period=0xFFFF_FFFF, count=0xFFFF, when=(1 << 40) + 1)
     assert await bench.ask(longest) is Result.OK
-    end = longest.when + 0xFFFE * 0xFFFF_FFFF + 115
+    end = longest.when + 0xFFFE * 0xFFFF_FFFF + 117
     assert await bench.ask(replace(scheduled, when=end - 1)) is Result.OVERLAP
     assert await bench.ask(replace(scheduled, when=end)) is Result.OK
     bench.show(replace(scheduled, when=2_000))  # shown, but its frame is not accepted
