@@ -1,11 +1,13 @@
-"""What an upload costs the host: the payload copied once into the frames, one CRC pass over it, nothing else of its size."""
+"""What an upload costs the host: the payload copied once into the frames, a CRC pass there and one for its slot, no more."""
 
 import tracemalloc
 import zlib
 
 import numpy as np
 
-from controller.fpga import frames
+from controller.event_loop import VirtualClock
+from controller.fpga import frames, session
+from controller.hardware import open_fpga
 
 WORDS = memoryview(np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8))
 BUFFER = memoryview(bytearray(frames.UPLOAD_BYTES))
@@ -27,7 +29,7 @@ def test_packing_copies_nothing_but_into_the_frame():
     assert peak - before < 2_000
 
 
-def test_packing_an_upload_is_one_crc_pass(monkeypatch):
+def count_crcs(monkeypatch, *modules):
     checked = []
 
     class CountingZlib:
@@ -36,9 +38,25 @@ def test_packing_an_upload_is_one_crc_pass(monkeypatch):
             checked.append(len(data))
             return zlib.crc32(data)
 
-    monkeypatch.setattr(frames, "zlib", CountingZlib)
+    for module in modules:
+        monkeypatch.setattr(module, "zlib", CountingZlib)
+    return checked
+
+
+def test_packing_an_upload_is_one_crc_pass(monkeypatch):
+    checked = count_crcs(monkeypatch, frames)
     frames.pack_upload(BUFFER, 0, 0, WORDS)
     assert checked == [8 + 500] * 8
+
+
+def test_an_upload_and_its_play_are_two_crc_passes(monkeypatch, board):
+    clock = VirtualClock()
+    link, fpga = open_fpga(board, clock.now_s)
+    checked = count_crcs(monkeypatch, frames, session)
+    fpga.upload(0, WORDS)
+    long = [size for size in checked if size > frames.FRAME_BYTES]
+    assert long == [*[8 + 500] * 8, 4000]
+    assert link.bytes_sent > frames.UPLOAD_BYTES
 
 
 def test_every_byte_of_the_payload_arrives_in_its_chunk():

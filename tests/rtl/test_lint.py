@@ -5,6 +5,7 @@ Yosys comes as WebAssembly, which is compiled at its first use (a minute of comp
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -115,3 +116,15 @@ def test_yosys_would_find_them(broken, statements, complaint):
     code, text = yosys("broken", [broken(statements)])
     assert code
     assert complaint in text
+
+
+def test_every_test_that_the_safety_table_names_exists():
+    table = (RTL / "README.md").read_text().partition("## Safety")[2].partition("## Benches")[0]
+    named, bench = [], ""
+    for bench_name, test in re.findall(r"\b(tb_\w+)\b|`(\w+)…`", table):
+        bench = bench_name or bench
+        if test:
+            named.append((bench, test))
+    assert len(named) > 25
+    for bench, test in named:
+        assert f"async def {test}" in (Path(__file__).parent / f"{bench}.py").read_text(), (bench, test)
