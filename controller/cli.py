@@ -120,19 +120,38 @@ def gateware_check(options: argparse.Namespace) -> int:
     if options.device:
         serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
         board = msgspec.structs.replace(board, link=serial)
+    channels = _channels(options, board)
     if board.link.kind == "serial":
         clock: MonotonicClock | VirtualClock = MonotonicClock()
         link, session = open_serial(board, clock.now_s)
-        done = bring_up.check(session, board, clock, options.bits, options.pause_s, _progress("bits"))
+        done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, _progress("bits"))
         link.close()
     else:
         clock = VirtualClock()
         simulated, session = open_fpga(board, clock.now_s, _gateware(options)[0])
-        done = bring_up.check(session, board, clock, options.bits, options.pause_s, _progress("bits"), simulated.take_capture)
+        done = bring_up.check(
+            session,
+            board,
+            clock,
+            options.bits,
+            _channels(options, board),
+            options.pause_s,
+            _progress("bits"),
+            simulated.take_capture,
+        )
     _show(options, asdict(done), plain_table)
     for complaint in done.complaints:
         print(f"haptic-panel: {complaint}", file=sys.stderr)
     return 1 if done.complaints else 0
+
+
+def _channels(options: argparse.Namespace, board: Board) -> list[int]:
+    """Channels to chirp on: those asked for, else all that the board has."""
+    there = [actuator.channel for actuator in board.actuators]
+    for channel in options.channel or []:
+        if channel not in there:
+            raise ConfigError(f"--channel: board {board.name!r} has no channel {channel}")
+    return sorted(options.channel or there)
 
 
 def _gateware(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
@@ -354,6 +373,9 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--device", metavar="TTY", help="serial port of a real FPGA, such as /dev/ttyUSB0")
     check.add_argument("--baud", type=int, default=1_000_000, metavar="N", help="rate that its gateware was built for (1000000)")
     check.add_argument("--bits", type=float, default=1e5, metavar="N", help="random bits to send at least (default: 1e5)")
+    check.add_argument(
+        "--channel", type=int, action="append", metavar="Q", help="chirp on this channel only; may be given again (default: all)"
+    )
     check.add_argument("--pause-s", type=float, default=0.0, metavar="S", help="silence behind each channel's chirps")
     check.set_defaults(command=gateware_check)
 

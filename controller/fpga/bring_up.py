@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import selectors
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -77,6 +77,7 @@ def check(
     board: Board,
     clock: Clock,
     bits: float,
+    channels: Sequence[int],
     pause_s: float = 0.0,
     progress: Callable[[int, int], None] = lambda *_: None,
     take_capture: Callable[[], Capture] | None = None,
@@ -87,6 +88,8 @@ def check(
     ----------
     bits : float
         Random bits to send at least.
+    channels : sequence of int
+        To chirp on.
     pause_s : float
         Silence behind each channel's chirps, for somebody who listens.
     progress : callable
@@ -103,16 +106,16 @@ def check(
         complaints.append("the link damages bits: shorten its wires, join the grounds, or lower its rate")
     if damaged:
         complaints.append(f"{damaged} of {board.link.slots} slots do not keep what they are given: check the FPGA's supply")
-    channels: list[int] = []
+    chirped: list[int] = []
     moved: list[list[int]] = []
-    for channel in channel_self_test(session, board, clock, pause_s, lambda: take_capture and take_capture()):
-        channels.append(channel)
+    for channel in channel_self_test(session, board, clock, channels, pause_s, lambda: take_capture and take_capture()):
+        chirped.append(channel)
         if take_capture:
             moved.append(_moved(take_capture()))
-    wrong = [channel for channel, pins in zip(channels, moved, strict=False) if pins != [channel]]
+    wrong = [channel for channel, pins in zip(chirped, moved, strict=False) if pins != [channel]]
     if wrong:
         complaints.append(f"channels {wrong} moved other pins than their own, or none: check the pin constraints")
-    return Checked(registers, errors, board.link.slots, damaged, channels, moved if take_capture else None, complaints)
+    return Checked(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
 
 
 def _moved(capture: Capture) -> list[int]:
@@ -203,7 +206,12 @@ def chirp_words(board: Board) -> NDArray[np.uint32]:
 
 
 def channel_self_test(
-    session: Session, board: Board, clock: Clock, pause_s: float = 0.0, armed: Callable[[], object] = lambda: None
+    session: Session,
+    board: Board,
+    clock: Clock,
+    channels: Sequence[int],
+    pause_s: float = 0.0,
+    armed: Callable[[], object] = lambda: None,
 ) -> Iterator[int]:
     """Chirp on one channel after the other, all others idle; yields each channel behind its chirp.
 
@@ -228,9 +236,7 @@ def channel_self_test(
             rest(session.arm())
             session.require_armed()
             armed()
-            for channel in range(CHANNELS):
-                if not board.channel_mask >> channel & 1:
-                    continue
+            for channel in channels:
                 before = session.heartbeat().emissions
                 session.play(0, CHIRP_REPETITIONS, period_s, stop=False, start=Start.NOW, mask=1 << channel)
                 rest(clock.now_s() + CHIRP_REPETITIONS * period_s + pause_s)

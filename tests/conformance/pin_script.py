@@ -5,6 +5,7 @@ pins while a frame is on the wire comes before that frame in the script.
 """
 
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +24,7 @@ from controller.fpga.gateware import (
     Permit,
     frame_ticks,
 )
+from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Control, Register
 
 # A slow clock, so that words of 6 ticks are within the fastest bit clock, yet a waveform can play while it arrives
@@ -137,6 +139,15 @@ class Script:
                 getattr(gateware, method)(tick + later, *others)
         gateware.advance(self.tick)
         return answers, gateware.take_capture()
+
+
+COMPILED = ThreadPoolExecutor(1)  # the compiled Verilog lets go of the interpreter: the model runs meanwhile
+
+
+def perform_on_both(script, rtl):
+    """What comes of a script on the model and on the compiled Verilog."""
+    compiled = COMPILED.submit(script.perform, rtl)
+    return script.perform(GatewareModel), compiled.result()
 
 
 def assert_same(left, right):

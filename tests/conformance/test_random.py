@@ -6,7 +6,7 @@
 from collections import Counter
 
 import pytest
-from pin_script import Script, assert_same
+from pin_script import Script, assert_same, perform_on_both
 from random_script import random_script
 
 from controller.fpga import frames
@@ -26,7 +26,7 @@ def frames_of(script):
 
 def compare(script, rtl, seed):
     try:
-        assert_same(script.perform(GatewareModel), script.perform(rtl))
+        assert_same(*perform_on_both(script, rtl))
     except AssertionError as error:
         raise AssertionError(f"random_script({seed}): {error}") from None
 

@@ -4,7 +4,17 @@ import itertools
 import zlib
 
 import pytest
-from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, JUDGED_TICKS, RAMP_TICKS, Script, assert_same, open_gateware
+from pin_script import (
+    BIT_TICKS,
+    BUILD_HASH,
+    FRAME_TICKS,
+    JUDGED_TICKS,
+    RAMP_TICKS,
+    Script,
+    assert_same,
+    open_gateware,
+    perform_on_both,
+)
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
@@ -175,7 +185,7 @@ def test_every_event_does_the_same_in_every_state(rtl, state):
     for event, offset in itertools.product(EVENTS, OFFSETS):
         try:
             run = script_of(state, event, offset)
-            assert_same(run.perform(GatewareModel), run.perform(rtl))
+            assert_same(*perform_on_both(run, rtl))
         except AssertionError as error:
             raise AssertionError(f"{event} {offset} ticks after {state}: {error}") from error
 

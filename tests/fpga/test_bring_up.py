@@ -55,7 +55,7 @@ def opened(board, **wires):
 
 def checked(board, **wires):
     clock, link, session = opened(board, **wires)
-    return bring_up.check(session, board, clock, BITS, take_capture=link.take_capture)
+    return bring_up.check(session, board, clock, BITS, range(32), take_capture=link.take_capture)
 
 
 def test_a_good_board_has_no_complaints(board):
@@ -121,7 +121,7 @@ def test_an_fpga_without_its_permit_does_not_chirp(board):
     clock, link, session = opened(board)
     link.gateware.permit(link.gateware.now + 100, False, Permit.TEMPERATURE)
     with pytest.raises(LinkError, match="run permit is not given"):
-        list(bring_up.channel_self_test(session, board, clock))
+        list(bring_up.channel_self_test(session, board, clock, range(32)))
 
 
 def test_the_queue_is_read_back(board):
@@ -200,9 +200,9 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys):
     model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, time.monotonic)
     with PseudoTerminal(panel.receive) as terminal:
-        assert main(["gateware", "check", "--device", terminal.device, "--bits", "1e4", "--json"]) == 0
+        assert main(["gateware", "check", "--device", terminal.device, "--channel", "3", "--bits", "1e4", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
-    assert figures["channels"] == list(range(32))
+    assert figures["channels"] == [3]
     assert figures["channels_moved"] is None
     assert figures["bit_errors"]["bits"] == 0
 
@@ -210,3 +210,8 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys):
 def test_a_device_that_is_not_there_is_one_line(capsys):
     assert main(["gateware", "check", "--device", "/dev/ttyNONE"]) == 69
     assert "there is no serial port /dev/ttyNONE" in capsys.readouterr().err
+
+
+def test_a_channel_there_is_not_is_one_line(capsys):
+    assert main(["gateware", "check", "--channel", "32"]) == 78
+    assert "--channel: board 'simulated' has no channel 32" in capsys.readouterr().err

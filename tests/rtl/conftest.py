@@ -22,8 +22,9 @@ for source; do :; done
 object=$(basename "$source" .cpp).o
 case $object in
 verilated*)
-    [ -f "$(dirname "$0")/$object" ] || { "$@" && cp "$object" "$(dirname "$0")"; } || exit
-    cp "$(dirname "$0")/$object" . ;;
+    kept=$(dirname "$0")/$object
+    [ -f "$kept" ] || { "$@" && cp "$object" "$kept.$$" && mv "$kept.$$" "$kept"; } || exit
+    cp "$kept" . ;;
 *) exec "$@" ;;
 esac
 """

@@ -1,5 +1,8 @@
 """Runs every bench tb_<module>.py against fpga_rtl/<module>.v, from a random initial state; then judges what they covered."""
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +66,7 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-def run_bench(module, parameters, simulator, folder, beside=(), **which):
+def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
     """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
@@ -88,22 +91,40 @@ def run_bench(module, parameters, simulator, folder, beside=(), **which):
     )
 
 
-@pytest.mark.parametrize("bench", BENCHES)
-def test_bench(bench, simulator, one_entry_bank, verilog_coverage, tmp_path, monkeypatch):
-    monkeypatch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
-    run_bench(bench.partition("-")[0], BENCHES[bench], simulator, tmp_path)
-    if simulator == "verilator":
-        verilog_coverage[bench] = read(tmp_path / "coverage.dat")
+OTHER_RATES = [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)]
+SERIAL = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
+RUNS = {bench: partial(run_bench, bench.partition("-")[0], parameters) for bench, parameters in BENCHES.items()}
+RUNS |= {
+    f"uart_at_{clock_hz}_{baud}": partial(
+        run_bench, "uart_peripheral", {"CLOCK_HZ": clock_hz, "BAUD": baud}, test_filter=r"rate|percent|answered"
+    )
+    for clock_hz, baud in OTHER_RATES
+}
+RUNS["serial_link"] = partial(run_bench, "uart_panel", SERIAL, beside=[Path(__file__).parent / "uart_panel.v"])
 
 
-@pytest.mark.parametrize(("clock_hz", "baud"), [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)])
-def test_uart_at_other_rates(clock_hz, baud, simulator, tmp_path):
-    run_bench("uart_peripheral", {"CLOCK_HZ": clock_hz, "BAUD": baud}, simulator, tmp_path, test_filter=r"rate|percent|answered")
+@pytest.fixture(scope="session")
+def runs(request, simulator, one_entry_bank, tmp_path_factory):
+    """Folder of each bench of this session, once it is through: as many at a time as there are cores."""
+    wanted = {item.callspec.params["run"] for item in request.session.items if "run" in getattr(item, "fixturenames", ())}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HAPTIC_PANEL_TEST_BANK", str(one_entry_bank))
+        pool = ThreadPoolExecutor(os.cpu_count())
+
+        def perform(run):
+            folder = tmp_path_factory.mktemp(run)
+            RUNS[run](simulator=simulator, folder=folder)
+            return folder
+
+        yield {run: pool.submit(perform, run) for run in RUNS if run in wanted}  # the longest, haptic_core, first
+        pool.shutdown(cancel_futures=True)
 
 
-def test_the_serial_link_and_the_gateware_understand_each_other(simulator, tmp_path):
-    parameters = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
-    run_bench("uart_panel", parameters, simulator, tmp_path, [Path(__file__).parent / "uart_panel.v"])
+@pytest.mark.parametrize("run", RUNS)
+def test_bench(run, runs, simulator, verilog_coverage):
+    folder = runs[run].result()
+    if simulator == "verilator" and run in BENCHES:
+        verilog_coverage[run] = read(folder / "coverage.dat")
 
 
 @pytest.fixture
