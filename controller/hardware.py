@@ -13,6 +13,8 @@ from controller.fpga.serial_link import SerialLink
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
+UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
+
 
 def open_fpga(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> tuple[SimulatedLink, Session]:
     """Link and session of a board's FPGA, which is checked to run the gateware that belongs to this software.
@@ -41,7 +43,7 @@ def open_serial(board: Board, now_s: Callable[[], float]) -> tuple[SerialLink, S
     LinkError
         If the port cannot be opened, or what answers there is another FPGA.
     """
-    link = SerialLink(board.link.device, board.link.baud, now_s)
+    link = SerialLink(board.link.device, board.link.baud, now_s, UNHURRIED_S)
     return link, Session(link, board, build_hash(data_folder("fpga_rtl")), now_s)
 
 

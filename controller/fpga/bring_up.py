@@ -239,7 +239,7 @@ def channel_self_test(
             for channel in channels:
                 before = session.heartbeat().emissions
                 session.play(0, CHIRP_REPETITIONS, period_s, stop=False, start=Start.NOW, mask=1 << channel)
-                rest(clock.now_s() + CHIRP_REPETITIONS * period_s + pause_s)
+                rest(session.ready_s() + CHIRP_REPETITIONS * period_s + pause_s)
                 done = session.heartbeat().emissions - before & ALL_CHANNELS
                 if done != CHIRP_REPETITIONS:
                     raise LinkError(f"channel {channel}: {done} of {CHIRP_REPETITIONS} chirps ran to their end")

