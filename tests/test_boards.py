@@ -131,7 +131,7 @@ def test_a_top_lints(name, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", HARDWARE)
+@pytest.mark.parametrize("name", [name for name in HARDWARE if name != "ice40_hx8k"])  # too small: its README.md
 def test_a_bitstream_comes_out_in_time(name, tmp_path):
     """Needs the extra `gateware`; nextpnr fails where a path is longer than the clock's period."""
     command = ["make", f"BIN={Path(sys.executable).parent}/", f"BUILD={os.path.relpath(tmp_path, BOARDS / name)}"]
