@@ -1,0 +1,61 @@
+"""What the boards' own limits allow: the paper's endless 500 Hz at full duty on the simulated panel, not on hardware."""
+
+import selectors
+
+import numpy as np
+import pytest
+
+from controller.board import find_board, load_board
+from controller.errors import FaultError
+from controller.event_loop import VirtualClock
+from controller.fpga.registers import Fault, Register
+from controller.hardware import open_fpga
+
+PERIOD_S = 2e-3  # of 500 Hz, and of an emission
+
+
+def play_endlessly(name, seconds):
+    """Emissions of random words, back to back, for so long; the FPGA's session and pins."""
+    board = load_board(find_board(name))
+    clock = VirtualClock()
+    link, session = open_fpga(board, clock.now_s)
+    # like a real waveform in its edges: 154 of a channel in 1000 words
+    drive = np.random.default_rng(1).random((1000, 32)) < 0.154
+    bits = np.bitwise_xor.accumulate(drive, axis=0)
+    words = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0]
+    with selectors.DefaultSelector() as selector:
+
+        def rest(until_s):
+            while clock.now_s() < until_s:
+                session.heartbeat()
+                clock.wait(selector, min(until_s, clock.now_s() + 0.02))
+
+        session.upload(0, memoryview(words.tobytes()))
+        rest(session.arm())
+        session.require_armed()
+        session.play(0, 0, PERIOD_S, stop=False)
+        began_s = session.trigger()
+        try:
+            rest(began_s + seconds)
+        except FaultError as fault:
+            return fault, session, link.take_capture(), began_s
+        return None, session, link.take_capture(), began_s
+
+
+def test_the_simulated_panel_plays_500_hz_for_as_long_as_asked():
+    fault, session, capture, _ = play_endlessly("simulated", 1.0)
+    assert fault is None
+    assert session.exchange.read(Register.DUTY_LEVEL) == 0
+    assert capture.focus_ticks.size > 495
+
+
+def test_hardware_shuts_it_off_when_the_duty_budget_is_spent():
+    fault, session, capture, began_s = play_endlessly("ulx3s", 1.0)
+    assert "more emission than the duty limit allows" in str(fault)
+    session.clear_faults()
+    board = load_board(find_board("ulx3s"))
+    ramp_s, budget_s, share = board.limits.ramp_ms * 1e-3, board.limits.duty_budget_ms * 1e-3, board.limits.max_duty
+    spent_s = (budget_s - ramp_s * (1 - share)) / (1 - share)  # the ramp before has taken its part; little leaked since
+    assert capture.ticks[-1] / board.link.clock_hz - began_s == pytest.approx(spent_s, rel=0.15)
+    assert capture.hv[-1] == capture.words[-1] == 0
+    assert Fault.DUTY.sentence in str(fault)
