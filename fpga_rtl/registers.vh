@@ -156,6 +156,6 @@
 // Clocks, for the timing tables and the model
 `define FILTER_TICKS 8'd3            // the trigger is high at least that long, or it is a glitch
 `define TRIGGER_LATENCY_TICKS 8'd8   // from the first clock that samples the trigger high to the first word
-`define TIME_LEAD_TICKS 64'd30       // a scheduled play is accepted at least that long before it begins
+`define TIME_LEAD_TICKS 64'd30       // a scheduled play begins so long behind the time of two clocks before it is accepted, or later
 
 `endif

@@ -5,7 +5,7 @@ from pin_script import Script
 
 from controller.fpga import frames
 from controller.fpga.frames import parse_status
-from controller.fpga.registers import REGISTERS, Description, Register, Result
+from controller.fpga.registers import REGISTERS, Register, Result
 from controller.offline.register_table import reset_value, used_bits
 
 ASIDE = {Register.CONTROL}  # a command, whose words are no values
@@ -40,7 +40,6 @@ def test_only_what_is_rw_can_be_written(back_end, register):
         assert again.data == read.data
 
 
-@pytest.mark.skipif("bits" not in Description._fields, reason="protocol 1 describes neither bits nor reset")
 def test_bits_and_values_after_reset_are_the_tables(back_end):
     described = sorted(set(Register) - ASIDE)
     for register, status in zip(
