@@ -7,35 +7,22 @@ type or impossible is a ConfigError naming file, key and value.
 from __future__ import annotations
 
 import hashlib
-import math
-import re
 import sys
 import sysconfig
-import tomllib
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
 
+from controller.device_settings import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
 from controller.errors import ConfigError
-
-T = TypeVar("T")
+from controller.records import NotNegative, Positive, Record, Share, load_toml
 
 CHANNELS = 32
 LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
 FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
-FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
-
-Positive = Annotated[float, Meta(gt=0)]
-NotNegative = Annotated[float, Meta(ge=0)]
-Share = Annotated[float, Meta(gt=0, le=1)]
-
-
-class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A table of a TOML file: frozen, typed, without unknown keys."""
 
 
 class Plate(Record, frozen=True):
@@ -131,32 +118,6 @@ class Bank(Record, frozen=True):
     snap_mm: NotNegative
 
 
-class Touch(Record, frozen=True):
-    """The touch panel and where its axes lie on the plate."""
-
-    kind: Literal["recording"]
-    recording: str
-    x_mm_from_axes: tuple[float, float, float]
-    y_mm_from_axes: tuple[float, float, float]
-
-
-class LinkSettings(Record, frozen=True):
-    """How drive words reach the FPGA."""
-
-    kind: Literal["simulated", "serial"]
-    clock_hz: Annotated[int, Meta(ge=1_000_000, le=400_000_000)]
-    sck_hz: Annotated[int, Meta(ge=100_000, le=100_000_000)]
-    slots: Annotated[int, Meta(ge=1, le=16)]
-    device: str = ""  # of a serial link
-    baud: Annotated[int, Meta(ge=9600, le=12_000_000)] = 1_000_000
-
-    def __post_init__(self) -> None:
-        if self.sck_hz * FEWEST_SCK_TICKS > self.clock_hz:
-            raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
-        if self.kind == "serial" and not self.device:
-            raise ValueError("device is missing: the serial port of the FPGA, such as /dev/ttyUSB0")
-
-
 class Limits(Record, frozen=True):
     """What the panel may be asked for, and the resistors it follows from; the FPGA keeps all that has to do with time."""
 
@@ -186,6 +147,9 @@ class Board(Record, frozen=True):
     touch: Touch
     link: LinkSettings
     limits: Limits
+    temperature: Temperature | None = None
+    realtime: Realtime = Realtime()
+    application_socket: ApplicationSocket | None = None
     folder: Path = Path()
 
     def __post_init__(self) -> None:
@@ -281,63 +245,6 @@ def load_board(path: Path) -> Board:
             f" that one frame takes at link.sck_hz = {board.link.sck_hz}"
         )
     return msgspec.structs.replace(board, folder=file.parent)
-
-
-def load_toml(file: Path, kind: type[T]) -> T:
-    """Read a TOML file into a Record, refusing what the Record does not describe.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value; also for a file that is absent, unreadable or not TOML.
-    """
-    try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
-    except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{file}: not valid TOML: {error}") from error
-    for path, value in _leaves(tables, ()):
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ConfigError(f"{file}: {_dotted(path)} = {value} is not a number one can work with")
-    try:
-        return msgspec.convert(tables, kind)
-    except msgspec.ValidationError as error:
-        raise ConfigError(f"{file}: {_in_words(str(error), tables)}") from error
-
-
-def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:
-    """Every value below a TOML table with its path."""
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            yield from _leaves(inner, (*path, key))
-    elif isinstance(value, list):
-        for index, inner in enumerate(value):
-            yield from _leaves(inner, (*path, index))
-    else:
-        yield path, value
-
-
-def _dotted(path: tuple[str | int, ...]) -> str:
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
-
-
-def _in_words(message: str, tables: dict[str, Any]) -> str:
-    """Msgspec's message with its `$.path` as a key of the file and the value found there."""
-    text, _, where = message.partition(" - at `$")
-    path: tuple[str | int, ...] = tuple(
-        int(index) if index else key for key, index in re.findall(r"\.([^.\[\]`]+)|\[(\d+)\]", where)
-    )
-    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", text)
-    if unknown:
-        path = (*path, unknown[1])
-        text = "unknown key"
-    value: Any = tables
-    for part in path:
-        value = value[part]
-    if not path or isinstance(value, dict | list):
-        return f"{_dotted(path)}: {text}" if path else text
-    return f"{_dotted(path)} = {value!r}: {text}"
 
 
 def find_board(name_or_path: str) -> Path:

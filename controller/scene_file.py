@@ -8,8 +8,9 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from controller.board import Board, NotNegative, Positive, Record, load_toml
+from controller.board import Board
 from controller.errors import ConfigError
+from controller.records import NotNegative, Positive, Record, load_toml
 from controller.shapes import Circle, Point, Polygon, Rectangle
 
 ROUNDING_M = 1e-9

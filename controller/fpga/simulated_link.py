@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
-from controller.board import LinkSettings
+from controller.device_settings import LinkSettings
 from controller.fpga.capture import Capture
 from controller.fpga.gateware import READY_TICKS, Gateware, Permit
 

@@ -17,3 +17,4 @@ class TouchSample(NamedTuple):
     y_m: float
     time_s: float
     contact: bool
+    size_m: float = 0.0  # widest extent of the contact; 0 where the panel tells none

@@ -1,6 +1,8 @@
-"""The one interface of everything that gives touch samples: a recording now, panels on real buses next.
+"""The interfaces between what gives touch samples and the event loop.
 
-The event loop waits until `fileno()` is readable or `next_time_s()` has come, then calls `read`.
+A source gives samples: a recording, or a panel on a real bus. The tracker stands between a source and the
+loop: it decides what is a finger, and says where a finger will be. The loop waits until `fileno()` is
+readable or `next_time_s()` has come, then calls `read`.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ class TouchSource(Protocol):
         """What had to be skipped or clamped so far, counted by kind (`warnings.in_words`)."""
 
     def fileno(self) -> int | None:
-        """File to wait on for reading; None where only `next_time_s` says when."""
+        """File to wait on for reading; None where only `next_time_s` says when. Another one after a panel was plugged in again."""
 
     def next_time_s(self) -> float | None:
         """When to call `read`, in the loop's clock; None: when the file is readable, or, without a file, never again."""
@@ -34,3 +36,24 @@ class TouchSource(Protocol):
 
     def close(self) -> None:
         """Give the device back."""
+
+
+class TrackedTouch(TouchSource, Protocol):
+    """A source behind the tracker: fingers that may be played, and where they will be."""
+
+    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+        """Where a finger will be, (x_m, y_m) on the plate; None once it is released.
+
+        Parameters
+        ----------
+        finger : int
+            As in the samples.
+        at_s : float
+            In the loop's clock, at most some tens of ms ahead: the T of an emission.
+        """
+
+    def confirmed(self, finger: int) -> bool:
+        """Whether the panel has confirmed the contact; the emissions of one that is not are capped."""
+
+    def emitted(self, start_s: float, end_s: float) -> None:
+        """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost."""

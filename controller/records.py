@@ -1,0 +1,82 @@
+"""Tables of a TOML file as frozen, checked records: an unknown key or an impossible value names file, key and value."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from controller.errors import ConfigError
+
+T = TypeVar("T")
+
+Positive = Annotated[float, Meta(gt=0)]
+NotNegative = Annotated[float, Meta(ge=0)]
+Share = Annotated[float, Meta(gt=0, le=1)]
+
+
+class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A table of a TOML file: frozen, typed, without unknown keys."""
+
+
+def load_toml(file: Path, kind: type[T]) -> T:
+    """Read a TOML file into a Record, refusing what the Record does not describe.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value; also for a file that is absent, unreadable or not TOML.
+    """
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(f"{file}: not valid TOML: {error}") from error
+    for path, value in _leaves(tables, ()):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ConfigError(f"{file}: {_dotted(path)} = {value} is not a number one can work with")
+    try:
+        return msgspec.convert(tables, kind)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{file}: {_in_words(str(error), tables)}") from error
+
+
+def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+    """Every value below a TOML table with its path."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _leaves(inner, (*path, key))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from _leaves(inner, (*path, index))
+    else:
+        yield path, value
+
+
+def _dotted(path: tuple[str | int, ...]) -> str:
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
+
+
+def _in_words(message: str, tables: dict[str, Any]) -> str:
+    """Msgspec's message with its `$.path` as a key of the file and the value found there."""
+    text, _, where = message.partition(" - at `$")
+    path: tuple[str | int, ...] = tuple(
+        int(index) if index else key for key, index in re.findall(r"\.([^.\[\]`]+)|\[(\d+)\]", where)
+    )
+    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", text)
+    if unknown:
+        path = (*path, unknown[1])
+        text = "unknown key"
+    value: Any = tables
+    for part in path:
+        value = value[part]
+    if not path or isinstance(value, dict | list):
+        return f"{_dotted(path)}: {text}" if path else text
+    return f"{_dotted(path)} = {value!r}: {text}"
