@@ -128,7 +128,7 @@ def on_touch(scene: Scene, state: FingerState | None, sample: TouchSample) -> tu
     emissions : tuple of Emission
         Due now, at the finger's place: at most one.
     """
-    finger, x_m, y_m, time_s, contact = sample
+    finger, x_m, y_m, time_s, contact, _ = sample
     if not contact:
         return None, ()
     index = scene.region_at(x_m, y_m)
