@@ -198,7 +198,7 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, mon
     assert figures["channels_moved"][31] == [31]
     model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
     clock = VirtualClock()
-    monkeypatch.setattr("controller.cli.MonotonicClock", lambda: clock)
+    monkeypatch.setattr("controller.commands.gateware.MonotonicClock", lambda: clock)
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)
     with PseudoTerminal(panel.receive) as terminal:
         assert main(["gateware", "check", "--device", terminal.device, "--channel", "3", "--bits", "1e4", "--json"]) == 0

@@ -1,0 +1,116 @@
+"""`haptic-panel bank`: build, look at and check banks of precomputed waveforms."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.bank.grid import Grid
+from controller.bank.inspection import bank_info, is_current, verify_bank
+from controller.bank.location import bank_path
+from controller.bank.reader import Bank
+from controller.board import Board, find_board, load_board
+from controller.commands.output import progress_bar, show
+from controller.errors import BankError, ConfigError
+from controller.scene import Scene, load_scene, reach
+from controller.scene_file import find_scene
+from controller.tables import plain_table, power_table
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from controller.commands.output import Subparsers
+    from controller.offline.bank_builder import BuildReport
+
+SMALLEST_PITCH_MM = 0.5
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    bank = commands.add_parser("bank", help="build, look at and check banks of precomputed waveforms")
+    actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
+    build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
+    build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
+    build.add_argument("--pitch-mm", type=float, metavar="P", help="distance of the cells (default: the board's bank.pitch_mm)")
+    build.add_argument("--out", metavar="F", help="file to write (default: in the state or cache folder)")
+    build.set_defaults(command=bank_build)
+    for name, action, text in (
+        ("info", bank_tell, "say what a bank holds and what it was computed from"),
+        ("verify", bank_check, "check every bit of a bank"),
+    ):
+        command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
+        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
+        command.set_defaults(command=action)
+        if name == "info":
+            command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
+
+
+def bank_build(options: argparse.Namespace) -> int:
+    """Build a bank for a board: of the whole plate, or of the cells that a scene can reach."""
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene) if options.scene else None
+    scene = load_scene(scene_file, board) if scene_file else None
+    if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
+        raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    path = Path(options.out) if options.out else bank_path(board.name, scene_file.stem if scene_file else "plate")
+    pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
+    name = scene_file.name if scene_file else None
+    show(options, asdict(_build(board, path, pitch_m, scene, name, measure=True)), plain_table)
+    return 0
+
+
+def bank_tell(options: argparse.Namespace) -> int:
+    """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
+    if options.power:
+        from controller.offline.power import power_report
+
+        board = load_board(find_board(options.board))
+        with Bank.open(_bank_file(options), board) as bank:
+            show(options, power_report(board, bank, progress=progress_bar("losses")), power_table)
+        return 0
+    show(options, bank_info(_bank_file(options)), plain_table)
+    return 0
+
+
+def bank_check(options: argparse.Namespace) -> int:
+    """Check every bit of a bank."""
+    show(options, verify_bank(_bank_file(options)), plain_table)
+    return 0
+
+
+def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path) -> Bank:
+    """Bank asked for, or the board's own, which is built again when it is missing, damaged, or of another board or scene."""
+    if options.bank:
+        return Bank.open(Path(options.bank), board)
+    path = bank_path(board.name, scene_file.stem)
+    pitch_m = board.bank.pitch_mm * 1e-3
+    if not is_current(path, board, pitch_m, _cells(board, pitch_m, scene)):
+        print(f"haptic-panel: building the bank {path}", file=sys.stderr)
+        _build(board, path, pitch_m, scene, scene_file.name, measure=False)
+    return Bank.open(path, board)
+
+
+def _bank_file(options: argparse.Namespace) -> Path:
+    """The file given, else the board's bank that was built last."""
+    if options.file:
+        return Path(options.file)
+    board = load_board(find_board(options.board))
+    banks = sorted(bank_path(board.name, "x").parent.glob(f"{board.name}-*.bank"), key=lambda file: file.stat().st_mtime)
+    if not banks:
+        raise BankError(f"board {board.name!r} has no bank yet; build it: haptic-panel bank build --board {board.called}")
+    return banks[-1]
+
+
+def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
+    return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m)
+
+
+def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None, *, measure: bool) -> BuildReport:
+    from controller.offline.bank_builder import build_bank
+
+    cells = None if scene is None else _cells(board, pitch_m, scene)
+    return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)

@@ -1,0 +1,101 @@
+"""`haptic-panel gateware`: bring up an FPGA."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import asdict
+from functools import partial
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from controller.board import Board, find_board, load_board
+from controller.commands.output import progress_bar, show
+from controller.errors import ConfigError
+from controller.event_loop import MonotonicClock, VirtualClock
+from controller.fpga.gateware import GatewareFactory
+from controller.fpga.model import GatewareModel
+from controller.hardware import open_fpga, open_serial
+from controller.tables import plain_table
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    gateware = commands.add_parser("gateware", help="bring up an FPGA").add_subparsers(metavar="COMMAND", required=True)
+    check = gateware.add_parser(
+        "check",
+        parents=[common],
+        help="identity, link, memory and every channel of an FPGA",
+        description="Read what the FPGA says of itself, send random bits and count those that come back wrong, fill and read "
+        "back every slot, and chirp on one channel after the other. Outputs are on during the chirps, if the permits are given.",
+    )
+    check.add_argument("--link", choices=["model", "rtl"], default="model", help="as for run, while the board's link is simulated")
+    check.add_argument("--device", metavar="TTY", help="serial port of a real FPGA, such as /dev/ttyUSB0")
+    check.add_argument("--baud", type=int, default=1_000_000, metavar="N", help="rate that its gateware was built for (1000000)")
+    check.add_argument("--bits", type=float, default=1e5, metavar="N", help="random bits to send at least (default: 1e5)")
+    check.add_argument(
+        "--channel", type=int, action="append", metavar="Q", help="chirp on this channel only; may be given again (default: all)"
+    )
+    check.add_argument("--pause-s", type=float, default=0.0, metavar="S", help="silence behind each channel's chirps")
+    check.set_defaults(command=gateware_check)
+
+
+def gateware_check(options: argparse.Namespace) -> int:
+    """Bring up an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
+    from controller.fpga import bring_up
+
+    board = load_board(find_board(options.board))
+    if options.device:
+        serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
+        board = msgspec.structs.replace(board, link=serial)
+    channels = _channels(options, board)
+    if board.link.kind == "serial":
+        clock: MonotonicClock | VirtualClock = MonotonicClock()
+        link, session = open_serial(board, clock.now_s)
+        done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"))
+        link.close()
+    else:
+        clock = VirtualClock()
+        simulated, session = open_fpga(board, clock.now_s, gateware_factory(options)[0])
+        done = bring_up.check(
+            session,
+            board,
+            clock,
+            options.bits,
+            _channels(options, board),
+            options.pause_s,
+            progress_bar("bits"),
+            simulated.take_capture,
+        )
+    show(options, asdict(done), plain_table)
+    for complaint in done.complaints:
+        print(f"haptic-panel: {complaint}", file=sys.stderr)
+    return 1 if done.complaints else 0
+
+
+def _channels(options: argparse.Namespace, board: Board) -> list[int]:
+    """Channels to chirp on: those asked for, else all that the board has."""
+    there = [actuator.channel for actuator in board.actuators]
+    for channel in options.channel or []:
+        if channel not in there:
+            raise ConfigError(f"--channel: board {board.name!r} has no channel {channel}")
+    return sorted(options.channel or there)
+
+
+def gateware_factory(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
+    """What computes the gateware's pins, and whether in real time."""
+    if options.link == "model":
+        return GatewareModel, getattr(options, "speed", "max") != "max"
+    from controller.offline.rtl_gateware import RtlGateware
+
+    if getattr(options, "speed", "max") == "1":
+        raise ConfigError("--link rtl is slower than real time, and the FPGA would call the host silent: use --speed max")
+
+    def compiling() -> None:
+        print("haptic-panel: compiling the gateware, about 10 s", file=sys.stderr)
+
+    return partial(RtlGateware, compiling=compiling), False

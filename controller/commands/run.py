@@ -1,0 +1,97 @@
+"""`haptic-panel run`: replay a touch recording on the simulated panel."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.board import Board, find_board, load_board
+from controller.commands.bank import open_bank
+from controller.commands.gateware import gateware_factory
+from controller.commands.output import picture_path, progress_bar, show
+from controller.hardware import recording_path
+from controller.scene import edge_warnings, load_scene
+from controller.scene_file import find_scene
+from controller.tables import run_table
+from controller.touch.recording import Recording
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+    from controller.offline.simulated_run import Judged
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    play = commands.add_parser(
+        "run",
+        parents=[common],
+        help="replay a touch recording on the simulated panel",
+        description="Replay a touch recording through the event loop, the frame protocol and the gateware, let a simulated "
+        "plate feel every emission, and print what the fingers felt. Builds the board's bank when it is missing or stale.",
+    )
+    play.add_argument("--replay", metavar="FILE", help="evemu recording (default: the board's own)")
+    play.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
+    play.add_argument(
+        "--bank", metavar="FILE", help="play from this bank; it is refused, not rebuilt, if it does not fit the board"
+    )
+    play.add_argument(
+        "--link", choices=["model", "rtl"], default="model", help="the FPGA: its model (default), or its Verilog, compiled"
+    )
+    play.add_argument(
+        "--speed", choices=["1", "max"], help="1: real time (default); max: as fast as the machine goes (always with --link rtl)"
+    )
+    play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
+    play.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Replay a recording on the simulated panel and print what its fingers would have felt."""
+    from threadpoolctl import threadpool_limits
+
+    from controller.offline import simulated_run
+
+    picture = picture_path(options)
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene or board.scene)
+    scene = load_scene(scene_file, board)
+    recording = Recording.open(recording_path(board, options.replay))
+    gateware, real_time = gateware_factory(options)
+
+    def ready() -> None:
+        if real_time:
+            print(
+                f"haptic-panel: playing {recording.name} in real time, {recording.duration_s:.0f} s (Ctrl-C ends it)",
+                file=sys.stderr,
+            )
+
+    # the loop's and the twin's products are small: a second BLAS thread costs more to wake than it saves
+    with open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
+        overdone = [f"{scene_file}: {warning}" for warning in edge_warnings(scene, board, *bank.worst_edges)]
+        for warning in overdone:
+            print(f"haptic-panel: {warning}", file=sys.stderr)
+        done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
+        judged = simulated_run.judge(done, progress_bar("plate"))
+    if judged.left_out:
+        print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
+    figures = {"link": options.link} | simulated_run.report(done, judged.foci)
+    for warning in figures["warnings"]:
+        print(f"haptic-panel: {warning}", file=sys.stderr)
+    figures["warnings"] = overdone + figures["warnings"]
+    show(options, figures, run_table)
+    if picture:
+        _plot_run(picture, board, judged, recording.name)
+    return 0
+
+
+def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
+    from controller.offline.plot import plot_focus
+
+    if judged.field is None:
+        print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)
+        return
+    foci = sorted(judged.shown, key=lambda focus: -focus.metrics.amplitude_m)
+    fingers = sum(focus.emission.finger is not None for focus in foci)
+    title = f"{recording}, t = {foci[0].time_s:.3f} s: {fingers} finger{'s' * (fingers != 1)} at once"
+    plot_focus(path, board, judged.field, [(focus.x_m, focus.y_m) for focus in foci], title)
