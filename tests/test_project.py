@@ -110,10 +110,11 @@ def test_every_command_of_every_readme_works(capsys, tmp_path_factory, tmp_path,
         assert main(shlex.split(command)[1:]) == 0, (command, capsys.readouterr().err)
 
 
-def test_the_two_lines_of_the_readme_are_whole():
+def test_the_three_lines_of_the_readme_are_whole():
     text = (ROOT / "README.md").read_text()
     lines = [line for line in text.splitlines() if "python3 -m venv .venv" in line]
-    assert len(lines) == 2
+    assert len(lines) == 3
     assert all("apt-get" in line and "build-essential" in line for line in lines)
     assert lines[0].endswith(".venv/bin/haptic-panel run")
     assert lines[1].endswith(".venv/bin/pytest")
+    assert lines[2] == f"{lines[1]} -m kernel"

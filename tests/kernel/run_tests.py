@@ -1,0 +1,64 @@
+"""Runs the `test_*` functions of files one after another and prints one line for each: what a guest or a container does.
+
+usage: run_tests.py FILE...     exit code: 0 if all passed
+"""
+
+import contextlib
+import faulthandler
+import importlib.util
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+LONGEST_S = 90.0  # of one test; then the stacks of all threads are shown and nothing more is run
+
+
+def load(path):
+    """The module of a file; files beside it can be imported by name."""
+    sys.path.insert(0, str(path.parent))
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[path.stem] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def run(label, test):
+    """Whether a test passed; an exception of any kind is its failure."""
+    faulthandler.dump_traceback_later(LONGEST_S, exit=True, file=sys.stdout)
+    started_s = time.monotonic()
+    try:
+        with contextlib.redirect_stderr(sys.stdout):
+            test()
+    except BaseException:
+        print(traceback.format_exc(), end="")
+        print(f"FAILED {label}", flush=True)
+        return False
+    finally:
+        faulthandler.cancel_dump_traceback_later()
+    print(f"PASSED {label} {time.monotonic() - started_s:.2f} s", flush=True)
+    return True
+
+
+def main():
+    """Run all; the exit code."""
+    results = []
+    for path in map(Path, sys.argv[1:]):
+        try:
+            module = load(path)
+        except BaseException:
+            print(traceback.format_exc(), end="")
+            print(f"FAILED {path.name}", flush=True)
+            results.append(False)
+            continue
+        results += [run(f"{path.name}::{name}", test) for name, test in list(vars(module).items()) if name.startswith("test_")]
+    print(f"{sum(results)} passed, {len(results) - sum(results)} failed", flush=True)
+    return 0 if results and all(results) else 1
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    os._exit(code)  # a thread that a failed test has left behind must not keep the guest up
