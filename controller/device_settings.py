@@ -99,6 +99,8 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     sck_hz: Annotated[int, Meta(ge=100_000, le=100_000_000)]
     slots: Annotated[int, Meta(ge=1, le=16)]
     device: str = ""  # serial port, or /dev/spidevB.C
+    # Clock of the SPI controller, which divides it by an even number: Pi 3 400e6, Pi 4 500e6, Pi 5 200e6; none: SCK is as asked
+    spi_source_hz: Annotated[int, Meta(ge=1_000_000, le=1_000_000_000)] | None = None
     baud: Annotated[int, Meta(ge=9600, le=12_000_000)] = 1_000_000
     gpio_chip: str = ""  # label of the chip with the lines below
     trigger_line: str = ""

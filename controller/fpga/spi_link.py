@@ -1,0 +1,239 @@
+"""The device's link: frames over spidev in one system call for each message, trigger and permits by GPIO lines.
+
+A message's frames follow each other 10 µs apart, each under its own chip select: that pause is the kernel's
+(spi.c, cs_change_delay), and spidev has no way to ask for another.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import fcntl
+import struct
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+import spidev
+
+from controller.device_settings import LinkSettings
+from controller.errors import LinkError
+from controller.fpga.gpio_lines import GpioLines
+from controller.fpga.spi_messages import Messages
+
+BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
+BUFSIZ_UNLESS_SAID: Final = 4096
+RD_BITS_PER_WORD: Final = 0x80016B03
+RD_MAX_SPEED_HZ: Final = 0x80046B04
+RD_MODE32: Final = 0x80046B05
+MODE: Final = 0  # clock idle low, sampled on its rise; most significant bit first, chip select active low
+BITS_PER_WORD: Final = 8
+GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.EBADF})  # the device is not there any more
+
+
+def read_bufsiz() -> int:
+    """Bytes that spidev takes in one message."""
+    try:
+        return int(BUFSIZ.read_text())
+    except (OSError, ValueError):
+        return BUFSIZ_UNLESS_SAID
+
+
+def divided_hz(source_hz: int, asked_hz: int) -> float:
+    """SCK that a controller makes of its own clock by an even divider, never above what is asked if it can.
+
+    Linux: spi-bcm2835.c (Pi 1 to 4), spi-dw-core.c (Pi 5).
+    """
+    if asked_hz >= source_hz / 2:
+        return source_hz / 2
+    divider = -(-source_hz // asked_hz)
+    return source_hz / min(divider + divider % 2, 65536)
+
+
+class SpiLink:
+    """`Link` to an FPGA at a spidev, with its trigger line.
+
+    Parameters
+    ----------
+    settings : LinkSettings
+        Of kind "spi".
+    now_s : callable
+        The loop's clock.
+
+    Attributes
+    ----------
+    sck_hz : float
+        What SCK really is: by the divider of `settings.spi_source_hz` where that is given, else what spidev was asked for.
+    wire_ns, away_ns : int
+        Both are the time in the kernel, which returns when the last bit has gone.
+
+    Raises
+    ------
+    LinkError
+        If the device or a line is absent, held by another program or cannot do what is asked, or the gateware is not ready.
+    """
+
+    def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
+        self.bytes_sent = 0
+        self.wire_ns = 0
+        self.away_ns = 0
+        self.sck_hz = 0.0
+        self.bufsiz = read_bufsiz()
+        self._settings = settings
+        self._asked_hz = settings.sck_hz
+        self._now_s = now_s
+        self._free_s = now_s()
+        self._messages: Messages | None = None
+        self._spi: spidev.SpiDev | None = self._opened()
+        try:
+            self.lines = GpioLines(settings, now_s)
+        except LinkError:
+            self._spi.close()
+            raise
+        if not self.lines.ready():
+            self.close()
+            raise LinkError(
+                f"the FPGA is not configured: its line {settings.ready_line!r} is low; load the gateware, or look at its supply"
+            )
+        self.lines.permit(True)
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames that lie back to back, each under its own chip select, and store what comes back.
+
+        Raises
+        ------
+        LinkError
+            If the bus fails, or the device has gone; it is opened again at the next call.
+        """
+        messages = self._messages
+        if messages is None or messages.sent is not sent or messages.received is not received:
+            messages = self._messages = Messages(sent, received, self.bufsiz)
+        if self._spi is None:
+            self._spi = self._opened()
+        fd = self._spi.fileno()
+        pieces = messages.of(lengths)
+        started_ns = time.perf_counter_ns()
+        try:
+            for request, transfers, size in pieces:
+                fcntl.ioctl(fd, request, transfers)
+                self.bytes_sent += size
+        except OSError as error:
+            raise self._failure(error) from error
+        finally:
+            elapsed_ns = time.perf_counter_ns() - started_ns
+            self.wire_ns += elapsed_ns
+            self.away_ns += elapsed_ns
+            self._free_s = self._now_s()
+
+    def trigger(self) -> float:
+        """Pulse the trigger line; the time of its edge."""
+        return self.lines.pulse()
+
+    def free_s(self) -> float:
+        """When the last message had gone."""
+        return self._free_s
+
+    @property
+    def effective_hz(self) -> float:
+        """Bits over the time they took, kernel and pauses between frames included; 0 before the first message."""
+        return 8e9 * self.bytes_sent / self.wire_ns if self.wire_ns else 0.0
+
+    def set_sck_hz(self, sck_hz: int) -> float:
+        """Ask for another SCK, at most the board's; what it really is.
+
+        Raises
+        ------
+        LinkError
+            If the controller does not take it.
+        """
+        if not 0 < sck_hz <= self._settings.sck_hz:
+            raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")
+        if self._spi is None:
+            self._spi = self._opened()
+        self._asked_hz = sck_hz
+        try:
+            self._set_speed(self._spi)
+        except OSError as error:
+            raise self._failure(error) from error
+        return self.sck_hz
+
+    def close(self) -> None:
+        """Take the permit away and let go of the device."""
+        self.lines.close()
+        if self._spi is not None:
+            self._spi.close()
+            self._spi = None
+
+    def _opened(self) -> spidev.SpiDev:
+        """The device, ours alone, with its settings read back."""
+        device = self._settings.device
+        spi = spidev.SpiDev()
+        try:
+            spi.open_path(device)
+        except OSError as error:
+            raise LinkError(_why_not_open(device, error)) from error
+        try:
+            fcntl.flock(spi.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)  # spidev itself lets any number of programs in
+            spi.lsbfirst = spi.cshigh = spi.threewire = spi.loop = spi.no_cs = False
+            spi.mode = MODE
+            spi.bits_per_word = BITS_PER_WORD
+            mode, bits = _read(spi, RD_MODE32, "=I"), _read(spi, RD_BITS_PER_WORD, "=B")
+            if mode != MODE or bits != BITS_PER_WORD:
+                raise LinkError(
+                    f"{device} stays in mode 0x{mode:X} with {bits} bits a word; the FPGA needs mode {MODE} with {BITS_PER_WORD}:"
+                    " look at the device tree's entry for it"
+                )
+            self._set_speed(spi)
+        except BlockingIOError as error:
+            spi.close()
+            raise LinkError(f"{device} is in use by another haptic-panel: end it first") from error
+        except OSError as error:
+            spi.close()
+            raise LinkError(f"{device} cannot be set to mode {MODE}, {BITS_PER_WORD} bits: {error.strerror}") from error
+        except LinkError:
+            spi.close()
+            raise
+        return spi
+
+    def _set_speed(self, spi: spidev.SpiDev) -> None:
+        spi.max_speed_hz = self._asked_hz
+        said_hz = _read(spi, RD_MAX_SPEED_HZ, "=I")
+        source_hz = self._settings.spi_source_hz
+        self.sck_hz = divided_hz(source_hz, said_hz) if source_hz else float(said_hz)
+
+    def _failure(self, error: OSError) -> LinkError:
+        """What a failed system call means, in words; a device that has gone is let go of."""
+        device = self._settings.device
+        if error.errno in GONE:
+            if self._spi is not None:
+                with contextlib.suppress(OSError):
+                    self._spi.close()
+            self._spi = None
+            return LinkError(
+                f"{device} has gone: was its driver unbound, or its adapter unplugged? It is opened again when it is back"
+            )
+        if error.errno == errno.ETIMEDOUT:
+            return LinkError(
+                f"{device}: the SPI controller did not finish a transfer: its bus is stuck; restart the machine if it stays"
+            )
+        if error.errno == errno.EMSGSIZE:
+            return LinkError(
+                f"{device}: a message does not fit spidev's buffer: was bufsiz changed? It was {self.bufsiz} when opened"
+            )
+        return LinkError(f"{device} failed ({error.strerror}): look into the kernel's log (dmesg)")
+
+
+def _read(spi: spidev.SpiDev, request: int, layout: str) -> int:
+    """One of spidev's settings, as the kernel has it."""
+    value: int = struct.unpack(layout, fcntl.ioctl(spi.fileno(), request, bytes(struct.calcsize(layout))))[0]
+    return value
+
+
+def _why_not_open(device: str, error: OSError) -> str:
+    if error.errno in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
+        there = ", ".join(sorted(str(path) for path in Path("/dev").glob("spidev*"))) or "none"
+        return f"there is no {device} (there are: {there}): switch SPI on, on a Raspberry Pi by dtparam=spi=on in config.txt"
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: spi)"
+    return f"{device} could not be opened: {error.strerror or error}"
