@@ -27,6 +27,8 @@ class Contact:
     finger: int | None = None
     x_m: float = 0.0
     y_m: float = 0.0
+    size: int = 0  # ABS_MT_TOUCH_MAJOR
+    size_m: float = 0.0
 
 
 def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int]) -> dict[int, Contact]:
@@ -76,7 +78,7 @@ def _moved(was: Contact | None, is_now: Contact) -> Contact:
     if was is None:
         return is_now
     was.moved = (was.x, was.y) != (is_now.x, is_now.y)
-    was.x, was.y, was.palm = is_now.x, is_now.y, is_now.palm
+    was.x, was.y, was.palm, was.size = is_now.x, is_now.y, is_now.palm, is_now.size
     return was
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from controller.board import Board
@@ -29,15 +30,23 @@ class Axes:
     x, y : AxisRange
         Ranges of the device's axes. An axis without extent (one single tap, its range guessed)
         reads as its middle.
+
+    Attributes
+    ----------
+    size_m_per_unit : float
+        Metres per raw unit of a contact's extent, the mean of both axes.
     """
 
-    __slots__ = ("_from_axes", "_plate_m", "x", "y")
+    __slots__ = ("_from_axes", "_plate_m", "size_m_per_unit", "x", "y")
 
     def __init__(self, board: Board, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
         self._plate_m = (board.plate.length_m, board.plate.width_m)
         self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
+        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self._from_axes
+        # The kernel gives a contact's extent in the units of its place, which may differ between the axes
+        self.size_m_per_unit = (math.hypot(x_by_x, y_by_x) + math.hypot(x_by_y, y_by_y)) / 2
 
     def clamp(self, x: int, y: int) -> tuple[int, int]:
         """Raw position moved to the nearest one inside both ranges."""
@@ -49,7 +58,10 @@ class Axes:
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0
-        return min(max(x_m, 0.0), length_m), min(max(y_m, 0.0), width_m)
+        return (
+            0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
+            0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
+        )
 
 
 def _between(value: int, axis: AxisRange) -> int:

@@ -11,13 +11,30 @@ contact sent that: a slot keeps its position from one contact to the next.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from itertools import count
 
-from controller.touch import event_codes as ev
 from controller.touch.associate import FIRST_SERIAL, Contact, associate
 from controller.touch.axes import Axes
-from controller.touch.panel import Counts, PanelState, Protocol
+from controller.touch.event_codes import (
+    ABS_MT_DISTANCE,
+    ABS_MT_POSITION_X,
+    ABS_MT_POSITION_Y,
+    ABS_MT_SLOT,
+    ABS_MT_TOOL_TYPE,
+    ABS_MT_TOUCH_MAJOR,
+    ABS_MT_TRACKING_ID,
+    ABS_X,
+    ABS_Y,
+    BTN_TOUCH,
+    EV_ABS,
+    EV_KEY,
+    EV_SYN,
+    MT_TOOL_PALM,
+    SYN_DROPPED,
+    SYN_MT_REPORT,
+    SYN_REPORT,
+)
+from controller.touch.panel import Counts, Protocol
 from controller.touch.samples import TouchSample
 
 MAX_PLAYED = 10
@@ -36,6 +53,8 @@ class Decoder:
     A palm (ABS_MT_TOOL_TYPE) is counted but not played. When ten fingers are played, one that comes
     is not, as long as it stays: a finger that starts in the middle of its touch would feel like a press.
 
+    `feed` is on the way from every touch to its emission: it allocates nothing but the samples.
+
     Parameters
     ----------
     axes : Axes
@@ -44,26 +63,21 @@ class Decoder:
         See `panel.protocol_of`.
     slot, last_slot : int
         Slot current at the start; highest slot the device declares, None if unknown.
-    read_state : callable, optional
-        Reads the panel's state after lost events. Without it (a recording) all fingers are released.
+    after : Decoder, optional
+        The one before the device was plugged in again: its counts, warnings and finger numbers go on.
     """
 
     def __init__(
-        self,
-        axes: Axes,
-        protocol: Protocol,
-        *,
-        slot: int = 0,
-        last_slot: int | None = None,
-        read_state: Callable[[], PanelState] | None = None,
+        self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
         self.protocol = protocol
-        self.counts = Counts()
-        self.warnings: Counter[str] = Counter()
+        self.counts: Counts = after.counts if after else Counts()
+        self.warnings: Counter[str] = after.warnings if after else Counter()
         self._axes = axes
+        self._size_m = axes.size_m_per_unit
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
-        self._read_state = read_state
-        self._x_code, self._y_code = ev.POSITIONS_SINGLE if protocol is Protocol.SINGLE else ev.POSITIONS
+        single = protocol is Protocol.SINGLE
+        self._x_code, self._y_code = (ABS_X, ABS_Y) if single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
         self._slots: dict[int, Contact] = {}  # protocol A: by identity
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
         self._packet_seen = False
@@ -71,9 +85,10 @@ class Decoder:
         self._touching: bool | None = None  # BTN_TOUCH, None until heard
         self._losing = False
         self._played = 0
-        self._next_finger = 0
+        self._next_finger: int = after._next_finger if after else 0
         self._serials = count(FIRST_SERIAL)
-        self._select(slot)
+        self._slot = slot
+        self._here: Contact = self._enter(slot)
 
     def feed(self, kind: int, code: int, value: int, time_s: float) -> tuple[TouchSample, ...] | None:
         """Take one event.
@@ -90,19 +105,34 @@ class Decoder:
         tuple of TouchSample or None
             At SYN_REPORT: fingers released, begun or moved, in this order of kind; else None.
         """
-        if kind == ev.EV_SYN and code == ev.SYN_REPORT:
-            return self._report(time_s)
-        if self._losing:
-            return None
-        if kind == ev.EV_ABS:
-            self._axis(code, value)
-        elif kind == ev.EV_KEY and code == ev.BTN_TOUCH:
+        if kind == EV_ABS:
+            if self._losing:
+                return None
+            here = self._here
+            if code == self._x_code:
+                if value != here.x:
+                    here.x = value
+                    here.moved = True
+            elif code == self._y_code:
+                if value != here.y:
+                    here.y = value
+                    here.moved = True
+            else:
+                self._axis(code, value)
+                return None
+            if here.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
+                here.identity = IMPLIED
+        elif kind == EV_SYN:
+            if code == SYN_REPORT:
+                return self._report(time_s)
+            if code == SYN_MT_REPORT:
+                if self.protocol is Protocol.A and not self._losing:
+                    self._end_packet()
+            elif code == SYN_DROPPED and not self._losing:
+                self._losing = True
+                self.warnings["dropped"] += 1
+        elif kind == EV_KEY and code == BTN_TOUCH and not self._losing:
             self._button(value != 0)
-        elif kind == ev.EV_SYN and code == ev.SYN_MT_REPORT and self.protocol is Protocol.A:
-            self._end_packet()
-        elif kind == ev.EV_SYN and code == ev.SYN_DROPPED:
-            self._losing = True
-            self.warnings["dropped"] += 1
         return None
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
@@ -115,44 +145,35 @@ class Decoder:
         self._select(self._slot)
         return tuple([self._released(contact, time_s) for contact in fingers])
 
-    def restore(self, state: PanelState, time_s: float) -> tuple[TouchSample, ...]:
-        """Take over a state read from the panel; a tracking id that is still there is the same finger."""
-        self._touching = state.touching
-        for slot, tracking_id, x, y in state.slots:
-            contact = self._enter(slot)
-            self._identify(contact, max(tracking_id, AWAY))
-            contact.moved |= (contact.x, contact.y) != (x, y)
-            contact.x, contact.y = x, y
-        self._select(state.slot)
-        return self._samples(time_s)
-
     def fingers(self) -> list[tuple[int, float, float]]:
         """Fingers down now as (finger, x_m, y_m), moving or at rest."""
         return [(c.finger, c.x_m, c.y_m) for c in self._slots.values() if c.finger is not None]
 
     def _axis(self, code: int, value: int) -> None:
-        here = self._here
-        if code == self._x_code:
-            here.moved |= value != here.x
-            here.x = value
-        elif code == self._y_code:
-            here.moved |= value != here.y
-            here.y = value
-        elif self.protocol is Protocol.SINGLE:
+        """Any axis but the positions."""
+        if self.protocol is Protocol.SINGLE:
             return
-        elif code == ev.ABS_MT_SLOT:
-            self._select(value)
-        elif code == ev.ABS_MT_TRACKING_ID:
+        here = self._here
+        if code == ABS_MT_SLOT:
+            contact = self._slots.get(value)
+            if contact is None:
+                self._select(value)
+            else:
+                self._slot = value
+                self._here = contact
+        elif code == ABS_MT_TOUCH_MAJOR:
+            here.size = value
+            if self.protocol is Protocol.A:
+                here.hovers = value == 0
+        elif code == ABS_MT_TRACKING_ID:
             if self.protocol is Protocol.B:
                 self._identify(here, max(value, AWAY))
             else:
                 here.identity = value
-        elif code == ev.ABS_MT_DISTANCE or (code == ev.ABS_MT_TOUCH_MAJOR and self.protocol is Protocol.A):
-            here.hovers = value > 0 if code == ev.ABS_MT_DISTANCE else value == 0
-        elif code == ev.ABS_MT_TOOL_TYPE:
-            here.palm = value == ev.MT_TOOL_PALM
-        if here.identity == UNKNOWN and code in ev.POSITIONS:
-            here.identity = IMPLIED
+        elif code == ABS_MT_DISTANCE:
+            here.hovers = value > 0
+        elif code == ABS_MT_TOOL_TYPE:
+            here.palm = value == MT_TOOL_PALM
 
     def _button(self, touching: bool) -> None:
         if self.protocol is Protocol.SINGLE:
@@ -185,7 +206,7 @@ class Decoder:
         if contact.identity >= 0 and not contact.counted and self._down(contact):
             self.counts.contacts += 1  # came and went within one report
         if contact.finger is not None:
-            self._gone.append(Contact(AWAY, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m))
+            self._gone.append(Contact(AWAY, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m))
             contact.finger = None
         contact.identity = identity
         contact.counted = contact.refused = False
@@ -201,8 +222,9 @@ class Decoder:
         self._here = Contact(AWAY)
 
     def _report(self, time_s: float) -> tuple[TouchSample, ...]:
-        if self._losing:
-            return self._after_loss(time_s)
+        if self._losing:  # all before is void; what a live panel's state is, its reader says in the next report
+            self._losing = False
+            return self.release(time_s)
         if self.protocol is Protocol.A:
             if self._here.x is not None:
                 self._end_packet()
@@ -213,47 +235,69 @@ class Decoder:
                 self._packets.clear()
             self._packet_seen = False
             self._here = Contact(AWAY)
-        samples = self._samples(time_s)
-        down = 0
-        for contact in self._slots.values():
-            if self._down(contact):
-                down += 1
-                if not contact.counted and contact.identity >= 0:
-                    contact.counted = True
-                    self.counts.contacts += 1
-        if down:
-            self.counts.reports += 1
-            self.counts.max_fingers = max(self.counts.max_fingers, down)
-        return samples
+        return self._samples(time_s)
 
     def _samples(self, time_s: float) -> tuple[TouchSample, ...]:
-        samples = [self._released(contact, time_s) for contact in self._gone]
+        """What this report released, moved and began."""
+        samples = []
+        for contact in self._gone:
+            samples.append(self._released(contact, time_s))
         self._gone.clear()
+        hovering = self._touching is False
+        down = 0
+        moved = False
         for contact in self._slots.values():
-            if not self._down(contact) or contact.palm:
+            identity = contact.identity
+            if (identity < 0 and identity != IMPLIED) or hovering or contact.hovers:
                 if contact.finger is not None:
                     samples.append(self._released(contact, time_s))
                 contact.refused = False
-        for contact in self._slots.values():
-            if contact.palm or contact.refused or not self._down(contact):
                 continue
-            if contact.x is None or contact.y is None or not (contact.moved or contact.finger is None):
-                continue
-            if contact.finger is None:
-                if self._played == MAX_PLAYED:
-                    self.warnings["more_than_played"] += 1
-                    contact.refused = True
-                    continue
-                contact.finger = self._next_finger
-                self._next_finger += 1
-                self._played += 1
-            x, y = self._axes.clamp(contact.x, contact.y)
-            if x != contact.x or y != contact.y:
-                self.warnings["outside_axes"] += 1
-            contact.x_m, contact.y_m = self._axes.place_m(x, y)
-            contact.moved = False
-            samples.append(TouchSample(contact.finger, contact.x_m, contact.y_m, time_s, True))
+            down += 1
+            if not contact.counted and identity >= 0:
+                contact.counted = True
+                self.counts.contacts += 1
+            if contact.palm:
+                if contact.finger is not None:
+                    samples.append(self._released(contact, time_s))
+                contact.refused = False
+            elif contact.moved or contact.finger is None:
+                moved = True
+        if down:
+            counts = self.counts
+            counts.reports += 1
+            counts.max_fingers = max(counts.max_fingers, down)
+        if moved:
+            for contact in self._slots.values():
+                if contact.moved or contact.finger is None:
+                    self._place(contact, time_s, samples)
         return tuple(samples)
+
+    def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
+        """Add the sample of a contact that has moved or begun, if it is played."""
+        x, y = contact.x, contact.y
+        if x is None or y is None or contact.palm or contact.refused or not self._down(contact):
+            return
+        finger = contact.finger
+        if finger is None:
+            if self._played == MAX_PLAYED:
+                self.warnings["more_than_played"] += 1
+                contact.refused = True
+                return
+            finger = contact.finger = self._next_finger
+            self._next_finger += 1
+            self._played += 1
+        axes = self._axes
+        if axes.x.minimum <= x <= axes.x.maximum and axes.y.minimum <= y <= axes.y.maximum:
+            x_m, y_m = axes.place_m(x, y)
+        else:
+            self.warnings["outside_axes"] += 1
+            x_m, y_m = axes.place_m(*axes.clamp(x, y))
+        contact.x_m = x_m
+        contact.y_m = y_m
+        contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
+        contact.moved = False
+        samples.append(TouchSample(finger, x_m, y_m, time_s, True, size_m))
 
     def _down(self, contact: Contact) -> bool:
         return (contact.identity >= 0 or contact.identity == IMPLIED) and not contact.hovers and self._touching is not False
@@ -263,11 +307,4 @@ class Decoder:
         assert finger is not None
         contact.finger = None
         self._played -= 1
-        return TouchSample(finger, contact.x_m, contact.y_m, time_s, False)
-
-    def _after_loss(self, time_s: float) -> tuple[TouchSample, ...]:
-        """First SYN_REPORT after SYN_DROPPED: all before it is void, the panel's state is read or given up."""
-        self._losing = False
-        if self._read_state is None or self.protocol is Protocol.A:  # the kernel keeps no state of protocol A
-            return self.release(time_s)
-        return self.restore(self._read_state(), time_s)
+        return TouchSample(finger, contact.x_m, contact.y_m, time_s, False, contact.size_m)

@@ -11,8 +11,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
-from controller.touch.panel import PanelState
-
 Event = tuple[int, int, int, float]  # type, code, value, time in s on the loop's clock
 
 
@@ -43,6 +41,10 @@ class DeviceDescription:
 class EventReader(Protocol):
     """One touch panel on a real interface.
 
+    What it gives is a stream that any decoder understands from its first event on, and that a recording can hold:
+    it begins with the state of the panel as a report; after lost events, and when the panel was plugged in again, the
+    state comes as another report; when the panel goes, a report lifts every contact.
+
     Attributes
     ----------
     warnings : Counter of str
@@ -53,7 +55,7 @@ class EventReader(Protocol):
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the device as it was opened last."""
+        """Of the device as it was opened last; another object after it was opened again."""
 
     @property
     def present(self) -> bool:
@@ -63,16 +65,14 @@ class EventReader(Protocol):
         """File to wait on for reading; None while there is none. Another one after the device was opened again."""
 
     def next_time_s(self) -> float | None:
-        """When to call `read` though no file is readable; None: never."""
+        """When to call `read` though no file is readable, on the loop's clock; None: never."""
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of at most one report, SYN_REPORT included; empty if there is none.
+        """Events of at most one report, SYN_REPORT last; empty if there is none. A long report comes in parts.
 
-        Never blocks, and never raises for what a device may do: it is got over, or the device is taken for lost.
+        Never blocks longer than a transfer lasts, and never raises for what a device may do: it is got over, or the
+        device is taken for lost.
         """
-
-    def read_state(self) -> PanelState | None:
-        """State of the panel now, after lost events or at the start; None where it cannot be read."""
 
     def close(self) -> None:
         """Give the device back."""

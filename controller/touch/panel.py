@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple
 
 from controller.touch import event_codes as ev
 
@@ -30,21 +29,12 @@ def protocol_of(declared_axes: Iterable[int], seen: Iterable[tuple[int, int]]) -
     return Protocol.B if several else Protocol.SINGLE
 
 
-class Slot(NamedTuple):
-    """State of one slot as read from a device: after EVIOCGMTSLOTS, or at the start."""
-
-    slot: int
-    tracking_id: int
-    x: int
-    y: int
-
-
-class PanelState(NamedTuple):
-    """State of a whole panel: current slot, BTN_TOUCH, slots. Single-touch: slot 0, tracking id 0 while touched, else -1."""
-
-    slot: int
-    touching: bool
-    slots: tuple[Slot, ...]
+def protocol_of_device(declared_axes: Iterable[int]) -> Protocol:
+    """Protocol of a live device, whose declared axes are known to be all it has: no slots, no protocol B."""
+    axes = set(declared_axes)
+    if ev.ABS_MT_SLOT in axes:
+        return Protocol.B
+    return Protocol.A if axes.issuperset(ev.POSITIONS) else Protocol.SINGLE
 
 
 @dataclass(slots=True)

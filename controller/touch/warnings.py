@@ -19,6 +19,14 @@ KINDS = {
     "never_reported": "events after the last SYN_REPORT were not played",
     "dropped": "losses of events (SYN_DROPPED): fingers released or read again",
     "more_than_played": "contacts beyond the ten that are played were left out",
+    "time_ahead": "reports from the future: their time was taken as now",
+    "panel_lost": "times the touch panel was gone; fingers released until it came back",
+    "bus_retried": "transfers on the touch panel's bus that failed and were tried again",
+    "report_absurd": "reports of the touch panel that cannot be meant were skipped",
+    "ghost_points": "points at (0, 0) that the touch panel made up were skipped",
+    "stale_reports": "reports from before the touch panel was started were skipped",
+    "contact_stuck": "contacts that the touch panel went silent about were released",
+    "bytes_skipped": "bytes from the serial touch panel that were no packet",
     "still_down_at_end": "fingers still down at the end of the recording were released",
 }
 

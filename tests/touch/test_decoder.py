@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from controller.board import data_folder, load_board
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, Decoder
-from controller.touch.panel import PanelState, Protocol, Slot, protocol_of
+from controller.touch.panel import Protocol, protocol_of, protocol_of_device
 
 BOARD = load_board(data_folder("boards") / "simulated")
 AXES = Axes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each
@@ -318,28 +318,50 @@ def test_what_an_unfinished_report_replaced_is_released_once(lost):
 
 
 def test_after_lost_events_contacts_of_an_unfinished_report_of_protocol_a_are_forgotten():
-    d = decoder(Protocol.A, read_state=lambda: pytest.fail("the kernel keeps no state of protocol A"))
+    d = decoder(Protocol.A)
     assert play(d, (X, 100), (Y, 100), MT_REPORT, DROPPED, REPORT, MT_REPORT, REPORT) == []
 
 
-def test_after_lost_events_a_device_is_read_again():
-    state = PanelState(1, True, (Slot(0, 7, 150, 200), Slot(1, -1, 0, 0), Slot(2, 9, 10, 20)))
-    d = decoder(read_state=lambda: state)
-    play(d, (ID, 7), (X, 100), (Y, 200), (SLOT, 1), (ID, 8), (X, 5), (Y, 5), REPORT)
-    assert play(d, (SLOT, 0), DROPPED, (ID, 99), REPORT) == [(1, 0.5, 0.5, False), (0, 15, 20, True), (2, 1, 2, True)]
-    assert play(d, (ID, 10), (X, 30), (Y, 30), REPORT) == [(3, 3, 3, True)]  # slot 1 is current
+def sizes_mm(d, *events):
+    samples = []
+    for event in events:
+        kind, code, value = event if len(event) == 3 else (ABS, *event)
+        samples += d.feed(kind, code, value, 0.0) or ()
+    return [(s.finger, round(s.size_m * 1e3, 6), s.contact) for s in samples]
 
 
-def test_what_is_read_after_lost_events_is_told_even_if_it_was_heard_before_them():
-    d = decoder(read_state=lambda: PanelState(0, True, (Slot(0, 7, 110, 200), Slot(1, -3, 5, 5))))
-    play(d, (ID, 7), (X, 100), (Y, 200), REPORT)
-    assert play(d, (X, 110), DROPPED, REPORT) == [(0, 11, 20, True)]
+def test_the_size_of_a_contact_is_told_in_the_units_of_its_place():
+    d = decoder()
+    assert sizes_mm(d, (ID, 7), (MAJOR, 85), (X, 100), (Y, 200), REPORT) == [(0, 8.5, True)]
+    assert sizes_mm(d, (MAJOR, 90), REPORT) == []  # a finger at rest that presses harder has not moved
+    assert sizes_mm(d, (X, 110), REPORT, (ID, -1), REPORT) == [(0, 9.0, True), (0, 9.0, False)]
+    assert sizes_mm(d, (ID, 8), (MAJOR, -5), REPORT) == [(1, 0.0, True)]
+    assert sizes_mm(decoder(), (ID, 7), (X, 100), (Y, 200), REPORT) == [(0, 0.0, True)]
 
 
-def test_a_finger_that_hovers_after_lost_events_is_released():
-    d = decoder(read_state=lambda: PanelState(0, False, (Slot(0, 7, 100, 200),)))
-    play(d, (KEY, TOUCH, 1), (ID, 7), (X, 100), (Y, 200), REPORT)
-    assert play(d, DROPPED, REPORT) == [(0, 10, 20, False)]
+def test_sizes_in_protocol_a_go_with_their_contact():
+    d = decoder(Protocol.A)
+    one, two = [(MAJOR, 80), (X, 100), (Y, 100), MT_REPORT], [(MAJOR, 120), (X, 1000), (Y, 1000), MT_REPORT]
+    assert sizes_mm(d, *one, *two, REPORT) == [(0, 8.0, True), (1, 12.0, True)]
+    grown = [(MAJOR, 100), (X, 110), (Y, 100), MT_REPORT]
+    assert sizes_mm(d, *two, *grown, REPORT) == [(0, 10.0, True)]
+
+
+def test_a_decoder_after_another_goes_on_counting_and_gives_no_number_twice():
+    d = decoder()
+    play(d, (ID, 7), (X, 100), (Y, 200), REPORT, (SLOT, -1), (SLOT, 0))
+    d.release(1.5)
+    later = decoder(after=d)
+    assert play(later, (ID, 7), (X, 100), (Y, 200), REPORT) == [(1, 10, 20, True)]
+    assert counts(later) == (2, 2, 1)
+    assert later.warnings == {"slot_absurd": 1}
+
+
+def test_a_live_device_without_slots_is_of_protocol_a():
+    assert protocol_of_device({0, 1, SLOT, X, Y, ID}) is Protocol.B
+    assert protocol_of_device({0, 1, X, Y, ID}) is Protocol.A
+    assert protocol_of_device({0, 1}) is Protocol.SINGLE
+    assert protocol_of_device({0, 1, X}) is Protocol.SINGLE
 
 
 def test_the_protocol_shows_itself():
