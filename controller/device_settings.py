@@ -23,7 +23,8 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     """What all touch panels have: where their axes lie on the plate, and what is known of their reports.
 
     A position is that of the finger `lag_ms` before its report; contacts wider than `max_size_mm` are palms;
-    a contact is played from its `confirm_reports`th report on.
+    a contact is played from its `confirm_reports`th report on. Ghosts of an emission are gone `ghost_ms` after it
+    (0: the panel makes none).
     """
 
     x_mm_from_axes: tuple[float, float, float]
@@ -32,6 +33,7 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     max_size_mm: Positive = 30.0
     confirm_reports: Annotated[int, Meta(ge=1, le=10)] = 1
     max_emissions_unconfirmed: Annotated[int, Meta(ge=1, le=100)] = 1
+    ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 30.0
     recording: str = ""  # what `run` replays on a board without devices
 
     @property
@@ -44,9 +46,16 @@ class TouchPanel(Record, frozen=True, kw_only=True):
         """Widest contact that is a finger, in m."""
         return self.max_size_mm * 1e-3
 
+    @property
+    def ghost_s(self) -> float:
+        """Time after an emission within which its ghosts have gone, in s."""
+        return self.ghost_ms * 1e-3
+
 
 class RecordingTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="recording"):
     """No panel: a recording is replayed."""
+
+    ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 0.0  # what was recorded does not hear what is played now
 
 
 class LinuxInputTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="linux_input"):

@@ -56,4 +56,8 @@ class TrackedTouch(TouchSource, Protocol):
         """Whether the panel has confirmed the contact; the emissions of one that is not are capped."""
 
     def emitted(self, start_s: float, end_s: float) -> None:
-        """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost."""
+        """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost.
+
+        To be told in the order of `start_s`, at the latest when it starts. A repetition that the FPGA keeps up may be
+        told emission by emission, or once with `end_s` inf; then the next call ends it, `emitted(now_s, now_s)` too.
+        """

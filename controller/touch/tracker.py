@@ -1,0 +1,280 @@
+"""Between any source and the loop: which contacts are fingers that may be played, and where they will be.
+
+What a contact goes through:
+
+- It waits until its `confirm_reports`-th report, or until so many reports would have told that it is gone; a suspect
+  (`ghost_guard.py`) waits until it is cleared. Then it is a finger, and its first sample carries the time of this decision.
+- Wider than `max_size_mm` it is a palm, from then until it is lifted; a finger that becomes one is released at once.
+- A finger that is lost keeps its place for `BRIDGED_PERIODS`; a contact that begins near by meanwhile is the same finger.
+  So a release reaches the loop that much later, with the time at which the panel told it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from math import hypot, inf
+
+from controller.device_settings import TouchPanel
+from controller.touch.ghost_guard import NEAR_M, GhostGuard
+from controller.touch.panel import Counts
+from controller.touch.prediction import Motion
+from controller.touch.report_rate import ReportRate
+from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSource
+
+BRIDGED_PERIODS = 1.5
+UNTOLD_PERIODS = 1.5  # a report that told nothing of a contact is taken for one that found it still there
+CONFIRMING_REPORTS = 2
+
+
+@dataclass(slots=True)
+class TrackerCounts:
+    """What became of contacts that were not simply fingers."""
+
+    held_back: int = 0  # suspects
+    ghosts: int = 0  # suspects that were gone before they were cleared
+    flickers: int = 0  # gone before enough reports had told them
+    palms: int = 0
+    bridged: int = 0  # lost and found again
+    longest_hold_s: float = 0.0  # from the first report of a suspect to its first sample
+    longest_ghost_s: float = 0.0  # from first report to last; close to `ghost_ms`, that is too short
+
+
+class _Contact:
+    """One contact of the source, waiting, played or refused."""
+
+    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "stayed_since_s", "suspect")
+
+    def __init__(self, finger: int, x_m: float, y_m: float, time_s: float, *, suspect: bool) -> None:
+        self.finger = finger  # as the loop knows it: the source's number of its first contact
+        self.motion = Motion(x_m, y_m, time_s)
+        self.first_s = self.stayed_since_s = time_s
+        self.reports = 1
+        self.size_m = 0.0
+        self.suspect = suspect
+        self.played = False
+        self.refused = False
+        self.lost_s = inf  # when the panel told that it is gone
+
+
+class Tracker:
+    """A source behind debounce, palm and ghost guard, with prediction; a `TrackedTouch`.
+
+    Parameters
+    ----------
+    source : TouchSource
+        Gives contacts with identities.
+    settings : TouchPanel
+        The board's touch table.
+    length_m, width_m : float
+        Of the plate: predicted places are held to it.
+
+    Attributes
+    ----------
+    tracking : TrackerCounts
+        What was held back, bridged and refused.
+    rate : ReportRate
+        The panel's report period and its jitter, as measured.
+    """
+
+    def __init__(self, source: TouchSource, settings: TouchPanel, length_m: float, width_m: float) -> None:
+        self.tracking = TrackerCounts()
+        self.rate = ReportRate()
+        self._source = source
+        self._lag_s = settings.lag_s
+        self._max_size_m = settings.max_size_m
+        self._confirm_reports = settings.confirm_reports
+        self._length_m, self._width_m = length_m, width_m
+        self._guard = GhostGuard(settings.ghost_s)
+        self._contacts: dict[int, _Contact] = {}  # by the source's number
+        self._fingers: dict[int, _Contact] = {}  # played, by the loop's number
+        self._lost: list[_Contact] = []
+        self._reports = source.counts.reports
+        self._now_s = -inf
+        self._due_s = inf  # when something is to be decided without a report
+
+    @property
+    def counts(self) -> Counts:
+        """Of the source."""
+        return self._source.counts
+
+    @property
+    def warnings(self) -> Counter[str]:
+        """Of the source."""
+        return self._source.warnings
+
+    def fileno(self) -> int | None:
+        """Of the source."""
+        return self._source.fileno()
+
+    def close(self) -> None:
+        """Close the source."""
+        self._source.close()
+
+    def next_time_s(self) -> float | None:
+        """When the source wants to be read, or a contact that waits is due."""
+        source_s = self._source.next_time_s()
+        if source_s is None:
+            return None if self._due_s == inf else self._due_s
+        return min(source_s, self._due_s)
+
+    def read(self, now_s: float) -> tuple[TouchSample, ...]:
+        """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
+        self._now_s = now_s
+        samples = self._source.read(now_s)
+        reports = self._source.counts.reports
+        told = reports != self._reports
+        if not samples and not told and now_s < self._due_s:
+            return ()
+        known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
+        given: list[TouchSample] = []
+        for sample in samples:
+            self._take(sample, given)
+        if told:
+            self._reports = reports
+            self.rate.report(known_s)
+            self._found_still(known_s)
+        self._decide(known_s, given)
+        if not self._contacts:
+            self.rate.pause()
+        return tuple(given)
+
+    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+        """Where a finger will be, (x_m, y_m) on the plate; None once it is released. See `TrackedTouch.place`."""
+        contact = self._fingers.get(finger)
+        if contact is None:
+            return None
+        if contact.lost_s != inf:
+            x_m, y_m = contact.motion.x_m, contact.motion.y_m
+        else:
+            x_m, y_m = contact.motion.place(at_s, self._lag_s, self.rate.period_s)
+        return min(max(x_m, 0.0), self._length_m), min(max(y_m, 0.0), self._width_m)
+
+    def confirmed(self, finger: int) -> bool:
+        """Whether a second report, or silence for as long, or the ghost guard's wait has shown that the contact stays."""
+        contact = self._fingers.get(finger)
+        if contact is None:
+            return False
+        stayed_s = self._now_s - contact.first_s
+        return contact.suspect or contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
+
+    def emitted(self, start_s: float, end_s: float) -> None:
+        """An emission sounds, or a repetition (`end_s` inf) until the next call; see `TrackedTouch.emitted`."""
+        self._guard.emitted(start_s, end_s)
+
+    def _take(self, sample: TouchSample, given: list[TouchSample]) -> None:
+        contact = self._contacts.get(sample.finger)
+        if not sample.contact:
+            if contact is not None:
+                del self._contacts[sample.finger]
+                self._lift(contact, sample.time_s)
+            return
+        x_m, y_m, time_s = sample.x_m, sample.y_m, sample.time_s
+        if contact is None:
+            contact = self._begin(sample)
+            if not contact.played:
+                return
+        if contact.refused:
+            return
+        if sample.size_m > self._max_size_m:
+            self._refuse(contact, time_s, given)
+            return
+        motion = contact.motion
+        if contact.suspect and not contact.played and hypot(x_m - motion.x_m, y_m - motion.y_m) > NEAR_M:
+            contact.stayed_since_s = time_s
+        motion.report(x_m, y_m, time_s, self.rate.period_s)
+        contact.reports += 1
+        contact.size_m = sample.size_m
+        if contact.played:
+            given.append(
+                sample if contact.finger == sample.finger else TouchSample(contact.finger, x_m, y_m, time_s, True, sample.size_m)
+            )
+
+    def _begin(self, sample: TouchSample) -> _Contact:
+        """Contact for a number of the source that is new: a lost finger found again, or one that waits."""
+        finger, x_m, y_m, time_s, _, size_m = sample
+        palm = size_m > self._max_size_m
+        for lost in self._lost:
+            if not palm and hypot(x_m - lost.motion.x_m, y_m - lost.motion.y_m) <= NEAR_M and time_s <= self._bridged_until_s(lost):
+                self._lost.remove(lost)
+                lost.lost_s = inf
+                self._contacts[finger] = lost
+                self.tracking.bridged += 1
+                return lost
+        contact = _Contact(finger, x_m, y_m, time_s, suspect=self._guard.suspects(time_s))
+        contact.size_m = size_m
+        contact.refused = palm
+        self.tracking.palms += palm
+        self.tracking.held_back += contact.suspect and not palm
+        self._contacts[finger] = contact
+        return contact
+
+    def _lift(self, contact: _Contact, time_s: float) -> None:
+        if contact.refused:
+            return
+        if contact.played:
+            contact.lost_s = time_s
+            self._lost.append(contact)
+        elif contact.suspect:
+            self.tracking.ghosts += 1
+            self.tracking.longest_ghost_s = max(self.tracking.longest_ghost_s, time_s - contact.first_s)
+        else:
+            self.tracking.flickers += 1
+
+    def _refuse(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
+        """A contact has become a palm."""
+        contact.refused = True
+        self.tracking.palms += 1
+        if contact.played:
+            contact.played = False
+            self._release(contact, time_s, given)
+
+    def _release(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
+        del self._fingers[contact.finger]
+        given.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
+
+    def _found_still(self, time_s: float) -> None:
+        """A report came: contacts that it did not tell are where they were."""
+        period_s = self.rate.period_s
+        for contact in self._contacts.values():
+            motion = contact.motion
+            if motion.time_s < time_s and not contact.refused:
+                motion.report(motion.x_m, motion.y_m, time_s, period_s)
+                contact.reports += 1
+
+    def _decide(self, known_s: float, given: list[TouchSample]) -> None:
+        """Give contacts that have waited long enough, release those that did not come back; all that `known_s` shows."""
+        self._due_s = inf
+        for lost in tuple(self._lost) if self._lost else ():
+            until_s = self._bridged_until_s(lost)
+            if known_s >= until_s:
+                self._lost.remove(lost)
+                self._release(lost, lost.lost_s, given)
+            else:
+                self._due_s = min(self._due_s, until_s)
+        for contact in self._contacts.values():
+            if contact.played or contact.refused:
+                continue
+            due_s = self._played_from_s(contact)
+            if due_s > known_s:
+                self._due_s = min(self._due_s, due_s)
+                continue
+            contact.played = True
+            self._fingers[contact.finger] = contact
+            motion = contact.motion
+            given.append(TouchSample(contact.finger, motion.x_m, motion.y_m, max(due_s, motion.time_s), True, contact.size_m))
+            if contact.suspect:
+                self.tracking.longest_hold_s = max(self.tracking.longest_hold_s, max(due_s, motion.time_s) - contact.first_s)
+
+    def _played_from_s(self, contact: _Contact) -> float:
+        """When a contact that waits is a finger, should nothing be told of it."""
+        due_s = contact.first_s
+        if contact.reports < self._confirm_reports:
+            due_s += (self._confirm_reports - 1) * UNTOLD_PERIODS * self.rate.period_s
+        if contact.suspect:
+            due_s = max(due_s, self._guard.cleared_s(contact.first_s, contact.stayed_since_s))
+        return due_s
+
+    def _bridged_until_s(self, lost: _Contact) -> float:
+        return lost.lost_s + BRIDGED_PERIODS * self.rate.period_s
