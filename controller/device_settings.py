@@ -12,6 +12,7 @@ from msgspec import Meta
 
 from controller.records import Positive, Record, Share
 
+SERIAL_BITS_PER_BYTE = 10  # 8N1
 FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
 
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
@@ -125,6 +126,10 @@ class LinkSettings(Record, frozen=True, kw_only=True):
             for key, example in (("device", "/dev/spidev0.0"), ("gpio_chip", "pinctrl-bcm2711"), ("trigger_line", "GPIO25")):
                 if not getattr(self, key):
                     raise ValueError(f"{key} is missing: a link of kind 'spi' needs it, such as {example!r}")
+
+    def wire_s(self, size_bytes: int) -> float:
+        """Time that bytes take on the wire, without the pauses between frames."""
+        return size_bytes * (SERIAL_BITS_PER_BYTE / self.baud if self.kind == "serial" else 8 / self.sck_hz)
 
 
 class Temperature(Record, frozen=True, kw_only=True):

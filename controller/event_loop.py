@@ -1,70 +1,62 @@
-"""The device loop: touch reports in, triggers out; one thread, and nothing but the selector blocks.
+"""The device loop: touch reports and commands in, emissions out; one thread, and nothing but the selector blocks.
 
-Each turn reads at most one touch report, asks the scene what is due, and hands it to the playback.
-What becomes due while the plate is busy waits, and all that waits is composed into one emission.
+Each turn reads at most one touch report and a bounded number of commands, asks the scene what is due, and hands
+it to the playback. The longest call that blocks is one message on the wire (`Playback.upload_s`).
 """
 
 from __future__ import annotations
 
 import contextlib
 import gc
-import math
 import selectors
 import signal
-import socket
 import time
 from collections.abc import Callable, Iterator
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Any, Protocol
 
-from controller.errors import FaultError
-from controller.fpga.exchange import HostSilent
+from controller.bank.selection import Selection
+from controller.clocks import NEVER, Clock
+from controller.command_source import CommandSource, Outcome
+from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.session import Session
+from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
-from controller.playback import ENDLESS, NEVER, Playback
-from controller.scene import OUTSIDE, ROUNDING_S, Emission, FingerState, Scene, Spot, next_time_s, on_time, on_touch
-from controller.touch.source import TouchSource
+from controller.outputs import Outputs
+from controller.performance import Performance
+from controller.playback import ENDLESS, Playback
+from controller.scene import Emission, Scene
+from controller.touch.samples import TouchSample
+from controller.touch.source import TrackedTouch
+from controller.wakeup import Wakeup, signals
 
 SPOT_LEAD_S = 0.5e-3  # a spot's play command goes out this early, so that its beat does not wait for the wire
-STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
+BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train is handed over this early
+PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
+PREFETCH_AHEAD_S = 30e-3  # for where a moving finger will be then
 
 
-class Clock(Protocol):
-    """Where the loop's time comes from, and how it waits."""
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """Another scene and, if that has changed, the bank to play it from; or why there is none."""
 
-    def now_s(self) -> float:
-        """Time in s, never going back."""
-
-    def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Return at `until_s`, or earlier when a file of the selector is ready."""
-
-
-class MonotonicClock:
-    """Real time: the kernel's CLOCK_MONOTONIC."""
-
-    def now_s(self) -> float:
-        """Time in s since some fixed point."""
-        return time.monotonic()
-
-    def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Sleep in the selector."""
-        selector.select(None if until_s == NEVER else max(until_s - time.monotonic(), 0.0))
+    ticket: int
+    scene: Scene | None
+    selection: Selection | None = None
+    reason: str = ""
 
 
-class VirtualClock:
-    """Time that jumps to whatever comes next: a replay as fast as the machine goes, the same every time."""
+class SceneChange(Protocol):
+    """Prepares another scene outside the loop."""
 
-    def __init__(self) -> None:
-        self._now_s = 0.0
+    def begin(self, name: str | None, ticket: int) -> None:
+        """Prepare the scene of this name; None: the one that is played, read again."""
 
-    def now_s(self) -> float:
-        """Time in s since the start."""
-        return self._now_s
+    def fileno(self) -> int | None:
+        """Readable when it is done; None while nothing is prepared."""
 
-    def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Jump; signals still come through the selector."""
-        selector.select(0)
-        if until_s != NEVER:
-            self._now_s = max(self._now_s, until_s)
+    def take(self) -> Prepared | None:
+        """What was prepared; None while it is not done."""
 
 
 class EventLoop:
@@ -72,33 +64,68 @@ class EventLoop:
 
     Parameters
     ----------
-    clock, session, source, scene, playback
+    clock, session, source, performance, playback, time_base
         The parts; each may be simulated.
     counters : Counters
-        Shared with the playback.
+        Shared with performance and playback.
+    commands : CommandSource, optional
+        Gives commands, and is told what became of them.
+    change : SceneChange, optional
+        For SIGHUP, and for commands that load a scene.
+    progress : callable, optional
+        Called in each turn with the time: feeds the watchdog.
     """
 
     def __init__(
-        self, clock: Clock, session: Session, source: TouchSource, scene: Scene, playback: Playback, counters: Counters
+        self,
+        clock: Clock,
+        session: Session,
+        source: TrackedTouch,
+        performance: Performance,
+        playback: Playback,
+        time_base: TimeBase,
+        counters: Counters,
+        *,
+        commands: CommandSource | None = None,
+        change: SceneChange | None = None,
+        progress: Callable[[float], None] = lambda _: None,
     ) -> None:
         self._clock = clock
         self._session = session
         self._source = source
-        self._scene = scene
+        self._performance = performance
         self._playback = playback
+        self._time_base = time_base
         self._counters = counters
-        self._fingers: dict[int, FingerState] = {}
-        self._due: dict[int | str, Emission] = {}  # the newest of each finger or spot
-        self._spot_due_s: dict[Spot, float] = {}
-        rates = {spot.rate_hz for spot in scene.spots}
-        self._common_period_s = 1 / rates.pop() if len(rates) == 1 else None
+        self._commands = commands
+        self._change = change
+        self._progress = progress
+        self._outputs = Outputs(session, clock, time_base, counters)
+        self._lead_s = playback.upload_s + BEAT_LEAD_S
+        self._moving: int | None = None
+        self._report_ns = -1  # from the kernel's timestamp of the report just read to our read of it
+        self._registered: dict[str, int] = {}
+        self._wakeup: Wakeup | None = None
+        self._reload = False
         self._stopped = False
-        self._stalls = 0
-        self._emissions_at_stall = 0
+
+    @property
+    def state(self) -> str:
+        """Empty while the outputs are on or being armed, else why they are off."""
+        return self._outputs.cause
+
+    @property
+    def stretch(self) -> Callable[[float], None]:
+        """To be told by how much slower emissions are played than the bank says."""
+        return self._playback.stretch
 
     def stop(self) -> None:
         """End after this turn: outputs off, `run` returns."""
         self._stopped = True
+
+    def reload(self) -> None:
+        """Read the scene again."""
+        self._reload = True
 
     def run(self, ready: Callable[[], None] = lambda: None) -> None:
         """Arm, play until the source ends or `stop`, disarm; outputs are off when this returns or raises.
@@ -106,166 +133,234 @@ class EventLoop:
         Parameters
         ----------
         ready : callable
-            Called once the panel is armed for the first time.
+            Called once the outputs are on for the first time.
 
         Raises
         ------
         FaultError
             When the FPGA has switched off for a reason that the host may not clear by itself.
-        LinkError, TouchError
-            When the FPGA or the panel is lost.
         """
-        with selectors.DefaultSelector() as selector, _signals(self.stop, selector), _collector_off():
-            fileno = self._source.fileno()
-            if fileno is not None:
-                selector.register(fileno, selectors.EVENT_READ)
+        handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop}
+        if self._change is not None:
+            handlers[signal.SIGHUP] = self.reload
+        with selectors.DefaultSelector() as selector, signals(handlers, selector) as self._wakeup, _collector_off():
             try:
-                self._arm(selector)
-                ready()
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
+                    self._watch(selector)
+                    if self._clock.now_s() < next_s:
+                        self._clock.wait(selector, next_s)
                     try:
-                        self._wait(selector, next_s)
+                        if self._outputs.advance(self._clock.now_s()):
+                            self._performance.spots_from(self._panel_s())
+                            ready()
+                            ready = _nothing
                         next_s = self._turn()
-                    except HostSilent as stall:
-                        self._rearm(selector, stall)
+                    except (LinkError, FaultError) as error:
+                        self._lost(error)
                         next_s = self._clock.now_s()
-                self._rest(selector, self._session.disarm())
+                self._rest(selector, self._outputs.disarm())
             finally:
                 self._session.off()
 
-    def _arm(self, selector: selectors.BaseSelector) -> None:
-        self._rest(selector, self._session.arm())
-        self._session.require_armed()
-        now_s = self._clock.now_s()
-        self._spot_due_s = dict.fromkeys(self._scene.spots, now_s)
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+        """Play an effect for a command; see `PanelControl`."""
+        if not self._outputs.on:
+            raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
+        self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
 
-    def _rearm(self, selector: selectors.BaseSelector, stall: HostSilent) -> None:
-        """This process stalled and the FPGA rightly switched off; work goes on, as it would have after a start."""
-        self._counters.host_silent += 1
-        self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
-        self._emissions_at_stall = self._counters.emissions
-        if self._stalls > STALLS_IN_A_ROW:
-            raise FaultError(f"{stall} ({self._stalls} times in a row: the machine is too slow or too busy)") from stall
-        self._playback.forget_slots()
-        self._due.clear()
-        self._session.clear_faults()
-        self._arm(selector)
+    def load_scene(self, ticket: int, name: str) -> None:
+        """Take over another scene for a command; see `PanelControl`."""
+        if self._change is None:
+            raise ConfigError("scenes cannot be changed here")
+        self._change.begin(name, ticket)
+
+    def figures(self) -> dict[str, Any]:
+        """Counters and latencies so far, ready for JSON."""
+        return self._counters.export() | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
+
+    def effects(self) -> tuple[str, ...]:
+        """Names of the effects that `play` knows."""
+        return tuple(self._performance.scene.effects)
+
+    def outcome(self, ticket: int, outcome: Outcome, age_s: float) -> None:
+        """Pass on what became of a command."""
+        if self._commands is not None:
+            self._commands.outcome(ticket, outcome, age_s)
+
+    def _panel_s(self) -> float:
+        return self._time_base.fpga_s(self._clock.now_s())
+
+    def _lost(self, error: ControllerError) -> None:
+        """The outputs are off: nothing that was under way is taken up again."""
+        self._playback.forget()
+        self._performance.interrupted(self._panel_s())
+        self._outputs.failed(error, self._clock.now_s())
+
+    def _watch(self, selector: selectors.BaseSelector) -> None:
+        """Keep the selector on the files of today: a panel that was plugged in again has another one."""
+        self._watch_one(selector, "touch", self._source.fileno())
+        if self._commands is not None:
+            self._watch_one(selector, "commands", self._commands.fileno())
+        if self._change is not None:
+            self._watch_one(selector, "change", self._change.fileno())
+
+    def _watch_one(self, selector: selectors.BaseSelector, name: str, fileno: int | None) -> None:
+        before = self._registered.get(name)
+        if before == fileno:
+            return
+        if before is not None:
+            with contextlib.suppress(KeyError, ValueError, OSError):  # closed files leave by themselves
+                selector.unregister(before)
+            del self._registered[name]
+        if fileno is not None:
+            selector.register(fileno, selectors.EVENT_READ)
+            self._registered[name] = fileno
 
     def _rest(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Let the ramp pass, with heartbeats, whatever else wants attention."""
+        """Let the ramp to 0 V pass, with heartbeats."""
         while self._clock.now_s() < until_s:
-            self._beat()
+            if self._clock.now_s() >= self._session.heartbeat_due_s:
+                self._session.heartbeat()
+                self._counters.heartbeats += 1
             self._clock.wait(selector, min(until_s, self._session.heartbeat_due_s))
-
-    def _wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        self._beat()
-        if self._clock.now_s() < until_s:
-            self._clock.wait(selector, min(until_s, self._session.heartbeat_due_s))
-
-    def _beat(self) -> None:
-        if self._clock.now_s() >= self._session.heartbeat_due_s:
-            self._session.heartbeat()
-            self._counters.heartbeats += 1
 
     def _turn(self) -> float | None:
         """Do what is due now; the time of the next turn, or None when all is played."""
         started_ns = time.perf_counter_ns()
         now_s = self._clock.now_s()
+        self._progress(now_s)
         self._read(now_s)
-        for finger, state in self._fingers.items():
-            at_s = next_time_s(state)
-            if at_s is not None and at_s <= now_s:
-                self._fingers[finger], emissions = on_time(self._scene, state, now_s)
-                self._add(emissions)
-        self._add_spots(now_s)
-        trigger_at_s = self._playback.trigger_at_s
-        if trigger_at_s is not None and trigger_at_s <= now_s:
-            self._playback.trigger(started_ns)
-        elif trigger_at_s is None and self._due and self._session.free_s() <= now_s:
-            self._play(now_s, started_ns)
+        if self._commands is not None:
+            self._commands.serve(now_s, self)
+        if self._change is not None:
+            self._change_scene(now_s)
+        panel_s = self._time_base.fpga_s(now_s)
+        self._performance.advance(panel_s + self._lead_s)
+        if self._outputs.on:
+            if not self._playback.repeating:
+                self._performance.add_spots(panel_s, SPOT_LEAD_S)
+            trigger_at_s = self._playback.trigger_at_s
+            if trigger_at_s is not None and trigger_at_s <= now_s:
+                self._playback.trigger()
+            elif trigger_at_s is None and self._performance.due and self._session.free_s() <= now_s:
+                self._play(now_s, started_ns)
+            elif trigger_at_s is None and self._moving is not None:
+                self._prefetch(now_s)
+        elif self._performance.due:
+            self._performance.interrupted(panel_s)
         return self._next_s(now_s)
 
     def _read(self, now_s: float) -> None:
-        for sample in self._source.read(now_s):
-            before = self._fingers.get(sample.finger)
-            state, emissions = on_touch(self._scene, before, sample)
-            if state is None:
-                self._fingers.pop(sample.finger, None)
-                continue
-            self._fingers[sample.finger] = state
-            if emissions:
-                self._add(emissions)
-            elif state.region == OUTSIDE:
-                self._counters.skipped.outside_region += 1
-            else:
-                self._counters.skipped.between_emissions += 1
-
-    def _add(self, emissions: tuple[Emission, ...]) -> None:
-        for emission in emissions:
-            name = emission.region if emission.finger is None else emission.finger
-            self._counters.skipped.merged += name in self._due
-            self._due[name] = emission
-
-    def _add_spots(self, now_s: float) -> None:
-        if self._playback.repeating:
+        samples = self._source.read(now_s)
+        self._report_ns = -1
+        if not samples:
             return
-        for spot, due_s in self._spot_due_s.items():
-            if due_s <= now_s + SPOT_LEAD_S + ROUNDING_S:
-                self._add((Emission(due_s, spot.x_m, spot.y_m, None, spot.region),))
-                missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
-                self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz
+        offset_s = self._time_base.offset_s
+        self._report_ns = round((now_s - samples[0].time_s) * 1e9)
+        self._moving = None
+        for sample in samples:
+            self._performance.touch(_at(sample, sample.time_s + offset_s))
+            if sample.contact:
+                self._moving = sample.finger
+        if self._commands is not None:
+            self._commands.touches(samples)
+
+    def _change_scene(self, now_s: float) -> None:
+        """Begin to prepare a scene that was asked for, or take over one that is prepared."""
+        change = self._change
+        assert change is not None
+        if self._reload:
+            self._reload = False
+            if self._wakeup is not None:
+                self._wakeup.clear()
+            change.begin(None, 0)
+        prepared = None if change.fileno() is None else change.take()
+        if prepared is None:
+            return
+        if prepared.scene is not None:
+            if prepared.selection is not None:
+                self._playback.reselect(prepared.selection)
+            self._performance.swap(prepared.scene, self._time_base.fpga_s(now_s))
+            self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
+            self._counters.scenes_loaded += 1
+        else:
+            self._counters.scenes_refused += 1
+            self._counters.scene_refused = prepared.reason
+        if prepared.ticket and self._commands is not None:
+            self._commands.loaded(prepared.ticket, prepared.reason)
 
     def _play(self, now_s: float, started_ns: int) -> None:
-        """Prepare all that is due as one emission; spots alone are left to the FPGA to repeat."""
-        emissions = list(self._due.values())
-        self._due.clear()
-        if all(emission.finger is None for emission in emissions):
-            endless = self._common_period_s is not None
-            due_s = max(emission.time_s for emission in emissions)
-            count, period_s = (ENDLESS, self._common_period_s or 0.0) if endless else (1, 0.0)
-            self._playback.prepare(emissions, started_ns, count=count, period_s=period_s, not_before_s=due_s)
+        """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
+        performance, playback = self._performance, self._playback
+        emissions = performance.take(playback.duration_s)
+        period_s = performance.common_period_s
+        if all(emission.finger is None and not emission.ticket and not emission.period_s for emission in emissions):
+            due_s = self._time_base.host_s(max(emission.time_s for emission in emissions))
+            count, repeated_s = (ENDLESS, period_s) if period_s is not None else (1, 0.0)
+            self._prepare(emissions, started_ns, count=count, period_s=repeated_s, not_before_s=due_s)
             return
-        if self._playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
-            next_s = self._playback.next_repetition_s(now_s)
-            if next_s < now_s + self._playback.duration_s:
-                emissions += [Emission(now_s, spot.x_m, spot.y_m, None, spot.region) for spot in self._spot_due_s]
-                next_s += self._common_period_s or NEVER
-            self._spot_due_s = dict.fromkeys(self._spot_due_s, next_s)
-        self._playback.prepare(emissions, started_ns)
+        if playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
+            next_s = playback.next_repetition_s(now_s)
+            if next_s < now_s + playback.duration_s:
+                panel_s = self._time_base.fpga_s(next_s)
+                emissions += performance.all_spots(panel_s, panel_s + (period_s or NEVER))
+            else:
+                performance.spots_from(self._time_base.fpga_s(next_s))
+        beats = [emission.time_s for emission in emissions if emission.period_s]
+        self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
+
+    def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
+        bad = self._counters.skipped.bad_entries
+        start_s = self._playback.prepare(emissions, started_ns, **how)
+        if start_s is not None:
+            if self._report_ns >= 0:
+                self._counters.report_latency.record(self._report_ns)
+            self._source.emitted(self._time_base.host_s(start_s), self._time_base.host_s(start_s) + self._playback.duration_s)
+            self._performance.started(emissions, start_s)
+            return
+        outcome = Outcome.SKIPPED if self._counters.skipped.bad_entries > bad else Outcome.REFUSED
+        self._performance.left_out(emissions, outcome, self._panel_s())
+
+    def _prefetch(self, now_s: float) -> None:
+        """Send ahead what the finger that moved last will ask for, if there is time for it."""
+        finger, self._moving = self._moving, None
+        assert finger is not None
+        wanted = self._performance.expected(finger, self._source.place, now_s, PREFETCH_AHEAD_S)
+        if wanted is None or self._session.free_s() > now_s:
+            return
+        soonest_s = min(self._time_base.host_s(self._performance.next_s()), self._time_base.host_s(self._performance.next_spot_s()))
+        if soonest_s - self._lead_s > now_s + PREFETCH_AFTER_S:
+            self._playback.prefetch(*wanted)
 
     def _next_s(self, now_s: float) -> float | None:
+        if self._commands is not None:
+            commands_s = self._commands.next_time_s()
+        else:
+            commands_s = NEVER
         trigger_at_s = self._playback.trigger_at_s
-        if self._due and trigger_at_s is None:
-            return max(now_s, self._session.free_s())
+        if self._outputs.on and self._performance.due and trigger_at_s is None:
+            return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()
-        times = [at_s for at_s in map(next_time_s, self._fingers.values()) if at_s is not None]
-        times += [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
-        if not times and self._source.fileno() is None:  # a replay that has ended: let the last emission sound
+        next_s = self._performance.next_s()
+        times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
+        if next_s != NEVER:
+            times.append(self._time_base.host_s(next_s) - self._lead_s)
+        if not times and self._source.fileno() is None and self._commands is None:
+            # a replay that has ended: let the last emission sound
             return self._playback.free_s if now_s < self._playback.free_s else None
-        if not self._playback.repeating:
-            times += [due_s - SPOT_LEAD_S for due_s in self._spot_due_s.values()]
-        return min(times, default=NEVER)
+        if not self._playback.repeating and self._outputs.on:
+            times.append(self._time_base.host_s(self._performance.next_spot_s()) - SPOT_LEAD_S)
+        times += [self._outputs.next_s(), commands_s]
+        return min(times)
 
 
-@contextlib.contextmanager
-def _signals(stop: Callable[[], None], selector: selectors.BaseSelector) -> Iterator[None]:
-    """SIGINT and SIGTERM call `stop` and wake the selector."""
-    woken, wakes = socket.socketpair()
-    woken.setblocking(False)
-    wakes.setblocking(False)
-    selector.register(woken, selectors.EVENT_READ)
-    old_fd = signal.set_wakeup_fd(wakes.fileno())
-    old = {number: signal.signal(number, lambda *_: stop()) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in old.items():
-            signal.signal(number, handler)
-        signal.set_wakeup_fd(old_fd)
-        selector.unregister(woken)
-        woken.close()
-        wakes.close()
+def _nothing() -> None:
+    """What `ready` becomes after it was called."""
+
+
+def _at(sample: TouchSample, time_s: float) -> TouchSample:
+    return TouchSample(sample.finger, sample.x_m, sample.y_m, time_s, sample.contact, sample.size_m)
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""The only place that chooses drivers for a board: so far simulated gateware, serial ports and recordings."""
+"""The only place that chooses drivers for a board."""
 
 from __future__ import annotations
 
@@ -6,45 +6,114 @@ from collections.abc import Callable
 from pathlib import Path
 
 from controller.board import Board, data_folder
+from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch
+from controller.errors import TouchError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.gateware import GatewareFactory, Parameters
+from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
-from controller.fpga.serial_link import SerialLink
+from controller.fpga.serial_link import LATENCY_S, SerialLink
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
+from controller.fpga.spi_link import SpiLink
+from controller.touch.event_reader import EventReader
+from controller.touch.ft5x06 import Ft5x06Panel
+from controller.touch.gt911 import Gt911Panel
+from controller.touch.linux_input import LinuxInputPanel
+from controller.touch.live_source import LiveSource
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+from controller.touch.serial_panel import SerialPanel
+from controller.touch.source import TouchSource
+from controller.touch.tracker import Tracker
 
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
 
-def open_fpga(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> tuple[SimulatedLink, Session]:
-    """Link and session of a board's FPGA, which is checked to run the gateware that belongs to this software.
+def gateware_hash() -> int:
+    """Hash of the gateware that belongs to this software."""
+    return build_hash(data_folder("fpga_rtl"))
+
+
+def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
+    """Link to gateware that is computed.
 
     Parameters
     ----------
     gateware : GatewareFactory
         What computes the gateware's pins.
+    """
+    settings = board.link
+    return SimulatedLink(settings, now_s, gateware(Parameters.of(settings.clock_hz, settings.slots, gateware_hash())))
+
+
+def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
+    """Link of a board's FPGA.
+
+    Parameters
+    ----------
+    unhurried : bool
+        Wait longer for answers over a serial port: for bring-up, not for the loop.
+
+    Raises
+    ------
+    LinkError
+        If its device cannot be opened.
+    """
+    if board.link.kind == "spi":
+        return SpiLink(board.link, now_s)
+    if board.link.kind == "serial":
+        return SerialLink(board.link.device, board.link.baud, now_s, UNHURRIED_S if unhurried else LATENCY_S)
+    return open_simulated(board, now_s)
+
+
+def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:
+    """Bring up what is at the other end of a link, checked to run the gateware that belongs to this software.
 
     Raises
     ------
     LinkError
         If it does not answer or is another one.
     """
-    built_from = build_hash(data_folder("fpga_rtl"))
-    settings = board.link
-    link = SimulatedLink(settings, now_s, gateware(Parameters.of(settings.clock_hz, settings.slots, built_from)))
-    return link, Session(link, board, built_from, now_s)
+    return Session(link, board, gateware_hash(), now_s)
 
 
-def open_serial(board: Board, now_s: Callable[[], float]) -> tuple[SerialLink, Session]:
-    """Link and session of an FPGA at the board's serial port.
+def open_panel(board: Board, now_s: Callable[[], float]) -> EventReader:
+    """Driver of a board's touch panel.
 
     Raises
     ------
-    LinkError
-        If the port cannot be opened, or what answers there is another FPGA.
+    TouchError
+        If it is not there, or the board has none.
     """
-    link = SerialLink(board.link.device, board.link.baud, now_s, UNHURRIED_S)
-    return link, Session(link, board, build_hash(data_folder("fpga_rtl")), now_s)
+    touch = board.touch
+    if isinstance(touch, LinuxInputTouch):
+        return LinuxInputPanel(touch, now_s)
+    if isinstance(touch, Ft5x06Touch):
+        return Ft5x06Panel(touch, now_s)
+    if isinstance(touch, Gt911Touch):
+        return Gt911Panel(touch, now_s)
+    if isinstance(touch, SerialTouch):
+        return SerialPanel(touch, now_s)
+    raise TouchError(f"board {board.name!r} has no touch panel: give its [touch] a kind, or replay a recording")
+
+
+def open_touch(board: Board, now_s: Callable[[], float], replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
+    """Touches of a board's panel, or of a recording that begins at `start_s`.
+
+    Raises
+    ------
+    TouchError
+        If the panel is not there.
+    """
+    if replay is not None:
+        return RecordingSource(replay, replay.axes(board), start_s)
+    return LiveSource(open_panel(board, now_s), board)
+
+
+def tracked(source: TouchSource, board: Board) -> Tracker:
+    """A source behind the board's tracker."""
+    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m)
 
 
 def recording_path(board: Board, given: str | None) -> Path:

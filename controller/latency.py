@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
 SUB_BITS = 7  # 128 buckets per octave: a percentile is at most 0.8 % too low
 P999_SAMPLES = 10_000  # below this, the thousandth worst is chance
@@ -36,6 +37,10 @@ class LatencyHistogram:
                 return min(float(((index - (octave << SUB_BITS)) << octave) + ((1 << octave) >> 1)), float(self.worst_ns))
         return float("nan")
 
+    def buckets_us(self) -> list[list[float]]:
+        """[upper bound in us, count] of every bucket that has any."""
+        return [[_upper_ns(index) * 1e-3, count] for index, count in enumerate(self._buckets) if count]
+
     def summary_us(self) -> dict[str, float | int | None]:
         """`{count, p50, p99, p999, worst}` in µs; None where there are too few records to say."""
         share = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
@@ -45,24 +50,46 @@ class LatencyHistogram:
         return {"count": self.count, **known, "worst": round(self.worst_ns * 1e-3, 3) if self.count else None}
 
 
+def _upper_ns(index: int) -> int:
+    """First duration above a bucket."""
+    octave = max((index >> SUB_BITS) - 1, 0)
+    return (index - (octave << SUB_BITS) + 1) << octave
+
+
+STAGES = ("decide", "frame", "wire", "wait", "trigger", "host", "total")
+
+
 @dataclass(slots=True)
 class Stages:
-    """The way of an emission from the read of its touch report to the trigger, in stages.
+    """The way of an emission from the read of its touch report to the trigger, in stages that follow each other.
 
-    host: our own work. wait: for the plate to fall silent. wire: bits on the wire. total: all three.
+    decide: read, tracked, scene asked. frame: waveform looked up or composed, frames made, answers checked.
+    wire: bits on the wire. wait: for the plate to fall silent. trigger: the call that pulls the pin.
+    host: decide + frame + trigger, our own work. total: host + wire + wait.
     """
 
-    host: LatencyHistogram = field(default_factory=LatencyHistogram)
-    wait: LatencyHistogram = field(default_factory=LatencyHistogram)
+    decide: LatencyHistogram = field(default_factory=LatencyHistogram)
+    frame: LatencyHistogram = field(default_factory=LatencyHistogram)
     wire: LatencyHistogram = field(default_factory=LatencyHistogram)
+    wait: LatencyHistogram = field(default_factory=LatencyHistogram)
+    trigger: LatencyHistogram = field(default_factory=LatencyHistogram)
+    host: LatencyHistogram = field(default_factory=LatencyHistogram)
     total: LatencyHistogram = field(default_factory=LatencyHistogram)
 
-    def record(self, host_ns: int, wait_ns: int, wire_ns: int) -> None:
+    def record(self, decide_ns: int, frame_ns: int, wire_ns: int, wait_ns: int, trigger_ns: int) -> None:
         """Count one emission."""
-        self.host.record(host_ns)
-        self.wait.record(wait_ns)
+        host_ns = decide_ns + frame_ns + trigger_ns
+        self.decide.record(decide_ns)
+        self.frame.record(frame_ns)
         self.wire.record(wire_ns)
-        self.total.record(host_ns + wait_ns + wire_ns)
+        self.wait.record(wait_ns)
+        self.trigger.record(trigger_ns)
+        self.host.record(host_ns)
+        self.total.record(host_ns + wire_ns + wait_ns)
+
+    def export(self) -> dict[str, dict[str, Any]]:
+        """Summary of each stage in us with its histogram, as [upper bound in us, count] of every bucket that has any."""
+        return {name: getattr(self, name).summary_us() | {"histogram": getattr(self, name).buckets_us()} for name in STAGES}
 
 
 @dataclass(slots=True)
@@ -76,6 +103,9 @@ class Skipped:
     compositions: int = 0  # uploads of one finger on a cell: read from the bank as they are
     bad_entries: int = 0  # emissions left out because the bank's entry is damaged or absent
     refused: int = 0  # emissions that the FPGA did not accept
+    outputs_off: int = 0  # emissions due while the outputs were off
+    unconfirmed: int = 0  # emissions beyond what a contact gets that the panel has not confirmed
+    no_room: int = 0  # commands that waited when more came than wait at most
 
 
 @dataclass(slots=True)
@@ -86,8 +116,31 @@ class Counters:
     uploads: int = 0
     resident: int = 0
     heartbeats: int = 0
+    scheduled: int = 0  # of the emissions: started by the FPGA at a time given beforehand
+    late: int = 0  # beats that were handed over too late for their time, and played at once
+    prefetched: int = 0  # waveforms sent ahead of a moving finger
+    near: int = 0  # of the resident ones: a waveform made for a place very near
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # outputs switched off by the FPGA because this process had stalled; armed again
+    outages: int = 0  # FPGA lost, reset or switched off for another cause
+    outage: str = ""  # the cause of the last one
+    outputs_off_s: float = 0.0  # time spent so
+    scenes_loaded: int = 0
+    scenes_refused: int = 0
+    scene_refused: str = ""  # why the last one was
     skipped: Skipped = field(default_factory=Skipped)
+    report_latency: LatencyHistogram = field(default_factory=LatencyHistogram)  # from the kernel's timestamp to our read
     upload_latency: Stages = field(default_factory=Stages)
     resident_latency: Stages = field(default_factory=Stages)
+
+    def export(self) -> dict[str, Any]:
+        """Everything, ready for JSON; histograms as [upper bound in us, count]."""
+        plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
+        return plain | {
+            "skipped": asdict(self.skipped),
+            "latency_us": {
+                "report": self.report_latency.summary_us() | {"histogram": self.report_latency.buckets_us()},
+                "uploads": self.upload_latency.export(),
+                "resident": self.resident_latency.export(),
+            },
+        }

@@ -1,33 +1,39 @@
-"""From due emissions to an accepted play command and its trigger.
+"""From due emissions to an accepted play command and its start.
 
 The plate plays one thing at a time: T of emission, then silence for as long as the duty limit asks.
-A play command is prepared (uploaded, or found resident) while the emission before still sounds,
-and triggered when the plate is free.
+A play command is prepared (uploaded, or found resident) while the emission before still sounds. It is
+started by the trigger pin as soon as the plate is free, or by the FPGA itself at a time of its clock.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from controller.bank.selection import Key, Selection
+from controller.clocks import NEVER
 from controller.errors import BankError
 from controller.fpga.exchange import Refused
+from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
+from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
 from controller.scene import Emission
+from controller.slot_cache import SlotCache
 
-NEVER = math.inf
-MARGIN_S = 10e-6  # between the end of one emission and the trigger of the next: pin, synchroniser, rounding
+MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
+HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
 ENDLESS = 0
+
+Where = Callable[[int, float], tuple[float, float] | None]
+"""Where a finger will be at a time of the host."""
 
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """One trigger: when it rose, where its foci are, and its repetition (count 0: until replaced)."""
+    """One start: when, where its foci are, and its repetition (count 0: until replaced)."""
 
     trigger_s: float
     emissions: tuple[Emission, ...]
@@ -40,17 +46,18 @@ class Played:
         return self.trigger_s + math.floor((at_s - self.trigger_s) / self.period_s) * self.period_s
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Prepared:
-    """An accepted play command that waits for the plate to be free."""
+    """An accepted play command, and what it took."""
 
-    emissions: tuple[Emission, ...]
+    emissions: Sequence[Emission]
     count: int
     period_s: float
     resident: bool
     ready_s: float
-    trigger_at_s: float
-    host_ns: int
+    start_s: float  # in host time
+    decide_ns: int
+    frame_ns: int
     wire_ns: int
 
 
@@ -63,44 +70,58 @@ class Playback:
         An armed FPGA.
     selection : Selection
         Drive words for points.
+    time_base : TimeBase
+        The FPGA's clock.
+    where : callable
+        Place of a finger at a time: an emission meets it where it will be at T.
     slots : int
         Waveforms that the FPGA keeps.
     duration_s, max_duty : float
         T, and the share of the time that may be emission.
+    upload_s, command_s : float
+        Time on the wire of an upload with its play command, and of a play command alone.
     counters : Counters
         Where emissions, latencies and skipped work are counted.
     played : callable or None
-        Told of every trigger; for simulations. None on the device.
+        Told of every start.
     """
 
     def __init__(
         self,
         session: Session,
         selection: Selection,
+        time_base: TimeBase,
+        where: Where,
         *,
         slots: int,
         duration_s: float,
         max_duty: float,
+        upload_s: float,
+        command_s: float,
         counters: Counters,
         played: Callable[[Played], None] | None = None,
     ) -> None:
         self.free_s = -NEVER  # when the plate may play again
+        self.duration_s = duration_s
+        self.upload_s = upload_s
         self._session = session
         self._selection = selection
-        self.duration_s = duration_s
+        self._time_base = time_base
+        self._where = where
+        self._command_s = command_s
+        self._nominal_s = duration_s
+        self._max_duty = max_duty
         self._busy_s = duration_s / max_duty
         self._counters = counters
         self._played = played
-        self._slots = slots
-        self._slot_of: OrderedDict[Key | str, int] = OrderedDict()  # least recently played first
+        self._slots = SlotCache(slots, selection.serves)
         self._prepared: _Prepared | None = None
         self._running: Played | None = None  # an endless repetition
-        self.forget_slots()
 
     @property
     def trigger_at_s(self) -> float | None:
-        """When `trigger` is due; None while nothing is prepared."""
-        return None if self._prepared is None else self._prepared.trigger_at_s
+        """When `trigger` is due; None while nothing waits for it."""
+        return None if self._prepared is None else self._prepared.start_s
 
     @property
     def repeating(self) -> bool:
@@ -112,96 +133,184 @@ class Playback:
         return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s
 
     def prepare(
-        self, emissions: Sequence[Emission], started_ns: int, *, count: int = 1, period_s: float = 0.0, not_before_s: float = -NEVER
-    ) -> bool:
-        """Bring one emission, of one or several foci, to an accepted play command; False if it had to be left out.
+        self,
+        emissions: Sequence[Emission],
+        started_ns: int,
+        *,
+        count: int = 1,
+        period_s: float = 0.0,
+        not_before_s: float = -NEVER,
+        at_s: float | None = None,
+    ) -> float | None:
+        """Bring one emission, of one or several foci, to an accepted play command; None if it had to be left out.
 
         Parameters
         ----------
         emissions : sequence of Emission
-            What is due now; several are composed into one waveform.
+            What is due; several are composed into one waveform. Those of a finger are moved to where it will be at T.
         started_ns : int
             When the work for it began (perf_counter_ns).
         count, period_s
             Repetitions by the FPGA, start to start; count 0 repeats until replaced.
         not_before_s
-            Earliest time of the trigger.
+            Earliest start by the trigger pin, in host time.
+        at_s : float, optional
+            FPGA time at which the FPGA shall start it by itself, or as soon after as can be.
+
+        Returns
+        -------
+        float or None
+            When it starts, in FPGA time: to the clock if the FPGA starts it, else as expected.
         """
-        away_ns, wire_ns = self._session.away_ns, self._session.wire_ns
-        key = self._selection.key([(e.x_m, e.y_m, e.weight) for e in emissions])
-        resident = key in self._slot_of
+        decided_ns = time.perf_counter_ns()
+        session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
         running = self._running
+        start_s = self._start_s(self._command_s, not_before_s, at_s)
+        aimed, key = self._aim(emissions, start_s)
+        resident = self._slots.find(key)
+        if resident is None:
+            start_s = self._start_s(self.upload_s, not_before_s, at_s)
+            aimed, key = self._aim(emissions, start_s)
+        start = Start.TRIGGER if at_s is None else Start.TIME
+        when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
         try:
-            if resident:
-                self._session.play(self._slot_of[key], count, period_s, stop=running is not None)
-                self._slot_of.move_to_end(key)
+            if resident is None:
+                self._upload(key, count, period_s, start, when_ticks)
             else:
-                self._upload(key, count, period_s)
+                slot = self._slots.use(resident)
+                session.play(slot, count, period_s, stop=running is not None, start=start, when_ticks=when_ticks)
+                self._counters.near += resident != key
         except BankError as error:
             self._counters.skipped.bad_entries += 1
             self._counters.bad_entry = self._counters.bad_entry or str(error)
-            return False
-        except Refused:
+            return None
+        except Refused as refusal:
+            if at_s is not None and refusal.result is Result.TOO_LATE:
+                self._counters.late += 1
+                return self.prepare(emissions, started_ns, count=count, period_s=period_s)
             self._counters.skipped.refused += 1
-            return False
-        ready_s = self._session.ready_s()
+            return None
+        ready_s = session.ready_s()
         if running is not None:  # stopped at the latest after the emission that sounds now
             self.free_s = max(self.free_s, running.last_start_s(ready_s) + self._busy_s)
             self._running = None
-        host_ns = time.perf_counter_ns() - started_ns - (self._session.away_ns - away_ns)
-        trigger_at_s = max(ready_s, self.free_s + MARGIN_S, not_before_s)
-        self._prepared = _Prepared(
-            tuple(emissions), count, period_s, resident, ready_s, trigger_at_s, host_ns, self._session.wire_ns - wire_ns
+        away_ns = session.away_ns - away_before_ns
+        prepared = _Prepared(
+            aimed,
+            count,
+            period_s,
+            resident is not None,
+            ready_s,
+            max(ready_s, self.free_s + MARGIN_S, not_before_s) if at_s is None else self._time_base.host_s(start_s),
+            decided_ns - started_ns,
+            time.perf_counter_ns() - decided_ns - away_ns,
+            session.wire_ns - wire_before_ns,
         )
-        if trigger_at_s <= ready_s:
-            self.trigger(time.perf_counter_ns())
+        if at_s is not None:
+            self._counters.scheduled += 1
+            self._account(prepared, prepared.start_s, 0)
+            return when_ticks / self._time_base.clock_hz
+        self._prepared = prepared
+        if prepared.start_s <= ready_s:
+            self.trigger()
+        return self._time_base.fpga_s(prepared.start_s)
+
+    def prefetch(self, x_m: float, y_m: float, amplitude: float) -> bool:
+        """Send the waveform of a point ahead; False if it is there already, or cannot be had."""
+        key = self._selection.key(((x_m, y_m, amplitude),))
+        if self._slots.find(key) is not None:
+            return False
+        try:
+            words = self._selection.words(key)
+            slot = self._slots.take()
+            try:
+                self._session.upload(slot, words)
+            except Refused:
+                self._slots.empty(slot)
+                return False
+        except BankError:
+            return False
+        self._slots.keep(key, slot)
+        self._counters.prefetched += 1
         return True
 
-    def _upload(self, key: Key, count: int, period_s: float) -> None:
-        """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
-        words = self._selection.words(key)
-        if isinstance(key, int):
-            self._counters.skipped.compositions += 1
-        _, slot = self._slot_of.popitem(last=False)
-        try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=self._running is not None)
-        except Refused:
-            self._slot_of[_empty(slot)] = slot
-            self._slot_of.move_to_end(_empty(slot), last=False)
-            raise
-        self._slot_of[key] = slot
+    def pin(self, points: Sequence[tuple[float, float, float]]) -> None:
+        """Keep the waveforms of these points (x_m, y_m, amplitude) in their slots once they are there."""
+        self._slots.pin(self._selection.key((point,)) for point in points)
 
-    def trigger(self, started_ns: int) -> None:
+    def stretch(self, factor: float) -> None:
+        """Emissions last this much longer than the board says: the bit clock follows the plate's temperature."""
+        self.duration_s = self._nominal_s * factor
+        self._busy_s = self.duration_s / self._max_duty
+
+    def reselect(self, selection: Selection) -> None:
+        """Play from another bank: nothing that is resident serves any more."""
+        self._selection = selection
+        self._slots = SlotCache(self._slots.slots, selection.serves)
+
+    def trigger(self) -> None:
         """Play what is prepared, now."""
         prepared = self._prepared
         if prepared is None:
             return
         self._prepared = None
-        host_ns = prepared.host_ns + time.perf_counter_ns() - started_ns
+        called_ns, away_ns = time.perf_counter_ns(), self._session.away_ns
         trigger_s = self._session.trigger()
-        self.free_s = trigger_s + self._busy_s
+        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.away_ns - away_ns))
+
+    def forget(self) -> None:
+        """Take it that the FPGA holds and plays nothing: after a fault."""
+        self._slots.forget()
+        self._prepared = None
+        self._running = None
+        self.free_s = -NEVER
+
+    def _start_s(self, wire_s: float, not_before_s: float, at_s: float | None) -> float:
+        """When, in FPGA time, an emission can start whose command begins to go out now."""
+        arrived_s = self._session.ready_s() + wire_s
+        if at_s is None:
+            return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S, not_before_s))
+        return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
+
+    def _aim(self, emissions: Sequence[Emission], start_s: float) -> tuple[tuple[Emission, ...], Key]:
+        """Move each emission to where its finger will be at T, and name the waveform that serves them."""
+        focus_s = self._time_base.host_s(start_s) + self.duration_s
+        aimed = tuple([self._moved(emission, focus_s) for emission in emissions])
+        return aimed, self._selection.key([(e.x_m, e.y_m, e.amplitude) for e in aimed])
+
+    def _moved(self, emission: Emission, focus_s: float) -> Emission:
+        place = None if emission.finger is None else self._where(emission.finger, focus_s)
+        return emission if place is None else emission._replace(x_m=place[0], y_m=place[1])
+
+    def _upload(self, key: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
+        """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
+        words = self._selection.words(key)
+        if isinstance(key, int):
+            self._counters.skipped.compositions += 1
+        slot = self._slots.take()
+        stop = self._running is not None
+        try:
+            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
+        except Refused:
+            self._slots.empty(slot)
+            raise
+        self._slots.keep(key, slot)
+
+    def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
+        """Something starts: the plate is busy, and it is counted."""
+        self.free_s = start_s + self._busy_s
         counters = self._counters
         counters.emissions += 1
         stages = counters.resident_latency if prepared.resident else counters.upload_latency
-        stages.record(host_ns, round((trigger_s - prepared.ready_s) * 1e9), prepared.wire_ns)
+        wait_ns = round((start_s - prepared.ready_s) * 1e9)
+        stages.record(prepared.decide_ns, prepared.frame_ns, prepared.wire_ns, wait_ns, trigger_ns)
         if prepared.resident:
             counters.resident += 1
             counters.skipped.uploads += 1
         else:
             counters.uploads += 1
-        played = Played(trigger_s, prepared.emissions, prepared.count, prepared.period_s, prepared.resident)
+        played = Played(start_s, tuple(prepared.emissions), prepared.count, prepared.period_s, prepared.resident)
         if prepared.count == ENDLESS:
             self._running = played
         if self._played is not None:
             self._played(played)
-
-    def forget_slots(self) -> None:
-        """Take it that the FPGA holds and plays nothing: at the start, and after a fault."""
-        self._slot_of.clear()
-        self._slot_of.update((_empty(slot), slot) for slot in range(self._slots))
-        self._prepared = None
-        self._running = None
-
-
-def _empty(slot: int) -> str:
-    return f"empty {slot}"

@@ -1,0 +1,92 @@
+"""The event loop put together from its parts, the same for a simulated run and for the device."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from controller.bank.reader import Bank
+from controller.bank.selection import Selection
+from controller.board import Board
+from controller.clocks import Clock
+from controller.command_source import CommandSource
+from controller.event_loop import EventLoop, SceneChange
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.fpga.session import Session
+from controller.fpga.time_base import TimeBase
+from controller.latency import Counters
+from controller.performance import Performance
+from controller.playback import Playback, Played
+from controller.scene import Scene
+from controller.touch.source import TrackedTouch
+
+UPLOAD_COMMANDS = 4  # STORE, NOP while the slot is checked, PLAY, NOP
+PLAY_COMMANDS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """A loop that is ready to run, and the parts that others look at."""
+
+    loop: EventLoop
+    counters: Counters
+    selection: Selection
+
+
+def assemble(
+    board: Board,
+    scene: Scene,
+    bank: Bank,
+    clock: Clock,
+    session: Session,
+    source: TrackedTouch,
+    *,
+    slots: int | None = None,
+    max_duty: float | None = None,
+    played: Callable[[Played], None] | None = None,
+    commands: CommandSource | None = None,
+    change: SceneChange | None = None,
+    **loop: Any,
+) -> Assembly:
+    """Put a loop together.
+
+    Parameters
+    ----------
+    session : Session
+        Of an FPGA that has been brought up.
+    source : TrackedTouch
+        Fingers.
+    slots, max_duty
+        Other than the board's.
+    played : callable, optional
+        Told of every start.
+    commands, change, **loop
+        As `EventLoop` has them.
+    """
+    selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
+    counters = Counters()
+    time_base = TimeBase(board.link.clock_hz)
+    playback = Playback(
+        session,
+        selection,
+        time_base,
+        source.place,
+        slots=board.link.slots if slots is None else slots,
+        duration_s=board.waveform.duration_s,
+        max_duty=board.limits.max_duty if max_duty is None else max_duty,
+        upload_s=board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
+        command_s=board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
+        counters=counters,
+        played=played,
+    )
+    playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots])
+
+    def outcomes(ticket: int, *what: Any) -> None:
+        running.outcome(ticket, *what)
+
+    performance = Performance(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    running = EventLoop(
+        clock, session, source, performance, playback, time_base, counters, commands=commands, change=change, **loop
+    )
+    return Assembly(running, counters, selection)

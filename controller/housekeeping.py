@@ -1,0 +1,94 @@
+"""What the service does beside playing, a little in each turn of the loop: watchdog, status, log, temperature."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable
+from typing import Protocol
+
+from controller.board import Board
+from controller.fpga.session import Session
+from controller.latency import Counters
+from controller.service import Notifier, Watchdog
+from controller.temperature import Thermometer, open_thermometer
+
+
+class Watched(Protocol):
+    """What is told about: the loop."""
+
+    @property
+    def state(self) -> str:
+        """Empty while the outputs are on, else why not."""
+
+    @property
+    def stretch(self) -> Callable[[float], None]:
+        """Told by how much slower emissions are played than the bank says."""
+
+
+class Housekeeping:
+    """Called in each turn.
+
+    Parameters
+    ----------
+    board : Board
+    session : Session
+        Whose bit clock follows the plate's temperature.
+    notifier : Notifier
+        Told of the state of the outputs when it changes.
+    watchdog : Watchdog
+
+    Attributes
+    ----------
+    scale : float
+        Of the bit clock, as the FPGA plays it now.
+    """
+
+    def __init__(self, board: Board, session: Session, notifier: Notifier, watchdog: Watchdog) -> None:
+        self.scale = 1.0
+        self._session = session
+        self._notifier = notifier
+        self._watchdog = watchdog
+        self._thermometer: Thermometer | None = open_thermometer(board.temperature) if board.temperature else None
+        self._read_s = -math.inf if self._thermometer else math.inf
+        self._period_s = board.temperature.period_s if board.temperature else math.inf
+        self._loop: Watched | None = None
+        self._state = ""
+        self._counters: Counters | None = None
+        self._refused = 0
+
+    def watch(self, loop: Watched, counters: Counters) -> None:
+        """The loop and the counters that are told about."""
+        self._loop = loop
+        self._counters = counters
+
+    def progress(self, now_s: float) -> None:
+        """One turn of the loop."""
+        self._watchdog.progress(now_s)
+        loop, counters = self._loop, self._counters
+        if loop is None or counters is None:
+            return
+        if loop.state != self._state:
+            self._state = loop.state
+            self._say(f"outputs off: {self._state}" if self._state else "the outputs are on")
+        if counters.scenes_refused != self._refused:
+            self._refused = counters.scenes_refused
+            self._say(f"the scene stays as it was: {counters.scene_refused}")
+        if self._read_s <= now_s:
+            self._follow_temperature(loop, now_s)
+
+    def _follow_temperature(self, loop: Watched, now_s: float) -> None:
+        assert self._thermometer is not None
+        scale = self._thermometer.scale(now_s)
+        self._read_s = now_s + self._period_s
+        if scale == self.scale:
+            return
+        if self._session.set_bit_period(scale):  # else something plays: the next turn but one
+            self.scale = scale
+            loop.stretch(1 / scale)
+        else:
+            self._read_s = now_s
+
+    def _say(self, sentence: str) -> None:
+        print(f"haptic-panel: {sentence}", file=sys.stderr, flush=True)
+        self._notifier.status(sentence)

@@ -1,0 +1,247 @@
+"""What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
+
+All times are FPGA times (`fpga.time_base`). The scene decides what a finger feels; here it is kept until it
+plays. Whatever a command asked for gets exactly one outcome.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from controller.clocks import NEVER
+from controller.command_source import Outcome
+from controller.errors import ConfigError
+from controller.latency import Counters
+from controller.policy import together
+from controller.scene import (
+    OUTSIDE,
+    ROUNDING_S,
+    Emission,
+    FingerState,
+    Scene,
+    Spot,
+    anchored,
+    ended,
+    next_time_s,
+    on_time,
+    on_touch,
+    start_effect,
+)
+from controller.touch.samples import TouchSample
+
+MOST_TOGETHER = 10  # foci of one emission
+MOST_WAITING = 32  # commands; of more the oldest is skipped
+SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
+
+Owner = int | str
+Confirmed = Callable[[int], bool]
+Outcomes = Callable[[int, Outcome, float], None]
+"""Told of a ticket, what became of it, and when (FPGA time)."""
+
+
+class Performance:
+    """Everything that is felt, between two moments.
+
+    Parameters
+    ----------
+    scene : Scene
+        What the plate should feel like.
+    counters : Counters
+        Where skipped work is counted.
+    confirmed : callable
+        Whether the panel has confirmed a finger.
+    unconfirmed_most : int
+        Emissions that a finger gets before it is.
+    outcomes : callable
+        Told what became of commands.
+    """
+
+    def __init__(
+        self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes
+    ) -> None:
+        self.scene = scene
+        self._counters = counters
+        self._confirmed = confirmed
+        self._unconfirmed_most = unconfirmed_most
+        self._outcomes = outcomes
+        self._states: dict[Owner, FingerState] = {}  # fingers by number, commands at a point by their owner
+        self._given: dict[int, int] = {}  # emissions of each finger so far
+        self._due: dict[Owner, Emission] = {}  # the newest of each
+        self._spot_due_s: dict[Spot, float] = {}
+        self.common_period_s: float | None = None
+        self._set_spots(0.0)
+
+    def touch(self, sample: TouchSample) -> None:
+        """A finger began, moved or was released."""
+        finger = sample.finger
+        state, emissions = on_touch(self.scene, self._states.get(finger), sample)
+        if state is None:
+            self._states.pop(finger, None)
+            self._given.pop(finger, None)
+        else:
+            self._states[finger] = state
+        if emissions:
+            self._add(emissions)
+        elif state is not None and state.region == OUTSIDE:
+            self._counters.skipped.outside_region += 1
+        elif state is not None:
+            self._counters.skipped.between_emissions += 1
+
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+        """A command plays an effect at a point, or for a finger.
+
+        Raises
+        ------
+        ConfigError
+            If there is no such effect, or no such finger.
+        """
+        if finger is not None and finger not in self._states:
+            raise ConfigError(f"finger {finger} is not on the panel")
+        before = None if finger is None else self._states[finger]
+        owner: Owner = f"command {ticket}" if finger is None else finger
+        state, emissions = start_effect(
+            self.scene, before, effect, x_m=x_m, y_m=y_m, finger=finger, amplitude=amplitude, time_s=now_s, ticket=ticket
+        )
+        if not ended(state) or finger is not None:
+            self._states[owner] = state
+        if finger is None:
+            self._make_room(emissions)
+        self._add(emissions)
+
+    def advance(self, until_s: float) -> None:
+        """Collect what becomes due by itself up to a time."""
+        for owner, state in self._states.items():
+            at_s = next_time_s(state)
+            if at_s is not None and at_s <= until_s:
+                self._states[owner], emissions = on_time(self.scene, state, until_s)
+                self._add(emissions)
+        self._drop_ended()
+
+    def add_spots(self, now_s: float, lead_s: float) -> None:
+        """Collect the spots whose beat comes within `lead_s`."""
+        for spot, due_s in self._spot_due_s.items():
+            if due_s <= now_s + lead_s + ROUNDING_S:
+                self._add((self._emission_of(spot, due_s),))
+                missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
+                self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz
+
+    def all_spots(self, now_s: float, next_s: float) -> list[Emission]:
+        """Every spot, to take part in an emission; their beat goes on at `next_s`."""
+        self.spots_from(next_s)
+        return [self._emission_of(spot, now_s) for spot in self._spot_due_s]
+
+    def spots_from(self, next_s: float) -> None:
+        """The spots' next beat."""
+        self._spot_due_s = dict.fromkeys(self._spot_due_s, next_s)
+
+    @property
+    def due(self) -> bool:
+        """Whether anything waits to be played."""
+        return bool(self._due)
+
+    def take(self, duration_s: float) -> list[Emission]:
+        """What is played next, as one emission; the rest goes on waiting."""
+        if len(self._due) == 1:
+            chosen = list(self._due.values())
+            self._due.clear()
+        else:
+            chosen, rest = together(tuple(self._due.values()), duration_s, MOST_TOGETHER)
+            self._due = {emission.owner: emission for emission in rest}
+        return chosen
+
+    def next_s(self) -> float:
+        """When `advance` has something to do."""
+        return min([at_s for at_s in map(next_time_s, self._states.values()) if at_s is not None], default=NEVER)
+
+    def next_spot_s(self) -> float:
+        """When the next spot's beat comes."""
+        return min(self._spot_due_s.values(), default=NEVER)
+
+    def started(self, emissions: list[Emission], start_s: float) -> None:
+        """These were started; trains that began with them keep their beat from there."""
+        for emission in emissions:
+            if emission.ticket:
+                self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
+            state = self._states.get(emission.owner)
+            if emission.period_s and emission.beat == 0 and state is not None:
+                self._states[emission.owner] = anchored(state, emission, start_s)
+
+    def left_out(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
+        """These will not be played."""
+        for emission in emissions:
+            if emission.ticket:
+                self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
+
+    def interrupted(self, now_s: float) -> None:
+        """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
+        waiting = list(self._due.values())
+        self._due.clear()
+        self._counters.skipped.outputs_off += len(waiting)
+        self.left_out(waiting, Outcome.REFUSED, now_s)
+        for owner, state in list(self._states.items()):
+            if isinstance(owner, str):
+                del self._states[owner]
+            else:
+                self._states[owner] = FingerState(state.finger, state.x_m, state.y_m, state.region)
+        self.spots_from(now_s)
+
+    def swap(self, scene: Scene, now_s: float) -> None:
+        """Go on with another scene: fingers that are down feel it from their next move on."""
+        waiting = list(self._due.values())
+        self._due.clear()
+        self.left_out(waiting, Outcome.SKIPPED, now_s)
+        self.scene = scene
+        self._states = {
+            owner: FingerState(state.finger, state.x_m, state.y_m, scene.region_at(state.x_m, state.y_m))
+            for owner, state in self._states.items()
+            if isinstance(owner, int)
+        }
+        self._set_spots(now_s)
+
+    def _set_spots(self, now_s: float) -> None:
+        rates = {spot.rate_hz for spot in self.scene.spots}
+        self.common_period_s = 1 / rates.pop() if len(rates) == 1 else None
+        self._spot_due_s = dict.fromkeys(self.scene.spots, now_s)
+
+    def _add(self, emissions: tuple[Emission, ...]) -> None:
+        for emission in emissions:
+            finger = emission.finger
+            if finger is not None:
+                given = self._given.get(finger, 0) + 1
+                if given > self._unconfirmed_most and not self._confirmed(finger):
+                    self._counters.skipped.unconfirmed += 1
+                    self.left_out([emission], Outcome.SKIPPED, emission.time_s)
+                    continue
+                self._given[finger] = given
+            before = self._due.get(emission.owner)
+            if before is not None:
+                self._counters.skipped.merged += 1
+                self.left_out([before], Outcome.MERGED, emission.time_s)
+            self._due[emission.owner] = emission
+
+    def _make_room(self, emissions: tuple[Emission, ...]) -> None:
+        """A command at a point replaces one for the same place; of too many that wait the oldest is skipped."""
+        for new in emissions:
+            waiting = [e for owner, e in self._due.items() if isinstance(owner, str) and e.ticket]
+            for old in waiting:
+                if old.region == new.region and math.dist((old.x_m, old.y_m), (new.x_m, new.y_m)) < SAME_PLACE_M:
+                    del self._due[old.owner]
+                    self._counters.skipped.merged += 1
+                    self.left_out([old], Outcome.MERGED, new.time_s)
+                    break
+            else:
+                if len(waiting) >= MOST_WAITING:
+                    oldest = min(waiting, key=lambda e: e.time_s)
+                    del self._due[oldest.owner]
+                    self._counters.skipped.no_room += 1
+                    self.left_out([oldest], Outcome.SKIPPED, new.time_s)
+
+    def _drop_ended(self) -> None:
+        over = [owner for owner, state in self._states.items() if isinstance(owner, str) and ended(state)]
+        for owner in over:
+            del self._states[owner]
+
+    @staticmethod
+    def _emission_of(spot: Spot, time_s: float) -> Emission:
+        return Emission(time_s, spot.x_m, spot.y_m, None, spot.region, spot.amplitude, spot.region)
