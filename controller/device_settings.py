@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from controller.records import Positive, Record, Share
+from controller.records import Positive, Record
 
 SERIAL_BITS_PER_BYTE = 10  # 8N1
 FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
@@ -167,7 +167,7 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
     commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0  # of one client, in the long run
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50
-    max_amplitude: Share = 1.0
+    max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0  # 0.25: the least that can be asked for
 
 
 __all__ = [

@@ -1,0 +1,398 @@
+"""The loop's end of the application socket: a `CommandSource` of bounded memory and bounded time a turn.
+
+However many clients send whatever they like: a turn reads each once, handles at most `LINES_A_TURN`
+lines of all and accepts at most `ACCEPTS_A_TURN` clients. What is left waits, and other work of the
+loop comes in between.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import math
+import select
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from controller import __version__
+from controller.application_socket import messages
+from controller.application_socket.connection import UNWATCHED, Connection, LineTooLong
+from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, Id, Play
+from controller.application_socket.socket_file import SocketFile
+from controller.application_socket.tickets import FULL, Tickets, Waiting
+from controller.board import Board
+from controller.command_source import Outcome, PanelControl
+from controller.device_settings import ApplicationSocket
+from controller.errors import ControllerError
+from controller.touch.samples import TouchSample
+
+NOW = -math.inf
+NEVER = math.inf
+EVENTS_A_TURN = 16
+LINES_A_TURN = 16  # of all clients
+LINES_A_CLIENT = 8  # of these, of one client
+ACCEPTS_A_TURN = 2
+PAUSE_S = 1e-3  # for which a client over its rate is not read, times the number of clients; and the listener after an accept
+LEAVE_S = 1.0  # a client that was told to go may take this long to read why
+WAITING_PER_CLIENT = 64  # commands without an outcome
+FIGURES_S = 1.0  # the same figures are told for this long: they cost the loop milliseconds
+REASON_CHARACTERS = 200
+
+
+@dataclass(slots=True)
+class SocketCounters:
+    """What came over the socket; each of `lines` was played, merged, skipped, refused or done, or still waits."""
+
+    clients: int = 0
+    turned_away: int = 0  # because there were as many as the board allows
+    told_to_go: int = 0  # because they did not read
+    lines: int = 0
+    played: int = 0
+    merged: int = 0
+    skipped: int = 0
+    refused: int = 0  # for any reason, `over_rate` and `not_valid` included
+    done: int = 0  # commands that are not to play
+    over_rate: int = 0
+    not_valid: int = 0  # what cannot be read, or be meant on this board
+    unanswered: int = 0  # outcomes that nobody was told: the client had gone
+    stray_outcomes: int = 0  # of tickets that nobody holds: a mistake of this program
+
+
+class CommandSocket:
+    """Clients of the application socket.
+
+    Parameters
+    ----------
+    board : Board
+        Whose plate it is.
+    settings : ApplicationSocket
+        Where the socket is, for whom, and how much each client may ask.
+
+    Raises
+    ------
+    ConfigError, ControllerError
+        If the socket cannot be made, or belongs to a running service.
+    """
+
+    def __init__(self, board: Board, settings: ApplicationSocket) -> None:
+        self.counters = SocketCounters()
+        self._board = board
+        self._max_amplitude = settings.max_amplitude
+        self._file = SocketFile(settings)
+        self._listener_fd = self._file.listener.fileno()
+        self._listen_s = NEVER  # when the listener is looked at again
+        self._epoll = select.epoll()
+        self._epoll.register(self._listener_fd, select.EPOLLIN)
+        self._clients = [Connection(settings.commands_per_s, settings.burst) for _ in range(settings.max_clients)]
+        self._first = 0  # who is served first; the next one in the next turn
+        self._tickets = Tickets(WAITING_PER_CLIENT * settings.max_clients)
+        self._requests = messages.request_decoder()
+        self._numbers = msgspec.json.Decoder(messages.Numbered)
+        self._figures: dict[str, Any] = {}
+        self._figures_until_s = -math.inf
+        self._turned_away = (
+            msgspec.json.encode(messages.Farewell(reason=f"{len(self._clients)} clients are connected already")) + b"\n"
+        )
+        self._subscribers = 0
+        self._next_s = NEVER
+
+    def fileno(self) -> int:
+        """File to wait on for reading."""
+        return self._epoll.fileno()
+
+    def next_time_s(self) -> float:
+        """When to call `serve` though the file is not readable; inf: never."""
+        return self._next_s
+
+    def serve(self, now_s: float, control: PanelControl) -> None:
+        """Read what clients sent, a bounded part of it, and answer what can be answered."""
+        for fd, events in self._epoll.poll(0, EVENTS_A_TURN):
+            if fd == self._listener_fd:
+                self._accept(now_s)
+                continue
+            client = next(client for client in self._clients if client.fd == fd)
+            if events & (select.EPOLLHUP | select.EPOLLERR):
+                client.deaf = True  # both ways are shut: what it sent still counts
+            if not client.ended:
+                client.receive()
+        if self._listen_s <= now_s:
+            self._listen_s = NEVER
+            self._epoll.register(self._listener_fd, select.EPOLLIN)
+        left = LINES_A_TURN
+        self._next_s = next_s = self._listen_s
+        count = len(self._clients)
+        self._first = (self._first + 1) % count
+        for number in range(count):
+            client = self._clients[(self._first + number) % count]
+            if client.open:
+                if client.resume_s <= now_s:
+                    left -= self._handle_lines(client, min(left, LINES_A_CLIENT), now_s, control)
+                next_s = min(next_s, self._settle(client, now_s))
+        self._next_s = min(self._next_s, next_s)  # an outcome may have come meanwhile
+
+    def touches(self, samples: Sequence[TouchSample]) -> None:
+        """Tell those who asked for touches."""
+        if not self._subscribers:
+            return
+        for client in self._clients:
+            if client.open and client.subscribed:
+                for finger, x_m, y_m, time_s, contact, size_m in samples:
+                    client.put(
+                        messages.Touch(
+                            finger=finger,
+                            x_mm=round(x_m * 1e3, 3),
+                            y_mm=round(y_m * 1e3, 3),
+                            time_s=time_s,
+                            contact=contact,
+                            size_mm=round(size_m * 1e3, 3),
+                        )
+                    )
+                self._send(client)
+
+    def outcome(self, ticket: int, outcome: Outcome, age_s: float) -> None:
+        """Answer a command to play, `age_s` after it was given."""
+        self._answer_ticket(ticket, outcome.value, age_ms=round(age_s * 1e3, 3))
+
+    def loaded(self, ticket: int, reason: str) -> None:
+        """Answer a command to load a scene; an empty reason: it was taken over."""
+        outcome: messages.Outcome = "refused" if reason else "done"
+        self._answer_ticket(ticket, outcome, reason=reason)
+
+    def close(self) -> None:
+        """Let all clients go."""
+        for client in self._clients:
+            if client.open:
+                client.leave("the service ends")
+                client.flush()
+                client.close()
+        self._epoll.close()
+        self._file.close()
+
+    def _accept(self, now_s: float) -> None:
+        for _ in range(ACCEPTS_A_TURN):
+            try:
+                accepted, _ = self._file.listener.accept()
+            except BlockingIOError:
+                break
+            except OSError as error:
+                if error.errno not in (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM, errno.ECONNABORTED):
+                    raise
+                break
+            accepted.setblocking(False)
+            free = next((client for client in self._clients if not client.open), None)
+            if free is None:
+                self.counters.turned_away += 1
+                with accepted, contextlib.suppress(OSError):
+                    accepted.send(self._turned_away)
+                continue
+            self.counters.clients += 1
+            free.begin(accepted, self.counters.clients, now_s)
+            self._watch(free, select.EPOLLIN)
+        self._epoll.unregister(self._listener_fd)
+        self._listen_s = now_s + PAUSE_S
+
+    def _handle_lines(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
+        """Answer at most so many of a client's lines; how many it were."""
+        for done in range(most):
+            if client.leaving_reason:
+                return done
+            try:
+                line = client.next_line()
+            except LineTooLong as error:
+                self.counters.lines += 1
+                client.take_token(now_s)
+                self._refuse_invalid(client, None, str(error))
+                continue
+            if line is None:
+                return done
+            self.counters.lines += 1
+            if client.take_token(now_s):
+                self._handle(client, line, now_s, control)
+            else:
+                self.counters.over_rate += 1
+                client.resume_s = now_s + PAUSE_S * sum(other.open for other in self._clients)
+                self._answer(client, self._id_of(line), "refused", "rate")
+        return most
+
+    def _handle(self, client: Connection, line: memoryview, now_s: float, control: PanelControl) -> None:
+        try:
+            request = self._requests.decode(line)
+        except UnicodeDecodeError:
+            self._refuse_invalid(client, self._id_of(line), "not UTF-8")
+            return
+        except (msgspec.DecodeError, RecursionError) as error:
+            self._refuse_invalid(client, self._id_of(line), str(error)[:REASON_CHARACTERS])
+            return
+        if isinstance(request, Play):
+            self._play(client, request, now_s, control)
+        else:
+            self._do(client, request, now_s, control)
+
+    def _play(self, client: Connection, play: Play, now_s: float, control: PanelControl) -> None:
+        amplitude = self._max_amplitude if play.amplitude is None else play.amplitude
+        reason = self._why_not(play, amplitude)
+        if reason:
+            self._refuse_invalid(client, play.id, reason)
+            return
+        ticket = self._ticket(client, play.id)
+        if ticket == FULL:
+            return
+        x_m, y_m = (play.x_mm or 0.0) * 1e-3, (play.y_mm or 0.0) * 1e-3
+        try:
+            control.play(ticket, play.effect, x_m, y_m, play.finger, amplitude, now_s)
+        except ControllerError as error:
+            self._answer_ticket(ticket, "refused", reason=str(error))
+
+    def _why_not(self, play: Play, amplitude: float) -> str:
+        """What is wrong with a command to play; empty if nothing is."""
+        if not LEAST_AMPLITUDE <= amplitude <= self._max_amplitude:
+            return f"amplitude = {amplitude:g} is not {LEAST_AMPLITUDE:g} to {self._max_amplitude:g}"
+        if play.finger is not None:
+            return "" if play.x_mm is None and play.y_mm is None else "either x_mm and y_mm, or finger"
+        if play.x_mm is None or play.y_mm is None:
+            return "either x_mm and y_mm, or finger"
+        plate = self._board.plate
+        if not 0.0 <= play.x_mm <= plate.length_mm:
+            return f"x_mm = {play.x_mm:g} is off the plate (0 to {plate.length_mm:g})"
+        if not 0.0 <= play.y_mm <= plate.width_mm:
+            return f"y_mm = {play.y_mm:g} is off the plate (0 to {plate.width_mm:g})"
+        return ""
+
+    def _do(self, client: Connection, request: AnyRequest, now_s: float, control: PanelControl) -> None:
+        """All but `Play`."""
+        match request:
+            case messages.LoadScene(id=number, name=name):
+                ticket = self._ticket(client, number)
+                if ticket == FULL:
+                    return
+                try:
+                    control.load_scene(ticket, name)
+                except ControllerError as error:
+                    self.loaded(ticket, str(error))
+                return
+            case messages.AskFigures(id=number):
+                if now_s >= self._figures_until_s:
+                    self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
+                client.put(messages.Figures(id=number, figures=self._figures))
+                self.counters.done += 1
+            case messages.Hello(id=number):
+                client.put(
+                    messages.Greeting(
+                        id=number,
+                        version=__version__,
+                        board=self._board.name,
+                        length_mm=self._board.plate.length_mm,
+                        width_mm=self._board.plate.width_mm,
+                        max_amplitude=self._max_amplitude,
+                        effects=control.effects(),
+                    )
+                )
+                self.counters.done += 1
+            case messages.Subscribe() | messages.Unsubscribe():
+                self._subscribe(client, isinstance(request, messages.Subscribe))
+                self._answer(client, request.id, "done")
+
+    def _subscribe(self, client: Connection, wanted: bool) -> None:
+        self._subscribers += wanted - client.subscribed
+        client.subscribed = wanted
+
+    def _ticket(self, client: Connection, number: Id) -> int:
+        """A ticket for a command; FULL if it had to be refused."""
+        ticket = FULL if client.waiting >= WAITING_PER_CLIENT else self._tickets.take(Waiting(client.serial, number))
+        if ticket == FULL:
+            self._answer(client, number, "refused", f"{client.waiting} commands wait for their outcome already")
+        else:
+            client.waiting += 1
+        return ticket
+
+    def _answer_ticket(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
+        holder = self._tickets.give_back(ticket)
+        if holder is None:
+            self.counters.stray_outcomes += 1
+            return
+        self._count(outcome)
+        client = next((client for client in self._clients if client.serial == holder.serial), None)
+        if client is None:
+            self.counters.unanswered += 1
+            return
+        client.waiting -= 1
+        client.put(messages.Answer(id=holder.id, outcome=outcome, age_ms=age_ms, reason=reason))
+        self._send(client)
+
+    def _refuse_invalid(self, client: Connection, number: Id, reason: str) -> None:
+        self.counters.not_valid += 1
+        self._answer(client, number, "refused", reason)
+
+    def _answer(self, client: Connection, number: Id, outcome: messages.Outcome, reason: str = "") -> None:
+        self._count(outcome)
+        client.put(messages.Answer(id=number, outcome=outcome, reason=reason))
+
+    def _count(self, outcome: messages.Outcome) -> None:
+        setattr(self.counters, outcome, getattr(self.counters, outcome) + 1)
+
+    @property
+    def waiting(self) -> int:
+        """Commands without an outcome yet."""
+        return self._tickets.waiting
+
+    def _id_of(self, line: memoryview) -> Id:
+        """The id of a line that is refused, if it can be told."""
+        try:
+            return self._numbers.decode(line).id
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            return None
+
+    def _send(self, client: Connection) -> None:
+        """Send what is queued, and see to the rest in the next turn."""
+        client.flush()
+        if client.unsent or client.deaf or client.ended or client.leaving_reason:
+            self._next_s = NOW
+
+    def _settle(self, client: Connection, now_s: float) -> float:
+        """After a client's lines: send, watch for what can come next, or let it go; when to look again without an event."""
+        client.flush()
+        if client.leaving_reason and client.leave_s == NEVER:
+            self.counters.told_to_go += 1
+            self._subscribe(client, False)
+            client.leave_s = now_s + LEAVE_S
+        has_line = client.has_line and not client.leaving_reason
+        over = client.ended and not has_line and not client.waiting and not client.subscribed
+        if (
+            (client.leaving_reason and not client.unsent)
+            or client.leave_s <= now_s
+            or (client.ended and client.deaf and not has_line)
+            or (over and not client.unsent)
+        ):
+            self._let_go(client)
+            return NEVER
+        paused = client.resume_s > now_s
+        wanted = UNWATCHED if paused else _events(client)
+        if wanted != client.watched:
+            self._watch(client, wanted)
+        if paused:
+            return min(client.resume_s, client.leave_s)
+        return NOW if has_line else client.leave_s
+
+    def _watch(self, client: Connection, wanted: int) -> None:
+        if client.watched == UNWATCHED:
+            self._epoll.register(client.fd, wanted)
+        elif wanted == UNWATCHED:
+            self._epoll.unregister(client.fd)
+        else:
+            self._epoll.modify(client.fd, wanted)
+        client.watched = wanted
+
+    def _let_go(self, client: Connection) -> None:
+        if client.watched != UNWATCHED:
+            self._epoll.unregister(client.fd)
+        self._subscribe(client, False)
+        client.close()
+
+
+def _events(client: Connection) -> int:
+    """What to wait for; that a client hangs up is told in any case, with 0 too."""
+    reading = select.EPOLLIN if not client.ended and not client.leaving_reason else 0
+    return reading | (select.EPOLLOUT if client.unsent else 0)

@@ -1,0 +1,189 @@
+"""One client: lines in, answers out, each through a buffer that is made once and never grows."""
+
+from __future__ import annotations
+
+import math
+import socket
+
+import msgspec
+
+from controller.application_socket.messages import LINE_BYTES, AnyMessage, Farewell
+
+QUEUE_BYTES = 65536  # answers and touches that wait for a client to read them
+FAREWELL_BYTES = 512  # kept free behind them, to say why it has to go
+CLOSED = -1
+UNWATCHED = -1
+NEWLINE = 10
+
+
+class LineTooLong(ValueError):
+    """A line that does not fit the buffer; what is left of it will be thrown away."""
+
+
+class Connection:
+    """A place for one client at a time; the next one gets the same buffers.
+
+    Parameters
+    ----------
+    rate_hz, burst : float
+        Lines that are taken a second in the long run, and at once.
+    """
+
+    def __init__(self, rate_hz: float, burst: int) -> None:
+        self.fd = CLOSED
+        self.serial = -1
+        self.watched = UNWATCHED  # events asked of epoll, hanging up always among them
+        self.subscribed = False
+        self.ended = False  # the client sends no more
+        self.deaf = False  # the client reads no more
+        self.leaving_reason = ""
+        self.leave_s = math.inf  # when it is closed though it has not read its farewell
+        self.resume_s = -math.inf  # when it is read again, after a flood
+        self.waiting = 0  # commands without an outcome yet
+        self._rate_hz = rate_hz
+        self._burst = float(burst)
+        self._tokens = 0.0
+        self._filled_s = 0.0
+        self._socket: socket.socket | None = None
+        self._received = bytearray(LINE_BYTES)
+        self._received_view = memoryview(self._received)
+        self._start = self._end = 0
+        self._skipping = False  # the rest of a line that was too long
+        self._queue = memoryview(bytearray(QUEUE_BYTES + FAREWELL_BYTES))
+        self._sent = self._queued = 0
+        self._encoder = msgspec.json.Encoder()
+        self._line = bytearray()
+
+    def begin(self, client: socket.socket, serial: int, now_s: float) -> None:
+        """Take a client."""
+        self._socket = client
+        self.fd = client.fileno()
+        self.serial = serial
+        self.subscribed = self.ended = self.deaf = self._skipping = False
+        self.leaving_reason = ""
+        self.leave_s, self.resume_s = math.inf, -math.inf
+        self.watched, self.waiting = UNWATCHED, 0
+        self._start = self._end = self._sent = self._queued = 0
+        self._tokens, self._filled_s = self._burst, now_s
+
+    def close(self) -> None:
+        """Let the client go."""
+        if self._socket is not None:
+            self._socket.close()
+        self._socket = None
+        self.fd = CLOSED
+        self.serial = -1
+
+    @property
+    def open(self) -> bool:
+        """Whether there is a client."""
+        return self.fd != CLOSED
+
+    @property
+    def unsent(self) -> bool:
+        """Whether the client has something to read that the kernel has not taken yet."""
+        return self._sent < self._queued
+
+    def receive(self) -> None:
+        """Read what is there and fits; without blocking."""
+        assert self._socket is not None
+        if self._start:
+            rest = self._end - self._start
+            self._received_view[:rest] = self._received_view[self._start : self._end]
+            self._start, self._end = 0, rest
+        if self._end == LINE_BYTES:
+            return
+        try:
+            count = self._socket.recv_into(self._received_view[self._end :])
+        except BlockingIOError:
+            return
+        except OSError:  # reset: nothing more will come, and nobody will read
+            count = 0
+            self.deaf = True
+        self._end += count
+        self.ended = count == 0
+
+    def next_line(self) -> memoryview | None:
+        """One whole line without its end; None if there is none. The view holds until the next `receive`.
+
+        Raises
+        ------
+        LineTooLong
+            Once for a line that does not fit.
+        """
+        at = self._received.find(NEWLINE, self._start, self._end)
+        if at >= 0 and self._skipping:
+            self._skipping = False
+            self._start = at + 1
+            at = self._received.find(NEWLINE, self._start, self._end)
+        if at >= 0:
+            line = self._received_view[self._start : at]
+            self._start = at + 1
+            return line
+        if self._skipping:
+            self._start = self._end = 0
+        elif self._end - self._start == LINE_BYTES:
+            self._skipping = True
+            self._start = self._end = 0
+            raise LineTooLong(f"a line is at most {LINE_BYTES} bytes")
+        return None
+
+    @property
+    def has_line(self) -> bool:
+        """Whether `next_line` has something to give."""
+        return self._end - self._start == LINE_BYTES or self._received.find(NEWLINE, self._start, self._end) >= 0
+
+    def take_token(self, now_s: float) -> bool:
+        """Whether the client may have one more line at this time (token bucket)."""
+        self._tokens = min(self._tokens + (now_s - self._filled_s) * self._rate_hz, self._burst)
+        self._filled_s = now_s
+        if self._tokens < 1.0:
+            return False
+        self._tokens -= 1.0
+        return True
+
+    def put(self, message: AnyMessage) -> None:
+        """Queue one message; where there is no room, the client is told to go and gets nothing more."""
+        if self.deaf or self.leaving_reason:
+            return
+        line = self._line
+        self._encoder.encode_into(message, line)
+        line.append(NEWLINE)
+        if self._queued + len(line) > QUEUE_BYTES:
+            self._compact()
+            if self._queued + len(line) > QUEUE_BYTES:
+                self.leave("it does not read what it is sent")
+                return
+        self._append(line)
+
+    def leave(self, reason: str) -> None:
+        """Queue a farewell behind what is queued, and nothing more."""
+        if not self.leaving_reason:
+            self.leaving_reason = reason
+            self._compact()
+            self._encoder.encode_into(Farewell(reason=reason), self._line)
+            self._line.append(NEWLINE)
+            self._append(self._line)
+
+    def flush(self) -> None:
+        """Hand to the kernel what it takes; without blocking."""
+        if self._socket is None or self._sent == self._queued:
+            return
+        try:
+            self._sent += self._socket.send(self._queue[self._sent : self._queued])
+        except BlockingIOError:
+            return
+        except OSError:  # it has closed: its commands still count, its answers do not
+            self.deaf = True
+            self._sent = self._queued
+        if self._sent == self._queued:
+            self._sent = self._queued = 0
+
+    def _append(self, line: bytearray) -> None:
+        self._queue[self._queued : self._queued + len(line)] = line
+        self._queued += len(line)
+
+    def _compact(self) -> None:
+        left = self._queued - self._sent
+        self._queue[:left] = self._queue[self._sent : self._queued]
+        self._sent, self._queued = 0, left

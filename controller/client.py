@@ -1,0 +1,269 @@
+"""Drive a panel from another program: a small client of its application socket.
+
+>>> with PanelClient("/run/haptic-panel/panel.sock") as panel:      # doctest: +SKIP
+...     panel.play("click", at_mm=(100, 70), amplitude=0.5)
+...     for touch in panel.touches():
+...         if touch.contact and touch.x_mm > 105:
+...             panel.play("click", finger=touch.finger)
+
+The same from a shell: `python -m controller.client --socket S play click --at 100 70`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import socket
+import sys
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+
+from controller.application_socket import messages
+from controller.application_socket.messages import Answer, AnyMessage, AnyRequest, Farewell, Figures, Greeting, Touch
+from controller.errors import ControllerError, LinkError
+
+DEFAULT_PATH = "/run/haptic-panel/panel.sock"
+RECEIVE_BYTES = 65536
+TOUCHES_KEPT = 1000  # while an answer is waited for; older ones are forgotten
+
+
+class PanelClient:
+    """A connection to a running panel. One thread at a time.
+
+    Parameters
+    ----------
+    path : str
+        The panel's socket.
+    timeout_s : float
+        For an answer.
+
+    Raises
+    ------
+    LinkError
+        By every method: if nobody listens, does not answer in time, or ends the connection.
+    """
+
+    def __init__(self, path: str = DEFAULT_PATH, timeout_s: float = 5.0) -> None:
+        self._path = path
+        self._timeout_s = timeout_s
+        self._encoder = msgspec.json.Encoder()
+        self._decoder = messages.message_decoder()
+        self._received = bytearray()
+        self._touches: deque[Touch] = deque(maxlen=TOUCHES_KEPT)
+        self._answers: dict[int, Answer | Greeting | Figures] = {}  # to requests that nobody has waited for yet
+        self._last_id = 0
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            self._socket.connect(path)
+        except OSError as error:
+            self._socket.close()
+            raise LinkError(f"{path}: no panel to talk to ({error.strerror or error}); is the service running?") from error
+
+    def __enter__(self) -> PanelClient:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the connection."""
+        self._socket.close()
+
+    def play(
+        self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
+    ) -> Answer:
+        """Play an effect at a point of the plate, or for a finger; returns when it was decided what became of it.
+
+        Parameters
+        ----------
+        at_mm : (float, float), optional
+            x and y from the plate's corner, in mm.
+        finger : int, optional
+            As told by `touches`.
+        amplitude : float, optional
+            Share of the full one, 0.25 to 1; the most that the board allows if left out.
+
+        Returns
+        -------
+        Answer
+            `outcome` is "played", "merged" (a newer one came first), "skipped" or "refused", with its `reason`.
+        """
+        return self._answer(self.start_play(effect, at_mm=at_mm, finger=finger, amplitude=amplitude))
+
+    def start_play(
+        self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
+    ) -> int:
+        """As `play`, without waiting; returns the id for `wait`."""
+        x_mm, y_mm = at_mm or (None, None)
+        return self._ask(messages.Play(id=self._new_id(), effect=effect, x_mm=x_mm, y_mm=y_mm, finger=finger, amplitude=amplitude))
+
+    def wait(self, number: int) -> Answer:
+        """Outcome of a command that was started."""
+        return self._answer(number)
+
+    def touches(self) -> Iterator[Touch]:
+        """Every finger that begins, moves or is released from now on; until the iterator is closed."""
+        self._done(messages.Subscribe(id=self._new_id()))
+        try:
+            while True:
+                while self._touches:
+                    yield self._touches.popleft()
+                self._keep(self._receive(None))  # nobody may touch the panel for hours
+        except GeneratorExit:
+            if self._socket.fileno() >= 0:
+                self._done(messages.Unsubscribe(id=self._new_id()))
+                self._touches.clear()
+
+    def load_scene(self, name: str) -> None:
+        """Take over another scene of the board; returns when it is in force.
+
+        Raises
+        ------
+        ControllerError
+            If it is refused: the scene before stays.
+        """
+        self._done(messages.LoadScene(id=self._new_id(), name=name))
+
+    def figures(self) -> dict[str, Any]:
+        """What the panel counted so far."""
+        answer = self._wait(self._ask(messages.AskFigures(id=self._new_id())))
+        if isinstance(answer, Figures):
+            return answer.figures
+        raise _refused(answer)
+
+    def hello(self) -> Greeting:
+        """Version, board, extents and the effects that can be played."""
+        answer = self._wait(self._ask(messages.Hello(id=self._new_id())))
+        if isinstance(answer, Greeting):
+            return answer
+        raise _refused(answer)
+
+    def _new_id(self) -> int:
+        self._last_id += 1
+        return self._last_id
+
+    def _ask(self, request: AnyRequest) -> int:
+        try:
+            self._socket.settimeout(self._timeout_s)
+            self._socket.sendall(self._encoder.encode(request) + b"\n")
+        except BrokenPipeError:
+            self._receive_all()  # its farewell may still be there
+            raise LinkError(f"{self._path}: the panel has ended the connection") from None
+        except OSError as error:
+            raise LinkError(f"{self._path}: the panel does not read ({error.strerror or error})") from error
+        assert isinstance(request.id, int)
+        return request.id
+
+    def _done(self, request: AnyRequest) -> None:
+        answer = self._answer(self._ask(request))
+        if answer.outcome != "done":
+            raise _refused(answer)
+
+    def _answer(self, number: int) -> Answer:
+        answer = self._wait(number)
+        if isinstance(answer, Answer):
+            return answer
+        raise LinkError(f"{self._path}: the panel answers what was not asked: {answer}")
+
+    def _wait(self, number: int) -> Answer | Greeting | Figures:
+        while number not in self._answers:
+            self._keep(self._receive(self._timeout_s))
+        return self._answers.pop(number)
+
+    def _keep(self, message: AnyMessage) -> None:
+        if isinstance(message, Touch):
+            self._touches.append(message)
+        elif isinstance(message, Farewell):
+            raise LinkError(f"{self._path}: the panel has ended the connection: {message.reason}")
+        elif isinstance(message.id, int):
+            self._answers[message.id] = message
+
+    def _receive(self, timeout_s: float | None) -> AnyMessage:
+        """Wait for the next message."""
+        while True:
+            line, end, rest = self._received.partition(b"\n")
+            if end:
+                self._received = rest
+                try:
+                    return self._decoder.decode(line)
+                except (msgspec.DecodeError, UnicodeDecodeError) as error:
+                    raise LinkError(f"{self._path}: what answers there is no panel, or another version ({error})") from error
+            try:
+                self._socket.settimeout(timeout_s)
+                more = self._socket.recv(RECEIVE_BYTES)
+            except TimeoutError:
+                raise LinkError(f"{self._path}: the panel does not answer within {self._timeout_s:g} s") from None
+            except OSError as error:
+                raise LinkError(f"{self._path}: the panel has ended the connection ({error.strerror})") from error
+            if not more:
+                raise LinkError(f"{self._path}: the panel has ended the connection")
+            self._received += more
+
+    def _receive_all(self) -> None:
+        """Take what has come before the connection ended; raises when it comes to the end."""
+        while True:
+            self._keep(self._receive(self._timeout_s))
+
+
+def _refused(answer: Answer | Greeting | Figures) -> ControllerError:
+    return ControllerError(f"the panel refused: {answer.reason}" if isinstance(answer, Answer) else f"unexpected answer: {answer}")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Command line of the client; messages of the panel go to stdout, one JSON object a line."""
+    options = _parser().parse_args(arguments)
+    try:
+        with PanelClient(options.socket) as panel:
+            return _run(panel, options)
+    except ControllerError as error:
+        sys.stderr.write(f"error: {error}\n")
+        return error.exit_code
+    except (KeyboardInterrupt, BrokenPipeError):
+        return 0
+
+
+def _run(panel: PanelClient, options: argparse.Namespace) -> int:
+    match options.command:
+        case "play":
+            at_mm = tuple(options.at) if options.at else None
+            answer = panel.play(options.effect, at_mm=at_mm, finger=options.finger, amplitude=options.amplitude)
+            _show(answer)
+            return 0 if answer.outcome in ("played", "merged") else 1
+        case "touches":
+            for touch in panel.touches():
+                _show(touch)
+        case "load":
+            panel.load_scene(options.name)
+        case "figures":
+            _show(panel.figures())
+        case "hello":
+            _show(panel.hello())
+    return 0
+
+
+def _show(what: Any) -> None:
+    sys.stdout.write(msgspec.json.encode(what).decode() + "\n")
+    sys.stdout.flush()
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m controller.client", description="Drive a running haptic panel.")
+    parser.add_argument("--socket", default=DEFAULT_PATH, metavar="S", help=f"the panel's socket (default: {DEFAULT_PATH})")
+    commands = parser.add_subparsers(dest="command", title="commands", metavar="COMMAND", required=True)
+    play = commands.add_parser("play", help="play an effect at a point or for a finger")
+    play.add_argument("effect")
+    where = play.add_mutually_exclusive_group(required=True)
+    where.add_argument("--at", nargs=2, type=float, metavar=("X_MM", "Y_MM"))
+    where.add_argument("--finger", type=int, metavar="N", help="as told by `touches`")
+    play.add_argument("--amplitude", type=float, metavar="A", help="0.25 to 1 (default: the most that is allowed)")
+    commands.add_parser("touches", help="print every touch until Ctrl-C")
+    commands.add_parser("load", help="take over another scene of the board").add_argument("name")
+    commands.add_parser("figures", help="print what the panel counted")
+    commands.add_parser("hello", help="print version, board, extents and effects")
+    return parser
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,148 @@
+"""A panel's socket without a panel: turns of a loop on a clock of the test's own, real sockets, and a control that writes down."""
+
+import json
+import math
+import select
+import shutil
+import socket
+import tempfile
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from controller.application_socket.command_socket import CommandSocket
+from controller.device_settings import ApplicationSocket
+from controller.errors import ControllerError
+
+EFFECTS = ("click", "buzz")
+
+
+class WritesDown:
+    """A `PanelControl` that knows two effects and plays nothing."""
+
+    def __init__(self):
+        self.plays = []
+        self.scenes = []
+        self.times_told = 0
+
+    def play(self, ticket, effect, x_m, y_m, finger, amplitude, now_s):  # noqa: ARG002
+        if effect not in EFFECTS:
+            raise ControllerError(f"effect {effect!r} is unknown")
+        self.plays.append((ticket, effect, x_m, y_m, finger, amplitude))
+
+    def load_scene(self, ticket, name):
+        if name == "broken":
+            raise ControllerError("broken.toml: not valid TOML")
+        self.scenes.append((ticket, name))
+
+    def figures(self):
+        self.times_told += 1
+        return {"emissions": 7, "nothing": math.nan}
+
+    def effects(self):
+        return EFFECTS
+
+
+class Panel:
+    """The part of the event loop that the socket sees."""
+
+    def __init__(self, board, settings):
+        self.settings = settings
+        self.socket = CommandSocket(board, settings)
+        self.control = WritesDown()
+        self.now_s = 100.0
+        self.clients = []
+
+    def turn(self):
+        """One turn; False if the loop would have slept for ever."""
+        readable = select.select([self.socket.fileno()], [], [], 0)[0]
+        if not readable and self.socket.next_time_s() == math.inf:
+            return False
+        if not readable:
+            self.now_s = max(self.now_s, self.socket.next_time_s())
+        self.socket.serve(self.now_s, self.control)
+        return True
+
+    def settle(self, most=10_000):
+        """Turns until there is nothing to do; how many it took. Time passes as it would while the loop sleeps."""
+        for turns in range(most):
+            if not self.turn():
+                return turns
+        raise AssertionError(f"still busy after {most} turns")
+
+    def connect(self):
+        client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        client.connect(self.settings.path)
+        client.setblocking(False)
+        self.clients.append(client)
+        return client
+
+    def ask(self, client, *lines):
+        """Send lines (objects, or bytes as they are), let the loop run, and read the answers."""
+        for line in lines:
+            client.sendall(line if isinstance(line, bytes) else json.dumps(line).encode() + b"\n")
+        self.settle()
+        return read(client)
+
+    def close(self):
+        for client in self.clients:
+            client.close()
+        self.socket.close()
+
+
+def read(client):
+    """All messages that a client has to read now."""
+    text = bytearray()
+    while True:
+        try:
+            more = client.recv(1 << 16)
+        except (BlockingIOError, ConnectionResetError):
+            break
+        if not more:
+            break
+        text += more
+    assert not text or text.endswith(b"\n")
+    return [json.loads(line) for line in text.splitlines()]
+
+
+@pytest.fixture
+def folder():
+    """A folder with a short name: a socket's path has at most 107 bytes."""
+    path = Path(tempfile.mkdtemp(prefix="hp"))
+    yield path
+    shutil.rmtree(path)
+
+
+@pytest.fixture
+def panel_with(board, folder):
+    """A panel with the given settings of its socket."""
+    panels = []
+
+    def make(**settings):
+        panels.append(Panel(board, ApplicationSocket(path=str(folder / f"{len(panels)}.sock"), **settings)))
+        return panels[-1]
+
+    yield make
+    for panel in panels:
+        panel.close()
+
+
+@pytest.fixture
+def panel(panel_with):
+    return panel_with()
+
+
+@pytest.fixture
+def settings(folder):
+    return ApplicationSocket(path=str(folder / "panel.sock"))
+
+
+@pytest.fixture
+def changed():
+    return msgspec.structs.replace
+
+
+@pytest.fixture
+def read_all():
+    return read

@@ -1,0 +1,155 @@
+"""The socket's file: whose it is before anybody sees it, and from whom it may be taken."""
+
+import fcntl
+import grp
+import os
+import pwd
+import socket
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.application_socket.socket_file import SocketFile
+from controller.errors import ConfigError, ControllerError
+
+
+def mode_of(path):
+    return stat.S_IMODE(Path(path).lstat().st_mode)
+
+
+def connects(path):
+    with socket.socket(socket.AF_UNIX) as client:
+        try:
+            client.connect(str(path))
+        except OSError:
+            return False
+        return True
+
+
+@pytest.mark.parametrize(("mode", "is_"), [("660", 0o660), ("0600", 0o600), ("666", 0o666)])
+def test_the_mode_is_the_boards_and_not_the_umasks(settings, changed, mode, is_):
+    before = os.umask(0o027)
+    try:
+        made = SocketFile(changed(settings, mode=mode))
+        assert os.umask(0o027) == 0o027
+    finally:
+        os.umask(before)
+    assert mode_of(settings.path) == is_
+    assert connects(settings.path)
+    made.close()
+
+
+def test_it_appears_only_when_it_is_complete(settings, changed, folder, monkeypatch):
+    seen = []
+    real = Path.rename
+
+    def watched(self, target):
+        seen.append((Path(target).exists(), mode_of(self), connects(self)))
+        return real(self, target)
+
+    monkeypatch.setattr(Path, "rename", watched)
+    made = SocketFile(changed(settings, mode="640"))
+    assert seen == [(False, 0o640, True)]
+    assert [path.name for path in folder.iterdir()] == ["panel.sock"]
+    made.close()
+
+
+def test_until_it_has_its_mode_nobody_else_may_connect(settings, monkeypatch):
+    seen = []
+    real = Path.chmod
+
+    def watched(self, mode):
+        seen.append(mode_of(self))
+        return real(self, mode)
+
+    monkeypatch.setattr(Path, "chmod", watched)
+    SocketFile(settings).close()
+    assert seen == [0o600]
+
+
+def test_owner_and_group_are_the_boards(settings, changed):
+    if os.geteuid() == 0:
+        user = next(entry for entry in pwd.getpwall() if entry.pw_uid)
+        group = next(entry for entry in grp.getgrall() if entry.gr_gid not in (0, user.pw_gid))
+    else:
+        user, group = pwd.getpwuid(os.geteuid()), grp.getgrgid(os.getegid())
+    made = SocketFile(changed(settings, owner=user.pw_name, group=group.gr_name))
+    is_ = Path(settings.path).stat()
+    assert (is_.st_uid, is_.st_gid) == (user.pw_uid, group.gr_gid)
+    made.close()
+
+
+@pytest.mark.parametrize(("key", "words"), [("owner", "no such user"), ("group", "no such group")])
+def test_an_unknown_owner_or_group_is_refused_by_name(settings, changed, key, words):
+    with pytest.raises(ConfigError, match=rf"application_socket.{key} = 'nobody-like-this': {words}"):
+        SocketFile(changed(settings, **{key: "nobody-like-this"}))
+    assert not Path(settings.path).exists()
+
+
+def test_the_file_of_a_killed_service_is_replaced(settings):
+    code = f"import os, socket; s = socket.socket(socket.AF_UNIX); s.bind({settings.path!r}); s.listen(); os.kill(os.getpid(), 9)"
+    subprocess.run([sys.executable, "-c", code], check=False)
+    assert Path(settings.path).is_socket()
+    assert not connects(settings.path)
+    made = SocketFile(settings)
+    assert connects(settings.path)
+    made.close()
+
+
+def test_a_running_services_socket_is_left_alone(settings, folder):
+    first = SocketFile(settings)
+    with pytest.raises(ControllerError, match=r"panel\.sock: another service is running there; stop it"):
+        SocketFile(settings)
+    assert connects(settings.path)
+    assert [path.name for path in folder.iterdir()] == ["panel.sock"]
+    first.close()
+
+
+def test_a_service_too_busy_to_accept_is_running_nevertheless(settings):
+    with socket.socket(socket.AF_UNIX) as busy:
+        busy.bind(settings.path)
+        busy.listen(0)
+        with socket.socket(socket.AF_UNIX) as client:
+            client.connect(settings.path)  # the backlog is full now
+            with pytest.raises(ControllerError, match="another service is running there"):
+                SocketFile(settings)
+
+
+def test_two_services_do_not_start_at_once(settings, folder):
+    number = os.open(folder, os.O_RDONLY)
+    fcntl.flock(number, fcntl.LOCK_EX)
+    with pytest.raises(ControllerError, match="another service makes its socket there"):
+        SocketFile(settings)
+    os.close(number)
+    SocketFile(settings).close()
+
+
+@pytest.mark.parametrize("make", [lambda path: path.write_text("precious"), Path.mkdir, lambda path: path.symlink_to("/dev/null")])
+def test_a_file_of_another_kind_is_not_replaced(settings, make):
+    make(Path(settings.path))
+    with pytest.raises(ConfigError, match="is a file of another kind"):
+        SocketFile(settings)
+    assert os.path.lexists(settings.path)
+
+
+@pytest.mark.parametrize("path", ["missing/panel.sock", "x" * 120 + ".sock"])
+def test_a_path_that_cannot_be_is_refused_in_one_line(settings, changed, folder, path):
+    with pytest.raises(ConfigError, match=r"application_socket.path = '.*' cannot be made \(.+\)") as refused:
+        SocketFile(changed(settings, path=str(folder / path)))
+    assert "\n" not in str(refused.value)
+    assert not list(folder.iterdir())
+
+
+def test_closing_removes_the_file_unless_it_is_anothers_by_now(settings):
+    first = SocketFile(settings)
+    first.close()
+    assert not Path(settings.path).exists()
+    first = SocketFile(settings)
+    Path(settings.path).unlink()
+    second = SocketFile(settings)
+    first.close()
+    assert connects(settings.path)
+    second.close()
