@@ -36,7 +36,11 @@ class LinkError(ControllerError):
 
 
 class FaultError(ControllerError):
-    """The FPGA has shut its outputs off and says why."""
+    """The FPGA has shut its outputs off and says why; `faults` are its fault bits (registers.Fault), 0 if they are not known."""
+
+    def __init__(self, message: str, faults: int = 0) -> None:
+        super().__init__(message)
+        self.faults = faults
 
 
 class CalibrationError(ControllerError):

@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Status, answered_well, parse_status
+from controller.fpga.diagnosis import diagnose
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Damaged, Status, answered_well, parse_status
 from controller.fpga.link import Link
 from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
 
@@ -28,6 +29,13 @@ class Refused(LinkError):
 
 class HostSilent(FaultError):
     """The FPGA switched off because this host was silent for too long: the one fault the host may clear by itself."""
+
+
+class FpgaReset(LinkError):
+    """The FPGA began anew behind our back: it is disarmed, its settings and slots are gone."""
+
+    def __init__(self) -> None:
+        super().__init__("the FPGA was reset, or lost its supply: it has forgotten its settings and waveforms; outputs are off")
 
 
 class Exchange:
@@ -62,6 +70,11 @@ class Exchange:
         self._link = link
         self._now_s = now_s
         self._beat_s = beat_s
+        self._timestamp_ticks = 0  # of the last status
+
+    def forget_time(self) -> None:
+        """Take the FPGA's time as it comes: it may have been reset."""
+        self._timestamp_ticks = 0
 
     def message(self, lengths: list[int], *, faults_matter: bool = True) -> Status:
         """Send frames and check every answer; the last status, which is that of the frame before the last.
@@ -72,6 +85,10 @@ class Exchange:
             If a fault is latched.
         Refused
             With the first result that is not OK.
+        FpgaReset
+            If the FPGA's time went back.
+        Damaged
+            If an answer is no status, with what may be wrong with the wires.
         LinkError
             If a frame or an answer was damaged or lost.
         """
@@ -80,11 +97,17 @@ class Exchange:
         self._link.exchange(self.sent, lengths, self.received)
         self.heartbeat_due_s = self._now_s() + self._beat_s
         start = lengths[0]  # the first answer is about the message before
-        for index, length in enumerate(lengths[1:]):
-            if not answered_well(self.received, start, (sequence + index) & 0xFF):
-                self._explain(parse_status(self.received, start), faults_matter)
-            start += length
-        status = parse_status(self.received, start - lengths[-1])
+        try:
+            for index, length in enumerate(lengths[1:]):
+                if not answered_well(self.received, start, (sequence + index) & 0xFF):
+                    self._explain(parse_status(self.received, start), faults_matter)
+                start += length
+            start -= lengths[-1]
+            status = parse_status(self.received, start)
+        except Damaged as error:
+            why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
+            raise Damaged(why) from error
+        self._keep_time(status)
         if status.faults:
             self._explain(status, faults_matter)
         return status
@@ -99,7 +122,7 @@ class Exchange:
             try:
                 return send(again)
             except LinkError as error:
-                if isinstance(error, Refused) and error.result not in DAMAGED:
+                if isinstance(error, FpgaReset) or (isinstance(error, Refused) and error.result not in DAMAGED):
                     raise
         try:
             return send(True)
@@ -153,11 +176,24 @@ class Exchange:
             start += length
         return damaged
 
+    def _keep_time(self, status: Status) -> None:
+        """Take note of the FPGA's time.
+
+        Raises
+        ------
+        FpgaReset
+            If it went back.
+        """
+        before_ticks, self._timestamp_ticks = self._timestamp_ticks, status.timestamp_ticks
+        if status.timestamp_ticks < before_ticks:
+            raise FpgaReset
+
     def _explain(self, status: Status, faults_matter: bool) -> None:
         """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""
+        self._keep_time(status)
         if status.faults and faults_matter:
             kind = HostSilent if status.faults == Fault.HOST_SILENT else FaultError
-            raise kind(f"outputs off: {status.faults.sentence}")
+            raise kind(f"outputs off: {status.faults.sentence}", status.faults)
         if status.result is not Result.OK:
             raise Refused(status.result)
         if not status.faults:

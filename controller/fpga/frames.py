@@ -49,6 +49,11 @@ ECHO_DELAY_BYTES = 2  # behind the status, the answer to a TEST is what it broug
 LOAD_FRAME_BYTES = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size  # of a full chunk
 UPLOAD_BYTES = CHUNKS * LOAD_FRAME_BYTES  # of the longest waveform
 
+
+class Damaged(LinkError):
+    """What came back is no status: nothing is known of the FPGA, nor of what it was sent."""
+
+
 WritableBuffer = bytearray | memoryview
 ReadableBuffer = bytes | bytearray | memoryview
 
@@ -232,8 +237,10 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
 
     Raises
     ------
+    Damaged
+        If it has no sync word or a wrong CRC.
     LinkError
-        If it has no sync word or a wrong CRC, or a code this version does not know.
+        If it has a code this version does not know.
     """
     result, sequence, state, faults, *counters = _checked(buffer, offset)
     try:
@@ -256,10 +263,10 @@ def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
     """Fields of a status between sync word and CRC, both of which have to be right."""
     sync, *fields, crc = STATUS.unpack_from(buffer, offset)
     if sync != STATUS_SYNC:
-        raise LinkError(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
+        raise Damaged(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
     wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
     if crc != wanted:
-        raise LinkError(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
+        raise Damaged(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
     return tuple(fields)
 
 

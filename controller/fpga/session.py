@@ -12,13 +12,14 @@ from controller.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
 from controller.fpga.clock_relation import ClockRelation
-from controller.fpga.exchange import Exchange, Refused
+from controller.fpga.exchange import Exchange, FpgaReset, Refused
 from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status, upload_slices
 from controller.fpga.link import Link
-from controller.fpga.registers import Control, Register, Start, State
+from controller.fpga.registers import Control, Register, Result, Start, State
 
 BEATS_PER_TIMEOUT = 3
 CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
+FORGOTTEN = frozenset({Result.NOT_ARMED, Result.EMPTY_SLOT})  # answers of an FPGA that was reset
 
 
 class Session:
@@ -41,6 +42,8 @@ class Session:
         The messages below.
     clock_relation : ClockRelation or None
         If it is set, each heartbeat tells it the FPGA's time, for plays that are scheduled.
+    bit_period : int
+        Time for which one drive word is held now, in 65536ths of a clock of the FPGA.
 
     Raises
     ------
@@ -60,11 +63,31 @@ class Session:
         self._upload_lengths = [piece.stop - piece.start for piece in self._upload]
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
-        self._on = False
+        self._ours = False  # if anything is on, this host has armed it
+        self._on = False  # it has to be, since it was armed and until it is disarmed
         self.clock_relation: ClockRelation | None = None
-        self.exchange.short(frames.pack_nop(self._sent, 0, 0), faults_matter=False)
-        configuration.verify(self.exchange.read, board, build_hash)
+        self.bit_period = board.bit_period
+        self.bring_up()
+
+    def bring_up(self) -> None:
+        """Check that this is the FPGA asked for, with nothing on, and give it all its settings.
+
+        At the start, and again whenever it may have forgotten them; `arm` comes next. Its slots may be empty.
+
+        Raises
+        ------
+        LinkError
+            If it does not answer, is another one, or is armed. One that this host armed is told to disarm first:
+            call again when its ramp has passed.
+        """
+        self._on = False
+        self.exchange.forget_time()
+        self.exchange.insist(
+            lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence), faults_matter=False)
+        )
+        configuration.verify(self.exchange.read, self._board, self._build_hash)
         self._configure()
+        self._ours = False
 
     @property
     def heartbeat_due_s(self) -> float:
@@ -90,13 +113,30 @@ class Session:
         return max(self._now_s(), self._link.free_s())
 
     def arm(self) -> float:
-        """Have the outputs glide to their idle levels; the time at which they have arrived."""
-        sequence = self.exchange.sequence
-        end = frames.pack_nop(self._sent, 0, sequence)  # feeds the heartbeat, without which arming is refused
-        end = frames.pack_unlock(self._sent, end, sequence + 1, self._build_hash)
-        end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
+        """Have the outputs glide to their idle levels; the time at which they have arrived.
+
+        Raises
+        ------
+        Refused
+            If the FPGA will not, such as without its permits.
+        LinkError
+            If the link damages whatever is tried.
+        """
+
+        def send(again: bool) -> Status:
+            if again:  # the ARM may have arrived, and only its answer not
+                status = self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence))
+                if State.HV_ENABLE in status.state:
+                    return status
+            sequence = self.exchange.sequence
+            end = frames.pack_nop(self._sent, 0, sequence)  # feeds the heartbeat, without which arming is refused
+            end = frames.pack_unlock(self._sent, end, sequence + 1, self._build_hash)
+            end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
+            return self.exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
+
+        self._ours = True
+        self.exchange.insist(send)
         self._on = True
-        self.exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
         return self._ramp_end_s()
 
     def require_armed(self) -> None:
@@ -108,17 +148,19 @@ class Session:
 
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""
-        self.exchange.control(Control.DISARM)
+        self._on = False
+        self.exchange.insist(lambda _: self._commanded(Control.DISARM))
         return self._ramp_end_s()
 
     def off(self) -> None:
         """Outputs off as far as this host can still say so; the FPGA does it without us when the heartbeat ends."""
-        if self._on:
-            self._on = False
+        self._on = False
+        if self._ours:
             try:
                 self.exchange.control(Control.DISARM)
             except (LinkError, FaultError):
                 return  # it has switched off already, or will within the heartbeat timeout
+            self._ours = False
 
     def clear_faults(self) -> None:
         """Clear what is latched, so that arming is possible again."""
@@ -131,11 +173,15 @@ class Session:
         ------
         HostSilent, FaultError
             If the FPGA has switched off.
+        FpgaReset
+            If it was reset: it is off without a fault, or its time went back.
         LinkError
             If its answers are damaged again and again.
         """
         before_s = self._now_s()
         status = self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        if self._on and State.HV_ENABLE not in status.state:
+            raise FpgaReset
         if self.clock_relation is not None:
             self.clock_relation.add(before_s, max(self._now_s(), self._link.free_s()), status.timestamp_ticks)
         return status
@@ -166,6 +212,8 @@ class Session:
         ------
         Refused
             If the FPGA cannot play it.
+        FpgaReset
+            If it has forgotten the waveform.
         """
 
         def send(again: bool) -> Status:
@@ -178,14 +226,18 @@ class Session:
                 sequence + (stop or again),
                 slot,
                 count=count,
-                period_ticks=self._board.period_ticks(period_s),
+                period_ticks=self._period_ticks(period_s),
                 start=start,
                 when_ticks=when_ticks,
                 mask=mask,
             )
             return self.exchange.short(frames.pack_nop(self._sent, end, sequence + (stop or again) + 1))
 
-        self.exchange.insist(send)
+        try:
+            self.exchange.insist(send)
+        except Refused as refusal:
+            self._look_for_reset(refusal)
+            raise
 
     def upload(self, slot: int, words: memoryview) -> None:
         """Send drive words and make them the slot's waveform, without playing it.
@@ -207,15 +259,28 @@ class Session:
 
         self.exchange.insist(send)
 
-    def upload_and_play(self, slot: int, words: memoryview, count: int, period_s: float, *, stop: bool) -> None:
-        """Send drive words, make them the slot's waveform and have it accepted for the next trigger.
+    def upload_and_play(
+        self,
+        slot: int,
+        words: memoryview,
+        count: int,
+        period_s: float,
+        *,
+        stop: bool,
+        start: Start = Start.TRIGGER,
+        when_ticks: int = 0,
+    ) -> None:
+        """Send drive words, make them the slot's waveform and have it accepted: for the next trigger, at once, or at a time.
 
-        The words are copied once, into the frames, and each frame's CRC is taken there.
+        The words are copied once, into the frames, and each frame's CRC is taken there. What is sent again because it
+        was damaged may come too late for its time: it is refused then.
 
         Raises
         ------
         Refused
             If the FPGA cannot take or play it.
+        FpgaReset
+            If it was reset meanwhile.
         LinkError
             If the link damages whatever is tried; nothing is left to play then.
         """
@@ -224,39 +289,100 @@ class Session:
             sequence = self.exchange.sequence
             end = frames.pack_upload(self._sent, 0, sequence, words)
             commands = end
-            end = self._pack_commands(end, sequence + len(self._upload), slot, words, count, period_s, stop or again)
+            sequence += len(self._upload)
+            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
+            sequence += 1
+            if stop or again:
+                end = frames.pack_control(self._sent, end, sequence, Control.STOP)
+                sequence += 1
+            for _ in range(self._check_frames - (stop or again)):  # the FPGA takes the CRC of what it stored meanwhile
+                end = frames.pack_nop(self._sent, end, sequence)
+                sequence += 1
+            period_ticks = self._period_ticks(period_s)
+            end = frames.pack_play(
+                self._sent, end, sequence, slot, count=count, period_ticks=period_ticks, start=start, when_ticks=when_ticks
+            )
+            end = frames.pack_nop(self._sent, end, sequence + 1)
             return self.exchange.message([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
 
         try:
             self.exchange.insist(send)
-        except Refused:  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
-            self.exchange.stop()
+        except Refused as refusal:
+            self._look_for_reset(refusal)
+            self.exchange.stop()  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
             raise
 
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
         return self._link.trigger()
 
-    def _pack_commands(self, end: int, sequence: int, slot: int, words: memoryview, count: int, period_s: float, stop: bool) -> int:
-        """STORE, STOP if asked, PLAY, NOP; returns the end."""
-        end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
-        sequence += 1
-        if stop:
-            end = frames.pack_control(self._sent, end, sequence, Control.STOP)
-            sequence += 1
-        for _ in range(self._check_frames - stop):  # the FPGA takes the CRC of what it stored meanwhile
-            end = frames.pack_nop(self._sent, end, sequence)
-            sequence += 1
-        period_ticks = self._board.period_ticks(period_s)
-        end = frames.pack_play(self._sent, end, sequence, slot, count=count, period_ticks=period_ticks)
-        return frames.pack_nop(self._sent, end, sequence + 1)
+    def set_bit_period(self, scale: float) -> bool:
+        """Scale the bit clock, such as for the plate's temperature; False if something plays or waits: try again later.
+
+        Parameters
+        ----------
+        scale : float
+            Of the board's bit clock; above 1 plays faster. It is kept over `bring_up`.
+
+        Raises
+        ------
+        Refused
+            If the FPGA does not allow this rate.
+        """
+        period = round(self._board.bit_period / scale)
+        if period == self.bit_period:
+            return True
+        try:
+            self.exchange.insist(lambda _: self._written(Register.BIT_PERIOD, period))
+        except Refused as refusal:
+            if refusal.result is Result.BUSY:
+                return False
+            raise
+        self.bit_period = period
+        return True
+
+    @property
+    def emission_s(self) -> float:
+        """T at the present bit clock."""
+        return self._emission_ticks / self._board.link.clock_hz
+
+    @property
+    def _emission_ticks(self) -> int:
+        return self._board.waveform.samples * self.bit_period >> 16
+
+    def _period_ticks(self, period_s: float) -> int:
+        """Clocks from emission to emission: without a pause at the board's bit clock is without one at any."""
+        board = self._board
+        ticks = board.period_ticks(period_s)
+        shortest = self._emission_ticks
+        if ticks == board.emission_ticks or abs(ticks - shortest) <= 1:
+            return shortest
+        return ticks
+
+    def _commanded(self, command: Control) -> Status:
+        end = frames.pack_control(self._sent, 0, self.exchange.sequence, command)
+        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1))
+
+    def _written(self, register: Register, value: int) -> Status:
+        end = frames.pack_write(self._sent, 0, self.exchange.sequence, register, value)
+        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1))
+
+    def _look_for_reset(self, refusal: Refused) -> None:
+        """Raise FpgaReset if that is why the FPGA refused."""
+        if self._on and refusal.result in FORGOTTEN:
+            self.heartbeat()
 
     def _configure(self) -> None:
-        """Disarm, clear, and set what the board says."""
+        """Clear, and set what the board says."""
         self.clear_faults()
         if State.HV_ENABLE in self.heartbeat().state:
+            if self._ours:
+                self.exchange.control(Control.DISARM)
+                raise LinkError("the FPGA was still armed and is told to disarm: try again when its ramp has passed")
             raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
-        for register, value in configuration.settings(self._board, self.exchange.read(Register.EDGE_WINDOW_TICKS)).items():
+        settings = configuration.settings(self._board, self.exchange.read(Register.EDGE_WINDOW_TICKS))
+        settings[Register.BIT_PERIOD] = self.bit_period
+        for register, value in settings.items():
             try:
                 self.exchange.write(register, value)
             except Refused as refusal:
@@ -268,4 +394,4 @@ class Session:
         samples = (
             configuration.ramp_samples(self._board) + 5
         )  # the word that sounds, the idle word behind it, and the FPGA its own way
-        return self.ready_s() + samples * self._board.waveform.bit_period_s
+        return self.ready_s() + samples * self.bit_period / 65536 / self._board.link.clock_hz

@@ -1,0 +1,92 @@
+"""Gateware that loses its supply, or is reset, and begins anew: for trying out what a host does then."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from controller.fpga.capture import Capture
+from controller.fpga.gateware import READY_TICKS, TRIGGER_HIGH_TICKS, Gateware, GatewareFactory, Parameters, Permit
+
+OPEN_LINE = 0xFF  # what MISO reads as while nobody drives it
+
+
+class RestartingGateware:
+    """`Gateware` made anew at each `restart`; its ticks go on, its own clock begins at 0 again.
+
+    Parameters
+    ----------
+    factory : GatewareFactory
+        What computes the gateware proper.
+    parameters : Parameters
+        Of each that is made.
+    """
+
+    def __init__(self, factory: GatewareFactory, parameters: Parameters) -> None:
+        self._factory = factory
+        self._parameters = parameters
+        self._origin = 0
+        self._gateware: Gateware = factory(parameters)
+        self._levels = dict.fromkeys(Permit, False)
+        self._captures: list[Capture] = []
+        self._last = (0, 0)
+
+    @property
+    def now(self) -> int:
+        """The tick it has come to."""
+        return self._origin + self._gateware.now
+
+    def restart(self, tick: int, dark_ticks: int) -> None:
+        """Take the supply away at `tick`, with everything low from there on; reset ends `dark_ticks` later."""
+        self.advance(tick)
+        self._take()
+        if self._last != (0, 0):
+            self._last = (0, 0)
+            self._captures.append(_low(max(tick, self.now)))
+        self._origin = max(tick, self.now) + dark_ticks
+        self._gateware = self._factory(self._parameters)
+        for which, level in self._levels.items():
+            self._gateware.permit(0, level, which)
+
+    def advance(self, tick: int) -> None:
+        """Go to `tick`; a tick already passed changes nothing."""
+        if tick > self._origin:
+            self._gateware.advance(tick - self._origin)
+
+    def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
+        """Drive a permit pin; while it is dark that is seen when reset ends."""
+        self._levels[which] = level
+        self._gateware.permit(max(tick - self._origin, 0), level, which)
+
+    def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
+        """Raise the trigger pin; while it is dark nothing sees it."""
+        if tick - self._origin >= READY_TICKS:
+            self._gateware.trigger(tick - self._origin, high_ticks)
+
+    def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
+        """One chip-select assertion; while it is dark the line is open."""
+        if select_tick - self._origin >= READY_TICKS:
+            self._gateware.exchange(select_tick - self._origin, release_tick - self._origin, mosi, miso)
+        else:
+            miso[:] = bytes([OPEN_LINE]) * len(miso)
+
+    def take_capture(self) -> Capture:
+        """Everything since the last capture, over all restarts."""
+        self._take()
+        captures, self._captures = self._captures, []
+        return Capture(
+            np.concatenate([capture.ticks for capture in captures]),
+            np.concatenate([capture.words for capture in captures]),
+            np.concatenate([capture.hv for capture in captures]),
+            np.concatenate([capture.focus_ticks for capture in captures]),
+        )
+
+    def _take(self) -> None:
+        capture = self._gateware.take_capture()
+        origin = np.uint64(self._origin)
+        if capture.ticks.size:
+            self._last = (int(capture.words[-1]), int(capture.hv[-1]))
+        self._captures.append(Capture(capture.ticks + origin, capture.words, capture.hv, capture.focus_ticks + origin))
+
+
+def _low(tick: int) -> Capture:
+    return Capture(np.array([tick], np.uint64), np.zeros(1, np.uint32), np.zeros(1, np.uint8), np.zeros(0, np.uint64))
