@@ -128,7 +128,7 @@ class Playback:
             Earliest time of the trigger.
         """
         away_ns, wire_ns = self._session.away_ns, self._session.wire_ns
-        key = self._selection.key([(e.x_m, e.y_m, e.weight) for e in emissions])
+        key = self._selection.key([(e.x_m, e.y_m, e.amplitude) for e in emissions])
         resident = key in self._slot_of
         running = self._running
         try:
