@@ -1,121 +1,60 @@
-"""What the panel should feel like: regions of the plate and what to play there. Pure.
+"""What the panel feels like: touch samples, time and commands in, emissions with their times out.
 
-A finger belongs to the first region of the file that contains it. What the effects do:
+A finger belongs to the first region of the file that contains it. On each occasion its effects begin:
 
-- `click`: one emission when the finger is put down in the region; never by sliding into it.
-- `train`: emissions from the moment the finger is put down, where the finger then is, until
-  `duration_ms` is over or the finger is lifted or leaves the region; never by sliding into it.
-- `texture`: one emission for every `spacing_mm` of way inside the region, by sliding into it as well.
-  The way counts from the first report inside. A report that jumps over several spacings gives one
-  emission (the time between has passed); the rest of the way is kept.
-- `always`: emissions at a fixed point without any finger (a `Spot`).
+- `press`, `release`: the finger is put down, or lifted, in the region. A finger that slides in was not pressed there.
+- `enter`, `leave`: a finger that is down slides over the region's border.
+- `move`: it goes `spacing_mm` of way inside, or crosses a fixed line. Both count from the first report inside. A
+  report that completes several gives one emission (the time between has passed).
+- `always`: a `Spot`, without any finger; the loop plays it.
+- `command`: `start_effect`, for a finger or at a point.
+
+A train begins at its occasion and goes where its finger goes. It ends after its last beat, when the finger is
+lifted and, unless it began by `leave` or by a command, when the finger leaves the region. What one finger is to
+feel at one report is one emission, of the largest amplitude.
+
+All is pure but for `FingerState`, which belongs to its caller and is changed in place: a new one for each report
+would cost as much as all the rest.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from controller.board import Board
-from controller.scene_file import Always, Click, Region, Texture, Train, always_at, find_scene, read_regions
-from controller.shapes import Boxes, Circle, Polygon, Rectangle
+from controller.errors import ConfigError
+from controller.finger_state import COMMAND, Emission, FingerState, spot_emission
+from controller.scene_file import find_scene
+from controller.scene_map import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
 from controller.touch.samples import TouchSample
+from controller.trains import Running, Train
 
 __all__ = [
+    "OUTSIDE",
+    "ROUNDING_S",
+    "Area",
     "Emission",
     "FingerState",
     "Scene",
     "Spot",
+    "UnknownEffect",
     "edge_warnings",
+    "ended",
     "find_scene",
     "load_scene",
     "next_time_s",
     "on_time",
     "on_touch",
     "reach",
+    "spot_emission",
+    "start_effect",
+    "taken_over",
 ]
 
-OUTSIDE = -1
-ROUNDING_M = ROUNDING_S = 1e-9  # so that a spacing reached exactly is reached, and a train of 3 beats has 3
-SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
+ROUNDING_S = 1e-9
 
 
-class Emission(NamedTuple):
-    """One focus to be played: where and when it is due, for whom, how strong among others."""
-
-    time_s: float
-    x_m: float
-    y_m: float
-    finger: int | None
-    region: str
-    weight: float = 1.0
-
-
-class Spot(NamedTuple):
-    """A point that is played all the time."""
-
-    x_m: float
-    y_m: float
-    rate_hz: float
-    region: str
-
-
-class FingerState(NamedTuple):
-    """What the scene knows of one finger between samples."""
-
-    finger: int
-    x_m: float
-    y_m: float
-    region: int  # index in the scene, or OUTSIDE
-    way_m: float = 0.0  # since the last emission of the texture
-    train_next_s: float | None = None
-    train_end_s: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Area:
-    """One region, ready to be asked."""
-
-    name: str
-    shape: Rectangle | Circle | Polygon
-    click: bool
-    train: Train | None
-    spacing_m: float | None
-    spot: Spot | None
-
-
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """Regions in the order in which they are asked."""
-
-    areas: tuple[Area, ...]
-    spots: tuple[Spot, ...] = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "spots", tuple(area.spot for area in self.areas if area.spot))
-
-    def region_at(self, x_m: float, y_m: float) -> int:
-        """Index of the first region that contains a point, or OUTSIDE."""
-        for index, area in enumerate(self.areas):
-            if area.shape.contains(x_m, y_m):
-                return index
-        return OUTSIDE
-
-
-def load_scene(file: Path, board: Board) -> Scene:
-    """Read and check a scene.toml against the board it is to be felt on.
-
-    Raises
-    ------
-    ConfigError
-        Naming file, key and value.
-    """
-    return Scene(tuple(_area(region, shape) for region, shape in read_regions(file, board)))
+class UnknownEffect(ConfigError):
+    """A command names an effect that it cannot play."""
 
 
 def on_touch(scene: Scene, state: FingerState | None, sample: TouchSample) -> tuple[FingerState | None, tuple[Emission, ...]]:
@@ -124,136 +63,124 @@ def on_touch(scene: Scene, state: FingerState | None, sample: TouchSample) -> tu
     Returns
     -------
     state : FingerState or None
-        To be given with this finger's next sample; None once it is released.
+        The same one, changed, for this finger's next sample; None once it is released.
     emissions : tuple of Emission
         Due now, at the finger's place: at most one.
     """
     finger, x_m, y_m, time_s, contact, _ = sample
     if not contact:
-        return None, ()
+        if state is None or state.region == OUTSIDE:
+            return None, ()
+        area = scene.areas[state.region]
+        return None, _one(_begin(scene, state, area.release, state.region, time_s, bound=True, best=None)) if area.release else ()
     index = scene.region_at(x_m, y_m)
-    area = scene.areas[index] if index != OUTSIDE else None
     if state is None:
-        if area is None or not (area.click or area.train):
-            return FingerState(finger, x_m, y_m, index), ()
-        train_next_s, train_end_s = None, 0.0
-        if area.train:
-            train_end_s = time_s + area.train.duration_s
-            train_next_s = _before(time_s + area.train.period_s, train_end_s)
-        pressed = FingerState(finger, x_m, y_m, index, 0.0, train_next_s, train_end_s)
-        return pressed, (Emission(time_s, x_m, y_m, finger, area.name),)
-    if area is None or index != state.region:
-        return FingerState(finger, x_m, y_m, index), ()
-    if area.spacing_m is None:
-        return state._replace(x_m=x_m, y_m=y_m), ()
-    way_m = state.way_m + math.hypot(x_m - state.x_m, y_m - state.y_m)
-    if way_m < area.spacing_m - ROUNDING_M:
-        return state._replace(x_m=x_m, y_m=y_m, way_m=way_m), ()
-    rest_m = max(math.fmod(way_m + ROUNDING_M, area.spacing_m) - ROUNDING_M, 0.0)
-    return state._replace(x_m=x_m, y_m=y_m, way_m=rest_m), (Emission(time_s, x_m, y_m, finger, area.name),)
+        state = FingerState(finger, x_m, y_m)
+        if index == OUTSIDE:
+            return state, ()
+        state.come_into(scene, index)
+        press = scene.areas[index].press
+        return state, _one(_begin(scene, state, press, index, time_s, bound=True, best=None)) if press else ()
+    state.x_m, state.y_m = x_m, y_m
+    if index == state.region:
+        amplitude = state.moved()
+        if not amplitude:
+            return state, ()
+        area = scene.areas[index]
+        return state, (Emission(time_s, x_m, y_m, finger, area.name, amplitude, finger, alternate=area.alternate),)
+    left, emission = state.region, None
+    state.come_into(scene, index)
+    if left != OUTSIDE:
+        emission = _begin(scene, state, scene.areas[left].leave, left, time_s, bound=False, best=None)
+    if index != OUTSIDE:
+        emission = _begin(scene, state, scene.areas[index].enter, index, time_s, bound=True, best=emission)
+    return state, _one(emission)
 
 
 def next_time_s(state: FingerState) -> float | None:
-    """When `on_time` has something to do for a finger; None: not before its next sample."""
-    return state.train_next_s
+    """When `on_time` has something to do for a finger or command; None: not before its next sample."""
+    return None if state.next_s == math.inf else state.next_s
 
 
-def on_time(scene: Scene, state: FingerState, now_s: float) -> tuple[FingerState, tuple[Emission, ...]]:
-    """Time has come to `now_s`: the emission of a train that is due, if any.
+def on_time(scene: Scene, state: FingerState, until_s: float) -> tuple[FingerState, tuple[Emission, ...]]:
+    """Time comes to `until_s`: the beats of trains that are due up to then, in order of time.
 
-    Of several missed ones the last is given, with its own time: the others cannot be played any more,
-    and the train keeps its beat.
+    Of several missed beats of one train the last is given, with its own time: the others cannot be played any
+    more, and the train keeps its beat.
     """
-    due_s = state.train_next_s
-    if due_s is None or due_s > now_s:
+    if state.next_s > until_s:
         return state, ()
-    area = scene.areas[state.region]
-    assert area.train is not None
-    period_s = area.train.period_s
-    next_s = due_s + period_s
-    while next_s <= now_s and next_s < state.train_end_s - ROUNDING_S:
-        due_s, next_s = next_s, next_s + period_s
-    emission = Emission(due_s, state.x_m, state.y_m, state.finger, area.name)
-    return state._replace(train_next_s=_before(next_s, state.train_end_s)), (emission,)
+    return state, state.take(scene, until_s)
 
 
-def edge_warnings(scene: Scene, board: Board, channel_edges: int, all_edges: int) -> list[str]:
-    """What the FPGA's edge limits would end: one line for each limit that the scene's repetitions exceed.
-
-    Parameters
-    ----------
-    channel_edges, all_edges : int
-        In an emission, of its busiest channel and of all channels together: the worst of a bank.
-    """
-    spots_hz = sum({spot.rate_hz for spot in scene.spots})  # those of one rate are one emission
-    trains_hz = max((area.train.rate_hz for area in scene.areas if area.train), default=0.0)
-    rate_hz = min(spots_hz + trains_hz, board.limits.max_duty / board.waveform.duration_s)
-    limits = board.limits
-    return [
-        f"up to {rate_hz:g} emissions a second make {rate_hz * edges:.4g} edges a second {whose}, above"
-        f" limits.{name} = {limit:g} of board {board.name!r}: the FPGA will switch off"
-        for name, limit, edges, whose in (
-            ("max_channel_edge_rate_hz", limits.max_channel_edge_rate_hz, channel_edges, "on one channel"),
-            ("max_total_edge_rate_hz", limits.max_total_edge_rate_hz, all_edges, "on all channels"),
-        )
-        if rate_hz * edges > limit * (1 + 1e-9)
-    ]
-
-
-def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArray[np.bool_]:
-    """Which cells a scene can ask for: for every point where it may emit, the four cells around.
-
-    Beyond the outermost cells a point takes those nearest to it.
+def start_effect(
+    scene: Scene,
+    state: FingerState | None,
+    name: str,
+    *,
+    x_m: float,
+    y_m: float,
+    finger: int | None,
+    amplitude: float,
+    time_s: float,
+    ticket: int,
+) -> tuple[FingerState, tuple[Emission, ...]]:
+    """A command plays an effect: for a finger, whose state is given, or at a point, which gets a state of its own.
 
     Parameters
     ----------
-    points_m : (cell, 2) array
-        Cells of a whole regular grid, in any order.
-    pitch_m : float
-        Distance of neighbouring cells.
+    amplitude : float
+        0.25 to 1, times the effect's own; what comes below 0.25 is played at 0.25.
+    ticket : int
+        Given back on the first emission.
 
-    Returns
-    -------
-    (cell,) bool array
+    Raises
+    ------
+    UnknownEffect
+        If there is no effect of this name, or it is one that only a moving finger or a spot has.
     """
-    half_m = pitch_m + SLACK_M
-    x, y = points_m[:, 0], points_m[:, 1]
-    boxes = Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
-    reached = np.zeros(len(points_m), bool)
-    for area in scene.areas:
-        if area.click or area.train or area.spacing_m:
-            reached |= area.shape.meets(boxes)
-        if area.spot:
-            reached |= boxes.contain(area.spot.x_m, area.spot.y_m)
-    return reached
+    train = scene.effects.get(name)
+    if train is None:
+        raise UnknownEffect(f"no effect {name!r} that a command can play; there are: {', '.join(sorted(scene.effects))}")
+    if state is None:
+        state = FingerState(finger, x_m, y_m, owner=f"command {ticket}")
+    state.add(Running(train, time_s, COMMAND, bound=False, share=amplitude, effect=name, ticket=ticket))
+    return on_time(scene, state, time_s)
 
 
-def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Along one axis, from where to where a point takes a cell: a pitch either way.
-
-    For the two outermost rows it goes on without end: a point beyond the outermost is taken to lie on
-    it, and there the inner one still has its part (of weight 0).
-    """
-    far_m = 1e3
-    rim_m = 1.5 * pitch_m
-    low = np.where(at < at.min() + rim_m, at - far_m, at - half_m)
-    high = np.where(at > at.max() - rim_m, at + far_m, at + half_m)
-    return low, high
+def ended(state: FingerState) -> bool:
+    """Whether no train is under way any more: a command's state may go then."""
+    return state.next_s == math.inf
 
 
-def _before(next_s: float, end_s: float) -> float | None:
-    return next_s if next_s < end_s - ROUNDING_S else None
+def taken_over(scene: Scene, state: FingerState) -> FingerState:
+    """State of a finger that is down while another scene takes over: trains of regions end, those of commands go on."""
+    state.keep_commands()
+    state.come_into(scene, scene.region_at(state.x_m, state.y_m) if state.finger is not None else OUTSIDE)
+    return state
 
 
-def _area(region: Region, shape: Rectangle | Circle | Polygon) -> Area:
-    effects = region.effects
-    always = next((effect for effect in effects if isinstance(effect, Always)), None)
-    texture = next((effect for effect in effects if isinstance(effect, Texture)), None)
-    return Area(
-        name=region.name,
-        shape=shape,
-        click=any(isinstance(effect, Click) for effect in effects),
-        train=next((effect for effect in effects if isinstance(effect, Train)), None),
-        spacing_m=texture.spacing_mm * 1e-3 if texture else None,
-        spot=Spot(*always_at(always, shape), always.rate_hz, region.name) if always else None,
-    )
+def _begin(
+    scene: Scene, state: FingerState, trains: tuple[Train, ...], area: int, time_s: float, *, bound: bool, best: Emission | None
+) -> Emission | None:
+    """Trains of a region begin; the strongest of what is due at once, and of what was found before."""
+    for train in trains:
+        running = Running(train, time_s, area, bound=bound)
+        first = state.beat(scene, running, time_s)
+        if not running.over:
+            state.add(running)
+        if first is not None:
+            best = first if best is None else _together(best, first)
+    return best
+
+
+def _together(one: Emission, other: Emission) -> Emission:
+    """What two effects want of one finger at once: the stronger, in the beat of the train that has one."""
+    strong, weak = (one, other) if one.amplitude >= other.amplitude else (other, one)
+    if strong.period_s == 0.0 and weak.period_s:
+        strong = strong._replace(beat=weak.beat, period_s=weak.period_s)
+    return strong._replace(alternate=True) if weak.alternate else strong
+
+
+def _one(emission: Emission | None) -> tuple[Emission, ...]:
+    return () if emission is None else (emission,)

@@ -4,71 +4,41 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, NamedTuple
 
+import msgspec
 from msgspec import Meta
 
 from controller.board import Board
+from controller.effects import (
+    ROUNDING,
+    WEAKEST,
+    Amplitude,
+    Effects,
+    EffectTable,
+    highest_rate_hz,
+    known_effects,
+    resolved,
+)
 from controller.errors import ConfigError
-from controller.records import NotNegative, Positive, Record, load_toml
+from controller.records import Positive, Record, load_toml
 from controller.shapes import Circle, Point, Polygon, Rectangle
+from controller.trains import silent, train_of
 
 ROUNDING_M = 1e-9
-Rate = Annotated[float, Meta(ge=0.1, le=1000)]  # the FPGA counts periods in 32 bits of its clock
+Shape = Rectangle | Circle | Polygon
 
 
-class Click(Record, frozen=True, tag_field="effect", tag="click"):
-    """One emission when the finger is put down."""
-
-
-class Train(Record, frozen=True, tag_field="effect", tag="train"):
-    """Emissions at a rate from the moment the finger is put down."""
-
-    rate_hz: Rate
-    duration_ms: Annotated[float, Meta(gt=0, le=3.6e6)]
-
-    @property
-    def period_s(self) -> float:
-        """From the start of one emission to the next, in s."""
-        return 1 / self.rate_hz
-
-    @property
-    def duration_s(self) -> float:
-        """How long it lasts, in s."""
-        return self.duration_ms * 1e-3
-
-
-class Texture(Record, frozen=True, tag_field="effect", tag="texture"):
-    """One emission for every so many millimetres of way."""
-
-    spacing_mm: Annotated[float, Meta(ge=0.1)]
-
-
-class Always(Record, frozen=True, tag_field="effect", tag="always"):
-    """Emissions at a fixed point, the region's centre if none is given, without any finger."""
-
-    rate_hz: Rate
-    x_mm: NotNegative | None = None
-    y_mm: NotNegative | None = None
-
-
-Effect = Click | Train | Texture | Always
-
-
-class RegionTable(Record, frozen=True, tag_field="shape"):
+class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
     """What all regions have. Without effects it is a place where nothing is felt."""
 
     name: Annotated[str, Meta(min_length=1)]
-    effects: tuple[Effect, ...]
-
-    def __post_init__(self) -> None:
-        kinds = [type(effect) for effect in self.effects]
-        for kind in kinds:
-            if kinds.count(kind) > 1:
-                raise ValueError(f"region {self.name!r} has the effect {kind.__struct_config__.tag!r} more than once")
+    effects: tuple[str | EffectTable, ...]
+    amplitude: Amplitude = 1.0
+    policy: Literal["compose", "alternate"] = "compose"
 
 
-class RectangleTable(RegionTable, frozen=True, tag="rectangle"):
+class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
     """A rectangle from its corner of smallest x and y."""
 
     x_mm: float
@@ -77,7 +47,7 @@ class RectangleTable(RegionTable, frozen=True, tag="rectangle"):
     height_mm: Positive
 
 
-class CircleTable(RegionTable, frozen=True, tag="circle"):
+class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
     """A disc around its centre."""
 
     x_mm: float
@@ -85,20 +55,19 @@ class CircleTable(RegionTable, frozen=True, tag="circle"):
     radius_mm: Positive
 
 
-class PolygonTable(RegionTable, frozen=True, tag="polygon"):
+class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
     """A polygon by its corners."""
 
     corners_mm: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3, max_length=1000)]
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         crossing = Polygon(self.corners_mm).crossing()
         if crossing:
             first, second = (list(self.corners_mm[edge]) for edge in crossing)
             raise ValueError(f"corners_mm: the edges from {first} and from {second} cross or touch")
 
 
-class PlateTable(RegionTable, frozen=True, tag="plate"):
+class PlateTable(RegionTable, frozen=True, kw_only=True, tag="plate"):
     """The whole plate."""
 
 
@@ -109,6 +78,22 @@ class SceneTable(Record, frozen=True):
     """The whole file."""
 
     regions: Annotated[tuple[Region, ...], Meta(min_length=1)]
+    effects: Effects = msgspec.field(default_factory=dict)
+
+
+class RegionRead(NamedTuple):
+    """A region with its shape in metres and its effects as they are meant."""
+
+    table: Region
+    shape: Shape
+    effects: tuple[EffectTable, ...]
+
+
+class SceneRead(NamedTuple):
+    """A scene as it was read and checked: regions in the file's order, and the effects that a command can play."""
+
+    regions: tuple[RegionRead, ...]
+    playable: Effects
 
 
 def find_scene(board: Board, name_or_path: str) -> Path:
@@ -126,19 +111,23 @@ def find_scene(board: Board, name_or_path: str) -> Path:
     raise ConfigError(f"scene {name_or_path!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
 
 
-def read_regions(file: Path, board: Board) -> tuple[tuple[Region, Rectangle | Circle | Polygon], ...]:
-    """Regions of a scene.toml with their shapes in metres, in the file's order.
+def read_scene(file: Path, board: Board) -> SceneRead:
+    """Read and check a scene.toml.
 
     Raises
     ------
     ConfigError
         Naming file, key and value.
     """
-    regions = load_toml(file, SceneTable).regions
+    scene = load_toml(file, SceneTable)
+    known, playable = known_effects(file, scene.effects, board)
+    for name in scene.effects:
+        if silent(train_of(known[name])):
+            raise ConfigError(f"{file}: effects.{name}.envelope is silent at every emission of the train")
     plate = Rectangle(0.0, 0.0, board.plate.length_m, board.plate.width_m)
-    names = [region.name for region in regions]
-    found = []
-    for index, region in enumerate(regions):
+    names = [region.name for region in scene.regions]
+    found: list[RegionRead] = []
+    for index, region in enumerate(scene.regions):
         key = f"{file}: regions[{index}]"
         if region.name in names[:index]:
             raise ConfigError(f"{key}.name = {region.name!r} is taken by regions[{names.index(region.name)}] already")
@@ -148,19 +137,21 @@ def read_regions(file: Path, board: Board) -> tuple[tuple[Region, Rectangle | Ci
         if off > ROUNDING_M:
             size = f"{board.plate.length_mm:g} × {board.plate.width_mm:g} mm"
             raise ConfigError(f"{key} ({region.name!r}) reaches {off * 1e3:.4g} mm beyond the plate of {size}")
-        for number, effect in enumerate(region.effects):
-            _check(f"{key}.effects[{number}]", effect, board)
-        found.append((region, shape))
-    return tuple(found)
+        effects = tuple(resolved(f"{key}.effects[{number}]", effect, known, board) for number, effect in enumerate(region.effects))
+        _check_together(key, region, effects, board)
+        if any("always" not in effect.occasions for effect in effects):
+            _check_not_hidden(key, region, shape, found)
+        found.append(RegionRead(region, shape, effects))
+    return SceneRead(tuple(found), playable)
 
 
-def always_at(effect: Always, shape: Rectangle | Circle | Polygon) -> Point:
-    """Where an always-on spot is."""
+def spot_at(effect: EffectTable, shape: Shape) -> Point:
+    """Where an always-on spot is: as told, else at the centre of its region."""
     x_m, y_m = shape.centre
     return x_m if effect.x_mm is None else effect.x_mm * 1e-3, y_m if effect.y_mm is None else effect.y_mm * 1e-3
 
 
-def _shape(region: Region, plate: Rectangle) -> Rectangle | Circle | Polygon:
+def _shape(region: Region, plate: Rectangle) -> Shape:
     match region:
         case RectangleTable():
             x_m, y_m = region.x_mm * 1e-3, region.y_mm * 1e-3
@@ -173,25 +164,52 @@ def _shape(region: Region, plate: Rectangle) -> Rectangle | Circle | Polygon:
             return plate
 
 
-def _check(key: str, effect: Effect, board: Board) -> None:
-    if isinstance(effect, Train | Always):
-        duty = effect.rate_hz * board.waveform.duration_s
-        if duty > board.limits.max_duty * (1 + 1e-9):
-            most = board.limits.max_duty / board.waveform.duration_s
+def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], board: Board) -> None:
+    """What the effects of one region say together."""
+    for number, effect in enumerate(effects):
+        at = f"{key}.effects[{number}]"
+        if effect in effects[:number]:
+            raise ConfigError(f"{at}: region {region.name!r} has this effect more than once: effects[{effects.index(effect)}]")
+        if effect.occasions == ("command",):
+            raise ConfigError(f'{at} has when = "command": an application plays it, no region does; keep it in [effects]')
+        if "always" in effect.occasions and any("always" in other.occasions for other in effects[:number]):
+            raise ConfigError(f"{at}: region {region.name!r} has a spot already; give each spot a region")
+        if effect.strength * region.amplitude < WEAKEST * (1 - ROUNDING):
             raise ConfigError(
-                f"{key}.rate_hz = {effect.rate_hz:g} is above {most:g}, as often as emissions of"
-                f" {board.waveform.duration_ms:g} ms fit into limits.max_duty = {board.limits.max_duty:g}"
+                f"{at}: amplitude {effect.strength:g} in a region of amplitude {region.amplitude:g} is"
+                f" {effect.strength * region.amplitude:.3g}, below {WEAKEST:g}, the weakest that the plate plays"
             )
-    if isinstance(effect, Always):
-        rest_ticks = board.period_ticks(1 / effect.rate_hz) - board.emission_ticks
-        word_ticks = board.bit_period >> 16
-        if 0 < rest_ticks < word_ticks:
-            clock_hz = board.link.clock_hz
+        if silent(train_of(effect)):
+            raise ConfigError(f"{at}.envelope is silent at every emission of the train")
+    for occasion in ("press", "enter", "leave"):
+        rates = [effect.rate_hz for effect in effects if effect.rate_hz and occasion in effect.occasions]
+        most_hz = highest_rate_hz(board)
+        if sum(rates) > most_hz * (1 + ROUNDING):
             raise ConfigError(
-                f"{key}.rate_hz = {effect.rate_hz:g} leaves {rest_ticks / clock_hz * 1e6:.3g} us between emissions, less than a"
-                f" drive word: give {clock_hz / board.emission_ticks:.7g} (no pause)"
-                f" or at most {math.floor(clock_hz / (board.emission_ticks + word_ticks) * 1e3) / 1e3:.7g}"
+                f"{key}.effects: the trains that begin with when = {occasion!r} are {sum(rates):g} emissions a second together,"
+                f" above {most_hz:g}, as often as they fit into limits.max_duty = {board.limits.max_duty:g}"
             )
-        for name, value, most in (("x_mm", effect.x_mm, board.plate.length_mm), ("y_mm", effect.y_mm, board.plate.width_mm)):
-            if value is not None and value > most:
-                raise ConfigError(f"{key}.{name} = {value:g} is off the plate (0 to {most:g} mm)")
+
+
+def _check_not_hidden(key: str, region: Region, shape: Shape, earlier: list[RegionRead]) -> None:
+    """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt."""
+    for index, other in enumerate(earlier):
+        if _covers(other.shape, shape):
+            raise ConfigError(
+                f"{key} ({region.name!r}) is never felt: regions[{index}] ({other.table.name!r}) covers it and comes first;"
+                " put the smaller one before it"
+            )
+
+
+def _covers(outer: Shape, inner: Shape) -> bool:
+    """Whether one shape certainly lies within another (a polygon covers only its equal, as far as this can tell)."""
+    if outer == inner:
+        return True
+    if isinstance(outer, Polygon):
+        return False
+    if isinstance(outer, Circle) and isinstance(inner, Circle):
+        return math.dist((outer.x_m, outer.y_m), (inner.x_m, inner.y_m)) + inner.radius_m <= outer.radius_m
+    if isinstance(inner, Polygon):
+        return all(outer.contains(*corner) for corner in inner.corners)
+    low_x, low_y, high_x, high_y = inner.bounds
+    return all(outer.contains(x, y) for x in (low_x, high_x) for y in (low_y, high_y))

@@ -120,9 +120,11 @@ class Polygon:
     def contains(self, x_m: float, y_m: float) -> bool:
         """Whether a point lies in it: a ray to +x crosses the outline an odd number of times."""
         inside = False
-        for (ax, ay), (bx, by) in self.edges():
+        ax, ay = self.corners[-1]
+        for bx, by in self.corners:
             if (ay > y_m) != (by > y_m) and x_m < ax + (y_m - ay) / (by - ay) * (bx - ax):
                 inside = not inside
+            ax, ay = bx, by
         return inside
 
     def meets(self, boxes: Boxes) -> NDArray[np.bool_]:

@@ -1,0 +1,213 @@
+"""What a scene is: regions ready to be asked, spots, effects that commands can play; what it reaches and asks for. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board import Board
+from controller.effects import EffectTable
+from controller.scene_file import RegionRead, Shape, read_scene, spot_at
+from controller.shapes import Boxes
+from controller.spacings import Spacing, spacing_of
+from controller.trains import Train, train_of
+
+OUTSIDE = -1
+SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
+MESHES = 32  # each way: in each mesh the regions that a finger there can be in
+
+
+class Spot(NamedTuple):
+    """A point that is played all the time; its beats are `phase` of a period late."""
+
+    x_m: float
+    y_m: float
+    rate_hz: float
+    region: str
+    amplitude: float = 1.0
+    phase: float = 0.0
+    alternate: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """One region, ready to be asked: what begins on each occasion, and what happens as a finger moves."""
+
+    name: str
+    shape: Shape
+    press: tuple[Train, ...] = ()
+    release: tuple[Train, ...] = ()
+    enter: tuple[Train, ...] = ()
+    leave: tuple[Train, ...] = ()
+    spacings: tuple[Spacing, ...] = ()
+    spot: Spot | None = None
+    alternate: bool = False
+
+    @property
+    def felt(self) -> bool:
+        """Whether a finger in it, or on its way out, can feel anything."""
+        return bool(self.press or self.release or self.enter or self.leave or self.spacings)
+
+    @property
+    def trains_hz(self) -> float:
+        """Most emissions a second of trains that begin together."""
+        return max(sum(1 / t.period_s for t in trains if t.period_s) for trains in (self.press, self.enter, self.leave))
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Regions in the order in which they are asked, and what a command can play, by name."""
+
+    areas: tuple[Area, ...]
+    effects: Mapping[str, Train] = field(default_factory=dict)
+    spots: tuple[Spot, ...] = field(init=False)
+    _low_x: float = field(init=False, repr=False)
+    _low_y: float = field(init=False, repr=False)
+    _per_x: float = field(init=False, repr=False)
+    _per_y: float = field(init=False, repr=False)
+    _meshes: tuple[tuple[int, ...], ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        bounds = [area.shape.bounds for area in self.areas] or [(0.0, 0.0, 1.0, 1.0)]
+        low_x, low_y, high_x, high_y = (f(side) for f, side in zip((min, min, max, max), zip(*bounds, strict=True), strict=True))
+        # A hair wider, so that what lies on the far rim has a mesh too.
+        mesh_x, mesh_y = ((high - low) * (1 + 1e-9) / MESHES for low, high in ((low_x, high_x), (low_y, high_y)))
+        column, row = (part.ravel() for part in np.meshgrid(np.arange(MESHES), np.arange(MESHES), indexing="ij"))
+        hair = 1e-6 * max(mesh_x, mesh_y)
+        boxes = Boxes(
+            low_x + column * mesh_x - hair,
+            low_x + (column + 1) * mesh_x + hair,
+            low_y + row * mesh_y - hair,
+            low_y + (row + 1) * mesh_y + hair,
+        )
+        met = [area.shape.meets(boxes) for area in self.areas]
+        known: dict[tuple[int, ...], tuple[int, ...]] = {}
+        meshes = []
+        for mesh in range(MESHES * MESHES):
+            candidates = tuple(index for index, meets in enumerate(met) if meets[mesh])
+            meshes.append(known.setdefault(candidates, candidates))
+        for name, value in (
+            ("spots", tuple(area.spot for area in self.areas if area.spot)),
+            ("_low_x", low_x),
+            ("_low_y", low_y),
+            ("_per_x", 1 / mesh_x),
+            ("_per_y", 1 / mesh_y),
+            ("_meshes", tuple(meshes)),
+        ):
+            object.__setattr__(self, name, value)
+
+    def region_at(self, x_m: float, y_m: float) -> int:
+        """Index of the first region that contains a point, or OUTSIDE."""
+        column, row = int((x_m - self._low_x) * self._per_x), int((y_m - self._low_y) * self._per_y)
+        if 0 <= column < MESHES and 0 <= row < MESHES:
+            for index in self._meshes[column * MESHES + row]:
+                if self.areas[index].shape.contains(x_m, y_m):
+                    return index
+        return OUTSIDE
+
+
+def load_scene(file: Path, board: Board) -> Scene:
+    """Read and check a scene.toml against the board it is to be felt on.
+
+    Raises
+    ------
+    ConfigError
+        Naming file, key and value.
+    """
+    read = read_scene(file, board)
+    return Scene(tuple(map(_area, read.regions)), {name: train_of(effect) for name, effect in read.playable.items()})
+
+
+def edge_warnings(scene: Scene, board: Board, channel_edges: int, all_edges: int) -> list[str]:
+    """What the FPGA's edge limits would end: one line for each limit that the scene's repetitions exceed.
+
+    Parameters
+    ----------
+    channel_edges, all_edges : int
+        In an emission, of its busiest channel and of all channels together: the worst of a bank.
+    """
+    spots_hz = sum({spot.rate_hz for spot in scene.spots})  # those of one rate are one emission
+    trains_hz = max((area.trains_hz for area in scene.areas), default=0.0)
+    rate_hz = min(spots_hz + trains_hz, board.limits.max_duty / board.waveform.duration_s)
+    limits = board.limits
+    return [
+        f"up to {rate_hz:g} emissions a second make {rate_hz * edges:.4g} edges a second {whose}, above"
+        f" limits.{name} = {limit:g} of board {board.name!r}: the FPGA will switch off"
+        for name, limit, edges, whose in (
+            ("max_channel_edge_rate_hz", limits.max_channel_edge_rate_hz, channel_edges, "on one channel"),
+            ("max_total_edge_rate_hz", limits.max_total_edge_rate_hz, all_edges, "on all channels"),
+        )
+        if rate_hz * edges > limit * (1 + 1e-9)
+    ]
+
+
+def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArray[np.bool_]:
+    """Which cells a scene can ask for: for every point where it may emit, the four cells around.
+
+    Beyond the outermost cells a point takes those nearest to it.
+
+    Parameters
+    ----------
+    points_m : (cell, 2) array
+        Cells of a whole regular grid, in any order.
+    pitch_m : float
+        Distance of neighbouring cells.
+
+    Returns
+    -------
+    (cell,) bool array
+    """
+    half_m = pitch_m + SLACK_M
+    x, y = points_m[:, 0], points_m[:, 1]
+    boxes = Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
+    reached = np.zeros(len(points_m), bool)
+    for area in scene.areas:
+        if area.felt:
+            reached |= area.shape.meets(boxes)
+        if area.spot:
+            reached |= boxes.contain(area.spot.x_m, area.spot.y_m)
+    return reached
+
+
+def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Along one axis, from where to where a point takes a cell: a pitch either way.
+
+    For the two outermost rows it goes on without end: a point beyond the outermost is taken to lie on
+    it, and there the inner one still has its part (of weight 0).
+    """
+    far_m = 1e3
+    rim_m = 1.5 * pitch_m
+    low = np.where(at < at.min() + rim_m, at - far_m, at - half_m)
+    high = np.where(at > at.max() - rim_m, at + far_m, at + half_m)
+    return low, high
+
+
+def _area(region: RegionRead) -> Area:
+    table, shape, effects = region
+    always = next((effect for effect in effects if "always" in effect.occasions), None)
+    alternate = table.policy == "alternate"
+    spot = None
+    if always is not None:
+        rate_hz = always.rate_hz or 0.0
+        amplitude = always.strength * table.amplitude
+        spot = Spot(*spot_at(always, shape), rate_hz, table.name, amplitude, always.phase or 0.0, alternate)
+    return Area(
+        name=table.name,
+        shape=shape,
+        press=_trains("press", effects, table.amplitude),
+        release=_trains("release", effects, table.amplitude),
+        enter=_trains("enter", effects, table.amplitude),
+        leave=_trains("leave", effects, table.amplitude),
+        spacings=tuple(spacing_of(effect, shape, table.amplitude) for effect in effects if "move" in effect.occasions),
+        spot=spot,
+        alternate=alternate,
+    )
+
+
+def _trains(occasion: str, effects: Iterable[EffectTable], amplitude: float) -> tuple[Train, ...]:
+    return tuple(train_of(effect, amplitude) for effect in effects if occasion in effect.occasions)
