@@ -12,12 +12,13 @@ from math import hypot
 
 ALPHA, BETA = 0.4, 0.2  # share of a report's surprise that goes into place and velocity; best over the recordings, and flat there
 STOP_GAIN = 1.5  # the velocity used is at most this times that of the last step: a finger that stops or turns is not overshot
-REST_M = 0.3e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
-REST_REPORTS = 3  # so many in a row within the dead band, and the finger rests
+REST_M = 0.35e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
+REST_REPORTS = 8  # so many in a row within the dead band, and the finger rests
 LIVELY_PERIODS, SILENT_PERIODS = 1.5, 2.5  # after a report; many panels report no finger that keeps still: silence is rest
+PAUSE_S = 50e-3  # since the last report: what was known of its velocity is forgotten
 LONGEST_AHEAD_S = 40e-3  # beyond, the errors measured grow faster than the use
 FARTHEST_AHEAD_M = 20e-3
-SHORTEST_STEP_S = 1e-3  # no panel reports faster; reports read late in a heap may say so
+SHORTEST_STEP_S = 2e-3  # no panel reports faster; reports read late in a heap may say so
 
 
 class Motion:
@@ -39,11 +40,11 @@ class Motion:
         self._vx = self._vy = 0.0  # m/s, of the filter
         self._rested = 0
 
-    def report(self, x_m: float, y_m: float, time_s: float, period_s: float) -> None:
-        """Take the place that a report gives, moved or not; `period_s`: between the panel's reports."""
+    def report(self, x_m: float, y_m: float, time_s: float) -> None:
+        """Take the place that a report gives, moved or not."""
         step_s = time_s - self.time_s
-        if step_s > SILENT_PERIODS * period_s:  # it rested until a report ago
-            step_s = period_s
+        if step_s > PAUSE_S:  # it rested, or reports were lost: it may have moved in any part of the pause
+            step_s = PAUSE_S
             self._vx = self._vy = 0.0
             self._x_m, self._y_m = self.x_m, self.y_m
         elif step_s < SHORTEST_STEP_S:
@@ -65,6 +66,8 @@ class Motion:
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
         if hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m) <= REST_M:
             self._rested += 1
+            if self._rested == REST_REPORTS:
+                self._anchor_x_m, self._anchor_y_m = self._x_m, self._y_m
         else:
             self._anchor_x_m, self._anchor_y_m = x_m, y_m
             self._rested = 0

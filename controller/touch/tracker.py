@@ -183,7 +183,7 @@ class Tracker:
         motion = contact.motion
         if contact.suspect and not contact.played and hypot(x_m - motion.x_m, y_m - motion.y_m) > NEAR_M:
             contact.stayed_since_s = time_s
-        motion.report(x_m, y_m, time_s, self.rate.period_s)
+        motion.report(x_m, y_m, time_s)
         contact.reports += 1
         contact.size_m = sample.size_m
         if contact.played:
@@ -236,11 +236,10 @@ class Tracker:
 
     def _found_still(self, time_s: float) -> None:
         """A report came: contacts that it did not tell are where they were."""
-        period_s = self.rate.period_s
         for contact in self._contacts.values():
             motion = contact.motion
             if motion.time_s < time_s and not contact.refused:
-                motion.report(motion.x_m, motion.y_m, time_s, period_s)
+                motion.report(motion.x_m, motion.y_m, time_s)
                 contact.reports += 1
 
     def _decide(self, known_s: float, given: list[TouchSample]) -> None:
