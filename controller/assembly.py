@@ -87,6 +87,6 @@ def assemble(
 
     performance = Performance(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
     running = EventLoop(
-        clock, session, source, performance, playback, time_base, counters, commands=commands, change=change, **loop
+        board, clock, session, source, performance, playback, time_base, counters, commands=commands, change=change, **loop
     )
     return Assembly(running, counters, selection)

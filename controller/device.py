@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
@@ -12,12 +11,12 @@ from controller.assembly import Assembly, assemble
 from controller.bank.reader import Bank
 from controller.board import Board
 from controller.clocks import MonotonicClock
-from controller.hardware import open_link, open_session, open_touch, tracked
+from controller.hardware import open_link, open_session, open_thermometer, open_touch, tracked
 from controller.housekeeping import Housekeeping
 from controller.prepare_scene import populate
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
-from controller.service import Notifier, Watchdog, enter_realtime
+from controller.service import Notifier, Watchdog, enter_realtime, tell
 from controller.touch.recording import Recording
 from controller.touch.warnings import in_words
 
@@ -59,7 +58,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             stack.callback(commands.close)
         change = SceneChanger(board, scene_name, bank)
         stack.callback(change.close)
-        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier))
+        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier), open_thermometer(board))
         assembly = assemble(
             board,
             scene,
@@ -80,11 +79,6 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         return _figures(board, assembly, housekeeping, in_words(source.warnings))
 
 
-def tell(sentence: str) -> None:
-    """One line to the log."""
-    print(f"haptic-panel: {sentence}", file=sys.stderr, flush=True)
-
-
 def _ready(notifier: Notifier, board: Board) -> Callable[[], None]:
     def ready() -> None:
         tell("the outputs are on")
@@ -95,5 +89,3 @@ def _ready(notifier: Notifier, board: Board) -> Callable[[], None]:
 
 def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, warnings: list[str]) -> dict[str, Any]:
     return {"board": board.name, "warnings": warnings, "bit_clock_scale": housekeeping.scale} | assembly.counters.export()
-
-

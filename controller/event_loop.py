@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from controller.bank.selection import Selection
+from controller.board import Board
 from controller.clocks import NEVER, Clock
 from controller.command_source import CommandSource, Outcome
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
@@ -25,13 +26,12 @@ from controller.latency import Counters
 from controller.outputs import Outputs
 from controller.performance import Performance
 from controller.playback import ENDLESS, Playback
-from controller.scene import Emission, Scene
+from controller.scene import ROUNDING_S, Emission, Scene
 from controller.touch.samples import TouchSample
 from controller.touch.source import TrackedTouch
 from controller.wakeup import Wakeup, signals
 
-SPOT_LEAD_S = 0.5e-3  # a spot's play command goes out this early, so that its beat does not wait for the wire
-BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train is handed over this early
+BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
 PREFETCH_AHEAD_S = 30e-3  # for where a moving finger will be then
 
@@ -64,6 +64,7 @@ class EventLoop:
 
     Parameters
     ----------
+    board : Board
     clock, session, source, performance, playback, time_base
         The parts; each may be simulated.
     counters : Counters
@@ -78,6 +79,7 @@ class EventLoop:
 
     def __init__(
         self,
+        board: Board,
         clock: Clock,
         session: Session,
         source: TrackedTouch,
@@ -100,7 +102,7 @@ class EventLoop:
         self._commands = commands
         self._change = change
         self._progress = progress
-        self._outputs = Outputs(session, clock, time_base, counters)
+        self._outputs = Outputs(session, board, clock, time_base, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
         self._report_ns = -1  # from the kernel's timestamp of the report just read to our read of it
@@ -236,10 +238,10 @@ class EventLoop:
         if self._change is not None:
             self._change_scene(now_s)
         panel_s = self._time_base.fpga_s(now_s)
-        self._performance.advance(panel_s + self._lead_s)
+        self._performance.advance(panel_s + self._lead_s + ROUNDING_S)
         if self._outputs.on:
             if not self._playback.repeating:
-                self._performance.add_spots(panel_s, SPOT_LEAD_S)
+                self._performance.add_spots(panel_s, panel_s + self._lead_s)
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
@@ -295,18 +297,16 @@ class EventLoop:
         performance, playback = self._performance, self._playback
         emissions = performance.take(playback.duration_s)
         period_s = performance.common_period_s
-        if all(emission.finger is None and not emission.ticket and not emission.period_s for emission in emissions):
-            due_s = self._time_base.host_s(max(emission.time_s for emission in emissions))
-            count, repeated_s = (ENDLESS, period_s) if period_s is not None else (1, 0.0)
-            self._prepare(emissions, started_ns, count=count, period_s=repeated_s, not_before_s=due_s)
+        if period_s is not None and all(emission.owner == emission.region for emission in emissions):
+            self._prepare(emissions, started_ns, count=ENDLESS, period_s=period_s, at_s=emissions[0].time_s)
             return
         if playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
             next_s = playback.next_repetition_s(now_s)
-            if next_s < now_s + playback.duration_s:
-                panel_s = self._time_base.fpga_s(next_s)
-                emissions += performance.all_spots(panel_s, panel_s + (period_s or NEVER))
+            panel_s = self._time_base.fpga_s(next_s)
+            if next_s < now_s + playback.duration_s and period_s is not None:
+                emissions += performance.all_spots(panel_s + period_s)
             else:
-                performance.spots_from(self._time_base.fpga_s(next_s))
+                performance.spots_from(panel_s)
         beats = [emission.time_s for emission in emissions if emission.period_s]
         self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
 
@@ -326,7 +326,7 @@ class EventLoop:
         """Send ahead what the finger that moved last will ask for, if there is time for it."""
         finger, self._moving = self._moving, None
         assert finger is not None
-        wanted = self._performance.expected(finger, self._source.place, now_s, PREFETCH_AHEAD_S)
+        wanted = self._performance.expected(finger, self._source.place, now_s, PREFETCH_AHEAD_S, self._playback.duration_s)
         if wanted is None or self._session.free_s() > now_s:
             return
         soonest_s = min(self._time_base.host_s(self._performance.next_s()), self._time_base.host_s(self._performance.next_spot_s()))
@@ -334,10 +334,7 @@ class EventLoop:
             self._playback.prefetch(*wanted)
 
     def _next_s(self, now_s: float) -> float | None:
-        if self._commands is not None:
-            commands_s = self._commands.next_time_s()
-        else:
-            commands_s = NEVER
+        commands_s = NEVER if self._commands is None else self._commands.next_time_s()
         trigger_at_s = self._playback.trigger_at_s
         if self._outputs.on and self._performance.due and trigger_at_s is None:
             return min(max(now_s, self._session.free_s()), self._outputs.next_s())
@@ -350,7 +347,7 @@ class EventLoop:
             # a replay that has ended: let the last emission sound
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating and self._outputs.on:
-            times.append(self._time_base.host_s(self._performance.next_spot_s()) - SPOT_LEAD_S)
+            times.append(self._time_base.host_s(self._performance.next_spot_s()) - self._lead_s)
         times += [self._outputs.next_s(), commands_s]
         return min(times)
 

@@ -9,6 +9,7 @@ from controller.scene_map import OUTSIDE, Scene, Spot
 from controller.spacings import Lines, Way
 from controller.trains import NO_BEAT, Running
 
+NOWHERE = (math.inf, 0.0)
 COMMAND = -1  # whose effect a train is: of no region
 
 
@@ -109,6 +110,19 @@ class FingerState:
             if progress.crossed(self.x_m, self.y_m) and progress.amplitude > amplitude:
                 amplitude = progress.amplitude
         return amplitude
+
+    def next_crossing(self, x: float, y: float) -> tuple[float, float]:
+        """Way in m to the next emission of a way or a line, and its amplitude, for a finger that moves along a unit vector."""
+        return min(
+            [(progress.to_go_m(self.x_m, self.y_m, x, y), progress.amplitude) for progress in self._progress], default=NOWHERE
+        )
+
+    def anchor(self, emission: Emission, start_s: float) -> None:
+        """The first beat of a train was started: the others keep their distance to it."""
+        for running in self._running:
+            if running.beat > 0 and running.first_s == emission.time_s and running.train.period_s == emission.period_s:
+                running.first_s = start_s
+        self.next_s = min([train.next_s for train in self._running], default=math.inf)
 
     def take(self, scene: Scene, until_s: float) -> tuple[Emission, ...]:
         """Emissions due up to a time, of each train the last, in order of time."""

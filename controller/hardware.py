@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from controller.board import Board, data_folder
 from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch
@@ -17,15 +18,14 @@ from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 from controller.fpga.spi_link import SpiLink
 from controller.touch.event_reader import EventReader
-from controller.touch.ft5x06 import Ft5x06Panel
-from controller.touch.gt911 import Gt911Panel
-from controller.touch.linux_input import LinuxInputPanel
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.serial_panel import SerialPanel
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
+
+if TYPE_CHECKING:
+    from controller.temperature import Thermometer
 
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
@@ -88,12 +88,20 @@ def open_panel(board: Board, now_s: Callable[[], float]) -> EventReader:
     """
     touch = board.touch
     if isinstance(touch, LinuxInputTouch):
-        return LinuxInputPanel(touch, now_s)
+        from controller.touch.linux_input import LinuxInput
+
+        return LinuxInput(touch.device, grab=touch.grab)
     if isinstance(touch, Ft5x06Touch):
-        return Ft5x06Panel(touch, now_s)
+        from controller.touch.ft5x06 import Ft5x06
+
+        return Ft5x06(touch, now_s)
     if isinstance(touch, Gt911Touch):
-        return Gt911Panel(touch, now_s)
+        from controller.touch.gt911 import Gt911
+
+        return Gt911(touch, now_s)
     if isinstance(touch, SerialTouch):
+        from controller.touch.serial_panel import SerialPanel
+
         return SerialPanel(touch, now_s)
     raise TouchError(f"board {board.name!r} has no touch panel: give its [touch] a kind, or replay a recording")
 
@@ -114,6 +122,21 @@ def open_touch(board: Board, now_s: Callable[[], float], replay: Recording | Non
 def tracked(source: TouchSource, board: Board) -> Tracker:
     """A source behind the board's tracker."""
     return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m)
+
+
+def open_thermometer(board: Board) -> Thermometer | None:
+    """Sensor of the plate's temperature; None where the board has none.
+
+    Raises
+    ------
+    ConfigError
+        If it is not there.
+    """
+    if board.temperature is None:
+        return None
+    from controller.temperature import Thermometer
+
+    return Thermometer(board.temperature)
 
 
 def recording_path(board: Board, given: str | None) -> Path:

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
 from typing import Protocol
 
 from controller.board import Board
 from controller.fpga.session import Session
 from controller.latency import Counters
-from controller.service import Notifier, Watchdog
-from controller.temperature import Thermometer, open_thermometer
+from controller.service import Notifier, Watchdog, tell
+
+
+class Thermometer(Protocol):
+    """The plate's temperature, as far as it is known."""
+
+    def scale(self, now_s: float) -> float:
+        """What the bit clock is to be multiplied by."""
 
 
 class Watched(Protocol):
@@ -37,6 +42,8 @@ class Housekeeping:
     notifier : Notifier
         Told of the state of the outputs when it changes.
     watchdog : Watchdog
+    thermometer : Thermometer or None
+        None: the plate is taken to be as warm as the bank says.
 
     Attributes
     ----------
@@ -44,13 +51,15 @@ class Housekeeping:
         Of the bit clock, as the FPGA plays it now.
     """
 
-    def __init__(self, board: Board, session: Session, notifier: Notifier, watchdog: Watchdog) -> None:
+    def __init__(
+        self, board: Board, session: Session, notifier: Notifier, watchdog: Watchdog, thermometer: Thermometer | None
+    ) -> None:
         self.scale = 1.0
         self._session = session
         self._notifier = notifier
         self._watchdog = watchdog
-        self._thermometer: Thermometer | None = open_thermometer(board.temperature) if board.temperature else None
-        self._read_s = -math.inf if self._thermometer else math.inf
+        self._thermometer = thermometer
+        self._read_s = math.inf if thermometer is None else -math.inf
         self._period_s = board.temperature.period_s if board.temperature else math.inf
         self._loop: Watched | None = None
         self._state = ""
@@ -90,5 +99,5 @@ class Housekeeping:
             self._read_s = now_s
 
     def _say(self, sentence: str) -> None:
-        print(f"haptic-panel: {sentence}", file=sys.stderr, flush=True)
+        tell(sentence)
         self._notifier.status(sentence)

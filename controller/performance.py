@@ -21,17 +21,18 @@ from controller.scene import (
     FingerState,
     Scene,
     Spot,
-    anchored,
     ended,
     next_time_s,
     on_time,
     on_touch,
+    spot_emission,
     start_effect,
+    taken_over,
 )
 from controller.touch.samples import TouchSample
 
-MOST_TOGETHER = 10  # foci of one emission
 MOST_WAITING = 32  # commands; of more the oldest is skipped
+LEAST_STEP_M = 0.5e-3  # a finger that moves less is at rest
 SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
 
 Owner = int | str
@@ -57,9 +58,7 @@ class Performance:
         Told what became of commands.
     """
 
-    def __init__(
-        self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes
-    ) -> None:
+    def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
         self.scene = scene
         self._counters = counters
         self._confirmed = confirmed
@@ -68,8 +67,9 @@ class Performance:
         self._states: dict[Owner, FingerState] = {}  # fingers by number, commands at a point by their owner
         self._given: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
-        self._spot_due_s: dict[Spot, float] = {}
-        self.common_period_s: float | None = None
+        self._spots_start_s = 0.0
+        self._spot_beats: dict[Spot, int] = {}  # the next one of each
+        self.common_period_s: float | None = None  # of spots that the FPGA can repeat together
         self._set_spots(0.0)
 
     def touch(self, sample: TouchSample) -> None:
@@ -118,22 +118,24 @@ class Performance:
                 self._add(emissions)
         self._drop_ended()
 
-    def add_spots(self, now_s: float, lead_s: float) -> None:
-        """Collect the spots whose beat comes within `lead_s`."""
-        for spot, due_s in self._spot_due_s.items():
-            if due_s <= now_s + lead_s + ROUNDING_S:
-                self._add((self._emission_of(spot, due_s),))
-                missed = max(math.floor((now_s - due_s) * spot.rate_hz), 0)
-                self._spot_due_s[spot] = due_s + (missed + 1) / spot.rate_hz
+    def add_spots(self, now_s: float, until_s: float) -> None:
+        """Collect the spots whose beat comes up to a time."""
+        for spot, beat in self._spot_beats.items():
+            emission = spot_emission(spot, self._spots_start_s, beat)
+            if emission.time_s <= until_s + ROUNDING_S:
+                self._add((emission,))
+                missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
+                self._spot_beats[spot] = beat + missed + 1
 
-    def all_spots(self, now_s: float, next_s: float) -> list[Emission]:
+    def all_spots(self, next_s: float) -> list[Emission]:
         """Every spot, to take part in an emission; their beat goes on at `next_s`."""
         self.spots_from(next_s)
-        return [self._emission_of(spot, now_s) for spot in self._spot_due_s]
+        return [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
 
-    def spots_from(self, next_s: float) -> None:
-        """The spots' next beat."""
-        self._spot_due_s = dict.fromkeys(self._spot_due_s, next_s)
+    def spots_from(self, start_s: float) -> None:
+        """The spots' beat begins anew."""
+        self._spots_start_s = start_s
+        self._spot_beats = dict.fromkeys(self._spot_beats, 0)
 
     @property
     def due(self) -> bool:
@@ -146,7 +148,8 @@ class Performance:
             chosen = list(self._due.values())
             self._due.clear()
         else:
-            chosen, rest = together(tuple(self._due.values()), duration_s, MOST_TOGETHER)
+            first, rest = together(tuple(self._due.values()), duration_s)
+            chosen = list(first)
             self._due = {emission.owner: emission for emission in rest}
         return chosen
 
@@ -156,16 +159,44 @@ class Performance:
 
     def next_spot_s(self) -> float:
         """When the next spot's beat comes."""
-        return min(self._spot_due_s.values(), default=NEVER)
+        return min(
+            [spot_emission(spot, self._spots_start_s, beat).time_s for spot, beat in self._spot_beats.items()], default=NEVER
+        )
+
+    def expected(
+        self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, ahead_s: float, after_s: float
+    ) -> tuple[float, float, float] | None:
+        """Where a moving finger will be asked to be played next, and how strong, if that comes within `ahead_s`.
+
+        Parameters
+        ----------
+        place : callable
+            Where the finger will be at a time of the host.
+        now_s : float
+            In host time.
+        after_s : float
+            From crossing to the focus.
+        """
+        state = self._states.get(finger)
+        here, there = place(finger, now_s), place(finger, now_s + ahead_s)
+        if state is None or here is None or there is None:
+            return None
+        step_m = math.dist(here, there)
+        if step_m < LEAST_STEP_M:
+            return None
+        way_m, amplitude = state.next_crossing((there[0] - here[0]) / step_m, (there[1] - here[1]) / step_m)
+        if way_m > step_m:
+            return None
+        at = place(finger, now_s + ahead_s * way_m / step_m + after_s)
+        return None if at is None else (*at, amplitude)
 
     def started(self, emissions: list[Emission], start_s: float) -> None:
         """These were started; trains that began with them keep their beat from there."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
-            state = self._states.get(emission.owner)
-            if emission.period_s and emission.beat == 0 and state is not None:
-                self._states[emission.owner] = anchored(state, emission, start_s)
+            if emission.period_s and emission.beat == 0 and emission.owner in self._states:
+                self._states[emission.owner].anchor(emission, start_s)
 
     def left_out(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
         """These will not be played."""
@@ -179,11 +210,11 @@ class Performance:
         self._due.clear()
         self._counters.skipped.outputs_off += len(waiting)
         self.left_out(waiting, Outcome.REFUSED, now_s)
-        for owner, state in list(self._states.items()):
-            if isinstance(owner, str):
-                del self._states[owner]
-            else:
-                self._states[owner] = FingerState(state.finger, state.x_m, state.y_m, state.region)
+        self._states = {
+            owner: taken_over(self.scene, FingerState(state.finger, state.x_m, state.y_m))
+            for owner, state in self._states.items()
+            if state.finger is not None
+        }
         self.spots_from(now_s)
 
     def swap(self, scene: Scene, now_s: float) -> None:
@@ -192,17 +223,15 @@ class Performance:
         self._due.clear()
         self.left_out(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
-        self._states = {
-            owner: FingerState(state.finger, state.x_m, state.y_m, scene.region_at(state.x_m, state.y_m))
-            for owner, state in self._states.items()
-            if isinstance(owner, int)
-        }
+        self._states = {owner: taken_over(scene, state) for owner, state in self._states.items()}
         self._set_spots(now_s)
 
     def _set_spots(self, now_s: float) -> None:
-        rates = {spot.rate_hz for spot in self.scene.spots}
-        self.common_period_s = 1 / rates.pop() if len(rates) == 1 else None
-        self._spot_due_s = dict.fromkeys(self.scene.spots, now_s)
+        kinds = {(spot.rate_hz, spot.phase, spot.alternate) for spot in self.scene.spots}
+        alike = len(kinds) == 1 and (len(self.scene.spots) == 1 or not self.scene.spots[0].alternate)
+        self.common_period_s = 1 / self.scene.spots[0].rate_hz if alike else None
+        self._spots_start_s = now_s
+        self._spot_beats = dict.fromkeys(self.scene.spots, 0)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         for emission in emissions:
@@ -241,7 +270,3 @@ class Performance:
         over = [owner for owner, state in self._states.items() if isinstance(owner, str) and ended(state)]
         for owner in over:
             del self._states[owner]
-
-    @staticmethod
-    def _emission_of(spot: Spot, time_s: float) -> Emission:
-        return Emission(time_s, spot.x_m, spot.y_m, None, spot.region, spot.amplitude, spot.region)

@@ -114,7 +114,7 @@ class Playback:
         self._busy_s = duration_s / max_duty
         self._counters = counters
         self._played = played
-        self._slots = SlotCache(slots, selection.serves)
+        self._slots = SlotCache(slots, selection.reusable)
         self._prepared: _Prepared | None = None
         self._running: Played | None = None  # an endless repetition
 
@@ -246,7 +246,7 @@ class Playback:
     def reselect(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
-        self._slots = SlotCache(self._slots.slots, selection.serves)
+        self._slots = SlotCache(self._slots.slots, selection.reusable)
 
     def trigger(self) -> None:
         """Play what is prepared, now."""

@@ -11,6 +11,7 @@ import os
 import re
 import resource
 import socket
+import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -128,6 +129,12 @@ class Watchdog:
         if now_s >= self._due_s:
             self._due_s = now_s + self._period_s
             self._notifier.alive()
+
+
+def tell(sentence: str) -> None:
+    """One line to the log."""
+    sys.stderr.write(f"haptic-panel: {sentence}\n")
+    sys.stderr.flush()
 
 
 def enter_realtime(settings: Realtime) -> list[str]:

@@ -57,6 +57,10 @@ class Way:
             self._anchor_x_m, self._anchor_y_m = x_m, y_m
         return False
 
+    def to_go_m(self, x_m: float, y_m: float, _x: float, _y: float) -> float:
+        """Way from here to the next emission, whatever the direction."""
+        return max(self._spacing_m - self._way_m - math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m), 0.0)
+
 
 class Lines:
     """Between which of its fixed lines a finger is, and which one it has just felt."""
@@ -84,6 +88,15 @@ class Lines:
         first, last = (before + 1, cell) if cell > before else (before, cell + 1)
         self._felt = None if abs(at - last) >= self._rearm else last
         return first != last or first != felt
+
+    def to_go_m(self, x_m: float, y_m: float, x: float, y: float) -> float:
+        """Way from here to the next line for a finger that moves along a unit vector (x, y); inf along the lines."""
+        towards, at_m = (y, y_m) if self._axis else (x, x_m)
+        if towards == 0.0:
+            return math.inf
+        at = (at_m - self._origin_m) / self._spacing_m
+        to_go = math.floor(at) + 1 - at if towards > 0 else at - math.ceil(at) + 1
+        return to_go * self._spacing_m / abs(towards)
 
 
 def spacing_of(effect: EffectTable, shape: Rectangle | Circle | Polygon, amplitude: float) -> Spacing:

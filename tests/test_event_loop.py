@@ -13,16 +13,15 @@ import msgspec
 import numpy as np
 import pytest
 
+from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
+from controller.clocks import VirtualClock
 from controller.errors import FaultError, TouchError
-from controller.event_loop import EventLoop, VirtualClock
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
-from controller.hardware import open_fpga
-from controller.latency import Counters
+from controller.hardware import open_session, open_simulated, tracked
 from controller.offline.simulated_run import foci_meant
-from controller.playback import Playback
 from controller.scene import load_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -279,16 +278,14 @@ class StallingClock(VirtualClock):
             self._now_s += self.stalls.pop(0)[1]
 
 
-def loop_of(board, bank, tmp_path, clock, reports, evemu_text, scene_text=TRAIN, slots=4, max_duty=1.0):
+def loop_of(board, bank, tmp_path, clock, reports, evemu_text, scene_text=TRAIN, **more):
     (tmp_path / "s.toml").write_text(scene_text)
     scene = load_scene(tmp_path / "s.toml", board)
-    link, session = open_fpga(board, clock.now_s)
-    counters = Counters()
-    selection = Selection(bank, 1e-3, board.idle_word)
-    playback = Playback(session, selection, slots=slots, duration_s=T_S, max_duty=max_duty, counters=counters)
+    link = open_simulated(board, clock.now_s)
     recording = Recording(evemu_text(*reports))
-    source = RecordingSource(recording, recording.axes(board), 0.1)
-    return link, counters, EventLoop(clock, session, source, scene, playback, counters)
+    source = tracked(RecordingSource(recording, recording.axes(board), 0.1), board)
+    assembly = assemble(board, scene, bank, clock, open_session(link, board, clock.now_s), source, **more)
+    return link, assembly.counters, assembly.loop
 
 
 def test_after_a_stall_the_fpga_is_off_and_the_loop_arms_again(board, bank_file, tmp_path, cell, evemu_text):

@@ -64,3 +64,7 @@ class Selection:
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
         return self._composer.compose([(x * LATTICE_M, y * LATTICE_M, weight) for x, y, weight in key])
+
+    def reusable(self, key: Key, resident: Key) -> bool:
+        """Whether a resident waveform serves instead."""
+        return key == resident

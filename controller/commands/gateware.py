@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING
@@ -11,12 +12,14 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.board import Board, find_board, load_board
+from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
 from controller.errors import ConfigError
-from controller.event_loop import MonotonicClock, VirtualClock
+from controller.fpga.capture import Capture
 from controller.fpga.gateware import GatewareFactory
+from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
-from controller.hardware import open_fpga, open_serial
+from controller.hardware import open_link, open_session, open_simulated
 from controller.tables import plain_table
 
 if TYPE_CHECKING:
@@ -53,24 +56,18 @@ def gateware_check(options: argparse.Namespace) -> int:
         serial = msgspec.structs.replace(board.link, kind="serial", device=options.device, baud=options.baud)
         board = msgspec.structs.replace(board, link=serial)
     channels = _channels(options, board)
-    if board.link.kind == "serial":
-        clock: MonotonicClock | VirtualClock = MonotonicClock()
-        link, session = open_serial(board, clock.now_s)
-        done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"))
-        link.close()
+    if board.link.kind == "simulated":
+        clock: MonotonicClock | VirtualClock = VirtualClock()
+        simulated = open_simulated(board, clock.now_s, gateware_factory(options)[0])
+        link: Link = simulated
+        take_capture: Callable[[], Capture] | None = simulated.take_capture
     else:
-        clock = VirtualClock()
-        simulated, session = open_fpga(board, clock.now_s, gateware_factory(options)[0])
-        done = bring_up.check(
-            session,
-            board,
-            clock,
-            options.bits,
-            _channels(options, board),
-            options.pause_s,
-            progress_bar("bits"),
-            simulated.take_capture,
-        )
+        clock = MonotonicClock()
+        link = open_link(board, clock.now_s, unhurried=True)
+        take_capture = None
+    session = open_session(link, board, clock.now_s)
+    done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"), take_capture)
+    link.close()
     show(options, asdict(done), plain_table)
     for complaint in done.complaints:
         print(f"haptic-panel: {complaint}", file=sys.stderr)

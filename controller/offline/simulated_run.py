@@ -17,19 +17,19 @@ from typing import Any
 
 import numpy as np
 
+from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
 from controller.board import Board
-from controller.event_loop import EventLoop, MonotonicClock, VirtualClock
+from controller.clocks import MonotonicClock, VirtualClock
 from controller.fpga.capture import Capture
 from controller.fpga.gateware import GatewareFactory
 from controller.fpga.model import GatewareModel
 from controller.fpga.simulated_link import SimulatedLink
-from controller.hardware import open_fpga
-from controller.latency import Counters, LatencyHistogram
+from controller.hardware import open_session, open_simulated, tracked
+from controller.latency import STAGES, Counters, LatencyHistogram
 from controller.offline.field import OUTSIDE_M, Field, FocusMetrics
 from controller.offline.plate_twin import PlateTwin
-from controller.playback import Playback, Played
+from controller.playback import Played
 from controller.scene import Emission, Scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -109,39 +109,31 @@ def play(
         As the event loop does.
     """
     clock = MonotonicClock() if real_time else VirtualClock()
-    link, session = open_fpga(board, clock.now_s, gateware)
-    selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
-    counters = Counters()
+    link = open_simulated(board, clock.now_s, gateware)
+    session = open_session(link, board, clock.now_s)
     played: list[Played] = []
-    playback = Playback(
-        session,
-        selection,
-        slots=board.link.slots,
-        duration_s=board.waveform.duration_s,
-        max_duty=board.limits.max_duty,
-        counters=counters,
-        played=played.append,
-    )
     start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + SETTLE_S
     axes = recording.axes(board)
     tracks = recording.tracks(axes)
     if not tracks:  # without any touch nothing is played, spots included
         scene = Scene(())
     source = RecordingSource(recording, axes, start_s)
-    EventLoop(clock, session, source, scene, playback, counters).run(ready)
+    tracker = tracked(source, board)
+    assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append)
+    assembly.loop.run(ready)
     link.close()
     return Run(
         board=board,
         recording=recording,
         source=source,
         tracks=tracks,
-        counters=counters,
+        counters=assembly.counters,
         capture=link.take_capture(),
         played=played,
         link=link,
         start_s=start_s,
         lookups=bank.counters.lookups,
-        response_mapped=selection.composes,
+        response_mapped=assembly.selection.composes,
         reference=copy_and_checksum(board.waveform.samples * 4),
     )
 
@@ -233,7 +225,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
             "uploads": getattr(counters.upload_latency, stage).summary_us(),
             "resident": getattr(counters.resident_latency, stage).summary_us(),
         }
-        for stage in ("host", "wait", "wire", "total")
+        for stage in STAGES
     }
     tracked = [focus for focus in foci if focus.emission.finger is not None]
     return {

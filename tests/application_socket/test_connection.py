@@ -37,7 +37,8 @@ def lines_of(connection):
 
 
 pieces = st.lists(
-    st.one_of(st.binary(max_size=40), st.sampled_from([b"\n", b"{}\n", b"x" * (LINE_BYTES - 1), b"y" * LINE_BYTES, b"z" * 20_000])), max_size=12
+    st.one_of(st.binary(max_size=40), st.sampled_from([b"\n", b"{}\n", b"x" * (LINE_BYTES - 1), b"y" * LINE_BYTES, b"z" * 20_000])),
+    max_size=12,
 )
 
 
