@@ -82,9 +82,7 @@ class Session:
         """
         self._on = False
         self.exchange.forget_time()
-        self.exchange.insist(
-            lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence), faults_matter=False)
-        )
+        self.exchange.insist(lambda _: self._commanded(Control.CLEAR, faults_matter=False))  # it answers no question before
         configuration.verify(self.exchange.read, self._board, self._build_hash)
         self._configure()
         self._ours = False
@@ -359,9 +357,9 @@ class Session:
             return shortest
         return ticks
 
-    def _commanded(self, command: Control) -> Status:
+    def _commanded(self, command: Control, *, faults_matter: bool = True) -> Status:
         end = frames.pack_control(self._sent, 0, self.exchange.sequence, command)
-        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1))
+        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1), faults_matter=faults_matter)
 
     def _written(self, register: Register, value: int) -> Status:
         end = frames.pack_write(self._sent, 0, self.exchange.sequence, register, value)
@@ -373,8 +371,7 @@ class Session:
             self.heartbeat()
 
     def _configure(self) -> None:
-        """Clear, and set what the board says."""
-        self.clear_faults()
+        """Set what the board says."""
         if State.HV_ENABLE in self.heartbeat().state:
             if self._ours:
                 self.exchange.control(Control.DISARM)

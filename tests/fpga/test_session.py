@@ -8,14 +8,14 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.errors import LinkError
+from controller.errors import FaultError, LinkError
 from controller.event_loop import VirtualClock
 from controller.fpga import frames
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
-from controller.fpga.registers import READ_SLOT_CRC, Register, Result, Start, State
+from controller.fpga.registers import READ_SLOT_CRC, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
@@ -170,15 +170,68 @@ def test_a_missing_permit_is_told_when_arming(board, clock, link):
     assert caught.value.result is Result.NO_PERMIT
 
 
-def test_arming_with_a_damaged_frame_is_an_error_after_which_outputs_go_off(board, clock, link):
-    for frame in range(3):  # NOP, UNLOCK, ARM
-        session = Session(link, board, BUILD, clock.now_s)
-        link.noise = {link.frames + frame: ("to the FPGA", 9)}
-        with pytest.raises(Refused, match="damaged on its way"):
-            session.arm()
-        session.off()
-        wait(clock, link, board.limits.ramp_ms * 1e-3)  # damage to the NOP before leaves the ARM behind it good
-        assert State.HV_ENABLE not in session.heartbeat().state
+@pytest.mark.parametrize("direction", ["to the FPGA", "to the host"])
+@pytest.mark.parametrize("frame", range(4))  # NOP, UNLOCK, ARM, NOP
+def test_arming_with_a_damaged_frame_arms_all_the_same(board, clock, link, frame, direction):
+    session = Session(link, board, BUILD, clock.now_s)
+    link.noise = {link.frames + frame: (direction, 9)}
+    clock._now_s = session.arm()
+    session.require_armed()
+
+
+def test_arming_over_a_link_that_damages_everything_is_given_up_with_outputs_off(board, clock, link):
+    session = Session(link, board, BUILD, clock.now_s)
+    link.noise = dict.fromkeys(range(link.frames, link.frames + 100), ("to the host", 9))
+    with pytest.raises(LinkError):
+        session.arm()
+    link.noise = {}
+    session.off()
+    wait(clock, link, board.limits.ramp_ms * 1e-3)
+    assert State.HV_ENABLE not in session.heartbeat().state
+
+
+@pytest.mark.parametrize("stop", [False, True])
+def test_an_upload_plays_at_its_time_without_a_trigger(board, clock, link, armed, stop):
+    at = armed.heartbeat().timestamp_ticks + 800_000
+    armed.upload_and_play(1, WORDS, 1, 0.0, stop=stop, start=Start.TIME, when_ticks=at)
+    wait(clock, link, 20e-3)
+    assert armed.heartbeat().emissions == 1
+    link.close()
+    assert link.take_capture().focus_ticks.tolist() == [at + 1000 * board.bit_ticks]
+
+
+def test_the_bit_clock_is_scaled_while_nothing_plays_and_kept_over_a_bring_up(board, clock, link, armed):
+    assert armed.set_bit_period(0.99)
+    slow = round(board.bit_period / 0.99)
+    assert armed.exchange.read(Register.BIT_PERIOD) == slow
+    armed.upload_and_play(0, WORDS, 3, board.waveform.duration_s, stop=False)
+    assert not armed.set_bit_period(1.0), "a play waits"
+    armed.trigger()
+    wait(clock, link, 3 * 2.1e-3)
+    assert armed.heartbeat().emissions == 3, "without a pause between them, as they would be at the board's bit clock"
+    link.close()
+    emission_ticks = 1000 * slow >> 16
+    assert np.diff(link.take_capture().focus_ticks).tolist() in ([], [emission_ticks] * 2)  # one rise if the pin stays high
+    assert armed.emission_s == emission_ticks / board.link.clock_hz
+    clock._now_s = armed.disarm() + 1e-3
+    armed.bring_up()
+    assert armed.exchange.read(Register.BIT_PERIOD) == slow
+    assert armed.set_bit_period(1.0)
+    assert armed.exchange.read(Register.BIT_PERIOD) == board.bit_period
+
+
+def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board, armed):
+    with pytest.raises(Refused, match="outside what the FPGA allows"):
+        armed.set_bit_period(10.0)
+    assert armed.bit_period == armed.exchange.read(Register.BIT_PERIOD) == board.bit_period
+
+
+def test_a_fault_carries_its_bits(board, clock, link, armed):
+    link.gateware.permit(round(link.free_s() * link.clock_hz) + 100, False, Permit.TEMPERATURE)
+    wait(clock, link, 1e-3)
+    with pytest.raises(FaultError, match="temperature input went low") as caught:
+        armed.heartbeat()
+    assert caught.value.faults == Fault.OVER_TEMPERATURE
 
 
 def test_a_play_at_once_and_one_at_a_time_need_no_trigger(board, clock, link, armed):

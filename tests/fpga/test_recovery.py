@@ -1,0 +1,303 @@
+"""An FPGA that is reset, browns out, hears and says garbage, or loses a permit: outputs off on the way, work again afterwards."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from controller.board import find_board, load_board
+from controller.errors import FaultError, LinkError, TouchError
+from controller.event_loop import VirtualClock
+from controller.fpga.exchange import FpgaReset, HostSilent, Refused
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.recovery import Action, Recovery, action_for, permitted
+from controller.fpga.registers import Fault, Register, Result, State
+from controller.fpga.restarting import RestartingGateware
+from controller.fpga.session import Session
+from controller.fpga.simulated_link import SimulatedLink
+
+BUILD = 0x1234ABCD
+WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
+BOARD = load_board(find_board("simulated"))
+TIMEOUT_S = BOARD.limits.heartbeat_timeout_ms * 1e-3
+
+
+class BadDay(SimulatedLink):
+    """A link on which things happen before the frames with given numbers: `events` maps a number to a function."""
+
+    def __init__(self, *args):
+        super().__init__(*args)
+        self.events = {}
+        self.frames = 0
+
+    def exchange(self, sent, lengths, received):
+        start = 0
+        for length in lengths:
+            frame = bytearray(sent[start : start + length])
+            answer = received[start : start + length]
+            happens = self.events.pop(self.frames, None)
+            if happens is not None:
+                happens(frame)
+            self.frames += 1
+            if frame:
+                super().exchange(memoryview(frame), [length], answer)
+            else:
+                answer[:] = b"\xff" * length
+            start += length
+
+    def reset(self, dark_s=1e-3):
+        """The FPGA loses its supply now."""
+        self.gateware.restart(max(self._tick_now(), self._free_tick), round(dark_s * self.clock_hz))
+
+
+class Panel:
+    """Link, session and recovery on a virtual clock, armed."""
+
+    def __init__(self):
+        self.clock = VirtualClock()
+        parameters = Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD)
+        self.gateware = RestartingGateware(GatewareModel, parameters)
+        self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
+        self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
+        self.recovery = Recovery(self.session, BOARD)
+        self.rest(self.session.arm())
+        self.session.require_armed()
+
+    def rest(self, until_s):
+        while self.clock.now_s() < until_s:
+            self.session.heartbeat()
+            self.clock._now_s = min(until_s, self.session.heartbeat_due_s)
+
+    def wait(self, seconds):
+        self.clock._now_s = max(self.clock.now_s(), self.link.free_s()) + seconds
+
+    def recover(self, error, give_up_s=10.0):
+        """What the loop does; how long it took."""
+        began_s = self.clock.now_s()
+        self.recovery.begin(error, began_s)
+        while True:
+            self.clock._now_s = max(self.clock.now_s(), self.recovery.next_s)
+            assert self.clock.now_s() < began_s + give_up_s, self.recovery.cause
+            if self.recovery.step(self.clock.now_s()):
+                return self.clock.now_s() - began_s
+
+    def lost(self, seconds=1.0):
+        """The error by which heartbeats find that something is wrong."""
+        with pytest.raises((LinkError, FaultError)) as caught:
+            self.rest(self.clock.now_s() + seconds)
+        return caught.value
+
+    def plays(self):
+        before = self.session.heartbeat().emissions
+        self.session.upload_and_play(0, WORDS, 1, 0.0, stop=False)
+        self.session.trigger()
+        self.wait(3e-3)
+        return self.session.heartbeat().emissions - before == 1
+
+    def off_between(self, from_s, until_s):
+        """Whether the high voltage was off at all times of a stretch but for a first part that a heartbeat timeout may take."""
+        self.link.close()
+        capture = self.link.take_capture()
+        times_s = capture.ticks.astype(float) / BOARD.link.clock_hz
+        spans = [*pairwise(times_s), (times_s[-1], np.inf)]
+        return not any(hv and begin < until_s and end > from_s for (begin, end), hv in zip(spans, capture.hv, strict=True))
+
+
+@pytest.fixture
+def panel():
+    return Panel()
+
+
+def test_a_reset_while_armed_is_noticed_by_the_next_heartbeat_and_all_is_well_again(panel):
+    assert panel.plays()
+    panel.link.reset()
+    lost_s = panel.link.free_s()
+    error = panel.lost()
+    assert isinstance(error, FpgaReset | LinkError)
+    took_s = panel.recover(error)
+    assert took_s < 1.0
+    assert panel.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
+    back_s = panel.clock.now_s()
+    assert panel.plays()
+    assert panel.off_between(lost_s, back_s - BOARD.limits.ramp_ms * 1e-3 - 1e-3)
+
+
+def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
+    panel.wait(1e-3)
+    panel.link.reset(dark_s=0)
+    panel.wait(1e-3)
+    with pytest.raises(FpgaReset, match="was reset, or lost its supply"):
+        panel.session.heartbeat()
+
+
+def test_an_fpga_that_has_run_for_longer_since_its_reset_than_before_is_found_disarmed(panel):
+    panel.link.reset(dark_s=0)
+    panel.session.exchange.forget_time()  # as if its time had passed what it was
+    panel.wait(1e-3)
+    with pytest.raises(FpgaReset):
+        panel.session.heartbeat()
+
+
+@pytest.mark.parametrize("resident", [True, False])
+def test_a_play_finds_a_reset_and_never_takes_it_for_a_refusal(panel, resident):
+    assert panel.plays()
+    panel.link.reset(dark_s=0)
+    panel.wait(1e-3)
+    panel.session.exchange.forget_time()
+    with pytest.raises(FpgaReset):
+        panel.session.play(0, 1, 0.0, stop=False) if resident else panel.session.upload_and_play(0, WORDS, 1, 0.0, stop=False)
+
+
+@pytest.mark.parametrize("frame", range(12))
+@pytest.mark.parametrize("dark_s", [0.0, 0.3e-3, 50e-3])
+def test_a_brown_out_in_the_midst_of_an_upload_ends_in_work(panel, frame, dark_s):
+    assert panel.plays()
+    panel.link.events = {panel.link.frames + frame: lambda _: panel.link.reset(dark_s)}
+    with pytest.raises(LinkError) as caught:
+        panel.session.upload_and_play(1, WORDS, 1, 0.0, stop=False)
+    lost_s = panel.link.free_s()
+    panel.recover(caught.value)
+    back_s = panel.clock.now_s()
+    assert panel.plays()
+    assert panel.off_between(lost_s, back_s - BOARD.limits.ramp_ms * 1e-3 - 1e-3)
+
+
+def test_an_fpga_that_is_away_for_long_is_waited_for_with_ever_longer_pauses(panel):
+    panel.link.reset(dark_s=7.0)
+    error = panel.lost()
+    assert "only ones came back" in str(error)
+    assert 6.0 < panel.recover(error) < 9.5
+    assert panel.recovery.attempts < 10
+    assert panel.plays()
+
+
+def test_garbage_on_the_line_for_a_while_switches_off_and_work_goes_on(panel):
+    rng = np.random.default_rng(5)
+
+    def garble(frame):
+        frame[:] = rng.bytes(len(frame))
+
+    first = panel.link.frames
+    panel.link.events = dict.fromkeys(range(first, first + 40), garble)
+    error = panel.lost()
+    lost_s = panel.clock.now_s()
+    panel.recover(error)
+    assert panel.plays()
+    safe_s = TIMEOUT_S + BOARD.limits.ramp_ms * 1e-3
+    assert panel.off_between(lost_s + safe_s, panel.recovery.next_s - BOARD.limits.ramp_ms * 1e-3 - 2e-3)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.dictionaries(st.integers(0, 300), st.sampled_from(["flip", "lost", "reset", "brown-out", "silence"]), max_size=6))
+def test_whatever_happens_in_whatever_order_it_plays_again(bad):
+    panel = Panel()
+    first = panel.link.frames
+
+    def flip(frame):
+        frame[len(frame) // 2] ^= 1
+
+    def lost(frame):
+        frame.clear()
+
+    happenings = {
+        "flip": flip,
+        "lost": lost,
+        "reset": lambda _: panel.link.reset(0),
+        "brown-out": lambda _: panel.link.reset(2e-3),
+        "silence": lambda _: panel.wait(2 * TIMEOUT_S),
+    }
+    panel.link.events = {first + at: happenings[what] for at, what in bad.items()}
+    for _ in range(60):
+        try:
+            panel.plays()
+            panel.rest(panel.clock.now_s() + 0.05)
+        except (LinkError, FaultError) as error:
+            panel.recover(error, give_up_s=30)
+    panel.link.events = {}
+    assert panel.plays()
+
+
+def test_silence_of_this_host_is_cleared_at_once(panel):
+    panel.wait(2 * TIMEOUT_S)
+    error = panel.lost()
+    assert isinstance(error, HostSilent)
+    assert panel.recover(error) < 0.05
+    assert panel.plays()
+
+
+@pytest.mark.parametrize("which", list(Permit))
+def test_a_permit_that_goes_away_is_waited_for(panel, which):
+    def permit(level):
+        panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, level, which)
+
+    permit(False)
+    panel.wait(1e-3)
+    error = panel.lost()
+    assert action_for(error) is Action.WAIT
+    panel.recovery.begin(error, panel.clock.now_s())
+    for _ in range(50):
+        panel.clock._now_s = max(panel.clock.now_s(), panel.recovery.next_s)
+        assert not panel.recovery.step(panel.clock.now_s())
+    assert State.HV_ENABLE not in panel.session.heartbeat().state
+    permit(True)
+    panel.wait(1e-3)
+    assert panel.recover(error) < 0.5
+    assert panel.plays()
+
+
+def test_a_reset_while_waiting_for_the_permit_does_not_leave_old_settings(panel):
+    panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, False, Permit.RUN)
+    panel.wait(1e-3)
+    error = panel.lost()
+    panel.recovery.begin(error, panel.clock.now_s())
+    panel.recovery.step(panel.clock.now_s())
+    panel.link.reset()
+    panel.wait(2e-3)
+    panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, True, Permit.RUN)
+    panel.recovery.next_s = panel.clock.now_s()
+    while True:
+        panel.clock._now_s = max(panel.clock.now_s(), panel.recovery.next_s)
+        if panel.recovery.step(panel.clock.now_s()):
+            break
+    assert panel.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
+    assert panel.plays()
+
+
+@pytest.mark.parametrize(
+    "cause", [Fault.UNDERRUN, Fault.SHORT_PULSE, Fault.CHANNEL_EDGES, Fault.TOTAL_EDGES, Fault.LONG_EMISSION, Fault.DUTY]
+)
+@pytest.mark.parametrize("beside", [Fault(0), Fault.HOST_SILENT, Fault.NO_PERMIT])
+def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, beside):
+    error = FaultError("outputs off", cause | beside)
+    assert action_for(error) is Action.END
+    with pytest.raises(FaultError) as caught:
+        panel.recovery.begin(error, panel.clock.now_s())
+    assert caught.value is error
+    panel.wait(BOARD.limits.ramp_ms * 1e-3 + 1e-3)
+    assert State.HV_ENABLE not in panel.session.heartbeat().state
+
+
+@pytest.mark.parametrize(
+    ("error", "action"),
+    [
+        (HostSilent("", Fault.HOST_SILENT), Action.AGAIN),
+        (FaultError("", Fault.NO_PERMIT), Action.WAIT),
+        (FaultError("", Fault.OVER_TEMPERATURE | Fault.HOST_SILENT), Action.WAIT),
+        (FaultError("not known which"), Action.END),
+        (FpgaReset(), Action.AGAIN),
+        (LinkError(""), Action.AGAIN),
+        (Refused(Result.NO_PERMIT), Action.WAIT),
+        (TouchError(""), Action.END),
+    ],
+)
+def test_the_rule(error, action):
+    assert action_for(error) is action
+
+
+def test_both_permits_are_needed():
+    assert permitted(State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT)
+    assert not permitted(State.RUN_PERMIT)
+    assert not permitted(State.TEMPERATURE_GOOD)
