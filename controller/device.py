@@ -51,7 +51,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         stack.callback(link.close)
         session = open_session(link, board, clock.now_s)
         start_s = clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S
-        source = tracked(open_touch(board, clock.now_s, replay, start_s), board)
+        source = tracked(open_touch(board, replay, start_s), board)
         stack.callback(source.close)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
         if commands is not None:

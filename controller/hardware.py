@@ -78,7 +78,7 @@ def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Sessio
     return Session(link, board, gateware_hash(), now_s)
 
 
-def open_panel(board: Board, now_s: Callable[[], float]) -> EventReader:
+def open_panel(board: Board) -> EventReader:
     """Driver of a board's touch panel.
 
     Raises
@@ -92,21 +92,21 @@ def open_panel(board: Board, now_s: Callable[[], float]) -> EventReader:
 
         return LinuxInput(touch.device, grab=touch.grab)
     if isinstance(touch, Ft5x06Touch):
-        from controller.touch.ft5x06 import Ft5x06
+        from controller.touch.ft5x06 import open_ft5x06
 
-        return Ft5x06(touch, now_s)
+        return open_ft5x06(touch)
     if isinstance(touch, Gt911Touch):
-        from controller.touch.gt911 import Gt911
+        from controller.touch.gt911 import open_gt911
 
-        return Gt911(touch, now_s)
+        return open_gt911(touch)
     if isinstance(touch, SerialTouch):
         from controller.touch.serial_panel import SerialPanel
 
-        return SerialPanel(touch, now_s)
+        return SerialPanel(touch)
     raise TouchError(f"board {board.name!r} has no touch panel: give its [touch] a kind, or replay a recording")
 
 
-def open_touch(board: Board, now_s: Callable[[], float], replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
+def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
     """Touches of a board's panel, or of a recording that begins at `start_s`.
 
     Raises
@@ -116,7 +116,7 @@ def open_touch(board: Board, now_s: Callable[[], float], replay: Recording | Non
     """
     if replay is not None:
         return RecordingSource(replay, replay.axes(board), start_s)
-    return LiveSource(open_panel(board, now_s), board)
+    return LiveSource(open_panel(board), board)
 
 
 def tracked(source: TouchSource, board: Board) -> Tracker:

@@ -10,35 +10,8 @@ from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
 from controller.touch.event_reader import EventReader
 from controller.touch.panel import Counts, Protocol, protocol_of_device
+from controller.touch.report_times import ReportTimes
 from controller.touch.samples import TouchSample
-
-AHEAD_S = 0.01  # an event may come after the loop has looked at its clock, but not much
-
-
-class ReportTimes:
-    """Times of reports on the loop's clock: never later than now, never going back.
-
-    Attributes
-    ----------
-    warnings : Counter of str
-        Counts `time_ahead` and `time_backwards`.
-    """
-
-    def __init__(self, warnings: Counter[str]) -> None:
-        self.warnings = warnings
-        self._last_s = 0.0
-
-    def settled(self, time_s: float, now_s: float) -> float:
-        """The time to give a report that says it is of `time_s` and is read at `now_s`."""
-        if time_s > now_s:
-            if time_s > now_s + AHEAD_S:
-                self.warnings["time_ahead"] += 1
-            time_s = now_s
-        if time_s < self._last_s:
-            self.warnings["time_backwards"] += 1
-            return self._last_s
-        self._last_s = time_s
-        return time_s
 
 
 class LiveSource:

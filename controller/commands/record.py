@@ -1,0 +1,59 @@
+"""`haptic-panel record`: store what a touch panel sends as a recording that can be replayed."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.board import find_board, load_board
+from controller.commands.output import show
+from controller.hardware import open_panel
+from controller.tables import plain_table
+from controller.touch.linux_input import LinuxInput
+from controller.touch.recorder import open_recording, record
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    command = commands.add_parser(
+        "record",
+        parents=[common],
+        help="store what a touch panel sends",
+        description="Store what the board's touch panel sends, with the description of its device, in evemu's text format, until "
+        "Ctrl-C or for some seconds. `haptic-panel run --replay FILE` replays it.",
+    )
+    command.add_argument(
+        "--device", metavar="PATH", help="an input device of the kernel, by path or name, instead of the board's panel"
+    )
+    command.add_argument("--out", required=True, metavar="FILE", help="recording to write")
+    command.add_argument("--seconds", type=_seconds, metavar="N", help="stop by itself (default: at Ctrl-C)")
+    command.set_defaults(command=store)
+
+
+def store(options: argparse.Namespace) -> int:
+    """Record until told to stop, and say what was stored."""
+    reader = LinuxInput(options.device) if options.device else open_panel(load_board(find_board(options.board)))
+    try:
+        with open_recording(Path(options.out)) as file:
+            if not options.json:
+                print(f"haptic-panel: recording {reader.description.name!r}; Ctrl-C ends it", file=sys.stderr)
+            stored = asdict(record(reader, file, options.seconds))
+    finally:
+        reader.close()
+    for warning in stored["warnings"]:
+        print(f"haptic-panel: {warning}", file=sys.stderr)
+    show(options, {"file": options.out} | stored, plain_table)
+    return 0
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < 1e9:
+        raise ValueError(text)
+    return seconds

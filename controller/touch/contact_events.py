@@ -1,0 +1,101 @@
+"""From the contacts that a panel without kernel driver lists to the events the kernel would send (protocol B)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+from controller.touch import event_codes as ev
+from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
+
+MAX_CONTACTS: Final = 10
+LAST_TRACKING_ID: Final = 65535
+LARGEST_SIZE: Final = 65535
+
+
+class Contact(NamedTuple):
+    """One contact of a report: the panel's own number for it, raw place, raw extent (0: not told)."""
+
+    number: int
+    x: int
+    y: int
+    size: int = 0
+
+
+def describe(name: str, version: int, width: int, height: int, *, sized: bool) -> DeviceDescription:
+    """Description of a panel with ten contacts, places from 0 to `width` and `height`, as a kernel driver's would be."""
+    places = (width, height)
+    axes = {ev.ABS_MT_SLOT: AxisInfo(0, MAX_CONTACTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, LAST_TRACKING_ID)}
+    axes |= {code: AxisInfo(0, largest) for code, largest in zip(ev.POSITIONS, places, strict=True)}
+    if sized:
+        axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, LARGEST_SIZE)
+    codes = {
+        ev.EV_SYN: (ev.SYN_REPORT, ev.SYN_DROPPED),
+        ev.EV_KEY: (ev.BTN_TOUCH,),
+        ev.EV_ABS: tuple(sorted(axes)),
+    }
+    return DeviceDescription(name, ev.BUS_I2C, 0, 0, version, (ev.INPUT_PROP_DIRECT,), codes, dict(sorted(axes.items())))
+
+
+class ContactEvents:
+    """Compares each report with the one before and says what has changed, in protocol B.
+
+    A slot is the panel's own number; a number that comes anew gets a new tracking id.
+    """
+
+    def __init__(self) -> None:
+        self._tracking = [-1] * MAX_CONTACTS
+        self._x = [-1] * MAX_CONTACTS
+        self._y = [-1] * MAX_CONTACTS
+        self._size = [0] * MAX_CONTACTS
+        self._seen = [0] * MAX_CONTACTS  # number of the report that listed the contact last
+        self._report = 0
+        self._slot = -1
+        self._next_id = 0
+        self.down = 0
+
+    def report(self, contacts: Sequence[Contact], time_s: float) -> list[Event]:
+        """Events of a report that lists these contacts and no others; empty if nothing has changed.
+
+        Of two contacts with the same number the last counts. Numbers are below `MAX_CONTACTS`.
+        """
+        events: list[Event] = []
+        self._report += 1
+        before = self.down
+        for number, x, y, size in contacts:
+            self._seen[number] = self._report
+            begins = self._tracking[number] < 0
+            if begins:
+                self._select(number, time_s, events)
+                self._tracking[number] = self._next_id
+                events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, self._next_id, time_s))
+                self._next_id = self._next_id + 1 if self._next_id < LAST_TRACKING_ID else 0
+                self.down += 1
+            if size != self._size[number]:
+                self._select(number, time_s, events)
+                self._size[number] = size
+                events.append((ev.EV_ABS, ev.ABS_MT_TOUCH_MAJOR, size, time_s))
+            if x != self._x[number]:
+                self._select(number, time_s, events)
+                self._x[number] = x
+                events.append((ev.EV_ABS, ev.ABS_MT_POSITION_X, x, time_s))
+            if y != self._y[number]:
+                self._select(number, time_s, events)
+                self._y[number] = y
+                events.append((ev.EV_ABS, ev.ABS_MT_POSITION_Y, y, time_s))
+        for number in range(MAX_CONTACTS):
+            if self._tracking[number] >= 0 and self._seen[number] != self._report:
+                self._select(number, time_s, events)
+                self._tracking[number] = -1
+                events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, -1, time_s))
+                self.down -= 1
+        if bool(before) != bool(self.down):
+            events.append((ev.EV_KEY, ev.BTN_TOUCH, int(self.down > 0), time_s))
+        if events:
+            events.append((ev.EV_SYN, ev.SYN_REPORT, 0, time_s))
+        return events
+
+    def _select(self, number: int, time_s: float, events: list[Event]) -> None:
+        if number != self._slot:
+            self._slot = number
+            events.append((ev.EV_ABS, ev.ABS_MT_SLOT, number, time_s))

@@ -1,0 +1,165 @@
+"""Touch controllers Goodix GT911 (data sheet and programming guide rev. 09; the kernel's goodix.c has the same map)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+import smbus2
+from gpiod.line import Edge
+
+from controller.device_settings import Gt911Touch
+from controller.errors import TouchError
+from controller.touch.contact_events import MAX_CONTACTS, Contact, describe
+from controller.touch.event_reader import DeviceDescription
+from controller.touch.i2c_bus import I2cBus, Transfer
+from controller.touch.i2c_reader import I2cReader
+from controller.touch.panel_lines import PanelLines
+
+# Registers have 16-bit addresses, high byte first; values low byte first.
+CONFIG: Final = b"\x80\x47"  # version, largest x, largest y (2 bytes each), contacts, module switch 1
+CONFIG_BYTES: Final = 7
+PRODUCT_ID: Final = b"\x81\x40"  # 4 ASCII characters, zeros behind them; then the firmware's version, 2 bytes
+PRODUCT_BYTES: Final = 6
+STATUS: Final = b"\x81\x4e"  # bit 7: a report is ready, bits 3:0: its contacts, which follow
+READY: Final = 0x80
+POINT_BYTES: Final = 8  # number, x, y, size (2 bytes each), reserved
+SHORT_POINTS: Final = 2  # most touches have no more: what follows is read only if there are more
+RISING_INTERRUPT: Final = (0, 3)  # of module switch 1, bits 1:0; 1 and 2: falling edge, low level
+
+HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # taken when the interrupt line is high, or low, at the end of the reset
+
+RESET_S: Final = 0.011  # T2: more than 10 ms
+ADDRESS_S: Final = 0.0005  # T3: more than 100 us
+SELECTED_S: Final = 0.006  # T4: more than 5 ms
+SYNC_S: Final = 0.05  # T5: the interrupt line held low
+BOOT_S: Final = 0.05
+
+
+def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] | None:
+    """Contacts of a report.
+
+    Parameters
+    ----------
+    report : bytes
+        Registers from `STATUS` on, as many as were read.
+    warnings : Counter of str
+        Counts `ghost_points`.
+
+    Returns
+    -------
+    list of Contact, or None
+        None if it lists more contacts than were read.
+
+    Raises
+    ------
+    ValueError
+        If it lists more contacts than there can be.
+    """
+    count = report[0] & 0x0F
+    if count > MAX_CONTACTS:
+        raise ValueError(f"{count} contacts")
+    if len(report) < 1 + count * POINT_BYTES:
+        return None
+    contacts = []
+    for start in range(1, 1 + count * POINT_BYTES, POINT_BYTES):
+        number = report[start] & 0x0F
+        x = report[start + 1] | report[start + 2] << 8
+        y = report[start + 3] | report[start + 4] << 8
+        if x == 0 and y == 0:
+            warnings["ghost_points"] += 1
+        elif number < MAX_CONTACTS:
+            contacts.append(Contact(number, x, y, report[start + 5] | report[start + 6] << 8))
+    return contacts
+
+
+class Gt911:
+    """One such chip; a `Chip`."""
+
+    def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
+        self.name = "GT911 touch panel"
+        self.edge = Edge.FALLING
+        self._settings = settings
+        self._warnings = warnings
+        self._use(settings.address)
+
+    @property
+    def description(self) -> DeviceDescription:
+        """Of the chip as it was started last."""
+        return self._description
+
+    def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
+        """Reset it to its address if the line is there, check and read its configuration; see `Chip.start`."""
+        if lines.has_reset:
+            self._use(self._settings.address)
+            lines.drive_reset(high=False)
+            lines.drive_interrupt(high=False)
+            yield RESET_S
+            lines.drive_interrupt(high=self._address == HIGH_ADDRESS)
+            yield ADDRESS_S
+            lines.drive_reset(high=True)
+            yield SELECTED_S
+            lines.drive_interrupt(high=False)
+            yield SYNC_S
+            lines.rest()
+            yield BOOT_S
+            product = bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
+        else:
+            product = self._find(bus)
+        name = product[:4].rstrip(b"\0").decode("ascii", "replace")
+        if name != "911":
+            raise TouchError(f"what answers as GT911 on {self._settings.bus} calls itself {name!r}: is the address another chip's?")
+        config = bus.read(self._address, CONFIG, CONFIG_BYTES)
+        self._description = self._described(config, int.from_bytes(product[4:6], "little"))
+        self.edge = Edge.RISING if config[6] & 0x03 in RISING_INTERRUPT else Edge.FALLING
+        bus.send(self._clear)
+
+    def fetch(self, bus: I2cBus) -> Sequence[Contact] | None:
+        """Contacts of a report that is ready; the chip makes the next one once this one is cleared; see `Chip.fetch`."""
+        bus.fetch(self._short)
+        if not self._short.data[0] & READY:
+            return None
+        try:
+            contacts = contacts_of(self._short.data, self._warnings)
+            if contacts is None:
+                bus.fetch(self._long)
+                contacts = contacts_of(self._long.data, self._warnings)
+        finally:
+            bus.send(self._clear)
+        return contacts
+
+    def _use(self, address: int) -> None:
+        self._address = address
+        self._short = Transfer(address, STATUS, 1 + SHORT_POINTS * POINT_BYTES)
+        self._long = Transfer(address, STATUS, 1 + MAX_CONTACTS * POINT_BYTES)
+        self._clear = smbus2.i2c_msg.write(address, STATUS + b"\x00")
+
+    def _find(self, bus: I2cBus) -> bytes:
+        """Without a reset line the address is what the interrupt line made it at power-up."""
+        try:
+            return bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
+        except OSError:
+            other = LOW_ADDRESS if self._address == HIGH_ADDRESS else HIGH_ADDRESS
+            product = bus.read(other, PRODUCT_ID, PRODUCT_BYTES)
+            self._use(other)
+            return product
+
+    def _described(self, config: bytes, firmware: int) -> DeviceDescription:
+        width = self._settings.width or int.from_bytes(config[1:3], "little")
+        height = self._settings.height or int.from_bytes(config[3:5], "little")
+        if not width or not height:
+            raise TouchError(f"the GT911 on {self._settings.bus} has no configuration: give width and height in board.toml")
+        return describe("GT911", firmware, width, height, sized=True)
+
+
+def open_gt911(settings: Gt911Touch) -> I2cReader:
+    """Start the panel of a board.
+
+    Raises
+    ------
+    TouchError
+        If bus, lines or chip are not there.
+    """
+    warnings: Counter[str] = Counter()
+    return I2cReader(settings, Gt911(settings, warnings), warnings)

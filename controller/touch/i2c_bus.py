@@ -1,0 +1,113 @@
+"""One device on an I2C bus, by combined messages (smbus2 `i2c_rdwr`): a touch report is longer than an SMBus block."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import errno
+import fcntl
+from collections import Counter
+from typing import Any, Final
+
+import smbus2
+
+from controller.errors import TouchError
+
+ATTEMPTS: Final = 3
+# What adapters say when nobody acknowledges: ENXIO, EREMOTEIO (Pi), ENODEV; EIO and EAGAIN: a disturbed transfer.
+# ETIMEDOUT, a hung bus, is not among them: each attempt would hold up the loop once more.
+WORTH_ANOTHER: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO, errno.EAGAIN)
+I2C_TIMEOUT: Final = 0x0702  # linux/i2c-dev.h, in units of 10 ms
+TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second: a bus that hangs must not cost the FPGA its heartbeat
+
+
+class Transfer:
+    """A register to read from and the buffer it is read into, made once.
+
+    Attributes
+    ----------
+    data : memoryview of bytes
+        What was read last.
+    """
+
+    def __init__(self, address: int, register: bytes, size_bytes: int) -> None:
+        self.messages: tuple[Any, Any] = (smbus2.i2c_msg.write(address, register), smbus2.i2c_msg.read(address, size_bytes))
+        start = ctypes.addressof(self.messages[1].buf.contents)  # the message keeps its buffer alive
+        self.data = memoryview((ctypes.c_uint8 * size_bytes).from_address(start)).cast("B")
+
+
+class I2cBus:
+    """An open bus.
+
+    Parameters
+    ----------
+    path : str
+        Such as /dev/i2c-1.
+    warnings : Counter of str
+        Counts `bus_retried`.
+
+    Raises
+    ------
+    TouchError
+        If it cannot be opened, or its adapter cannot do combined messages.
+    """
+
+    def __init__(self, path: str, warnings: Counter[str]) -> None:
+        self._warnings = warnings
+        try:
+            self._bus = smbus2.SMBus(path)
+        except OSError as error:
+            raise TouchError(_why_not_open(path, error)) from error
+        if not self._bus.funcs & smbus2.I2cFunc.I2C:
+            self._bus.close()
+            raise TouchError(f"the adapter of {path} cannot do plain I2C transfers, which the touch panel needs; use another bus")
+        assert self._bus.fd is not None
+        with contextlib.suppress(OSError):
+            fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, TIMEOUT_10MS)
+
+    def fetch(self, transfer: Transfer) -> None:
+        """Fill a transfer's buffer.
+
+        Raises
+        ------
+        OSError
+            If that fails for good.
+        """
+        self._run(transfer.messages)
+
+    def read(self, address: int, register: bytes, size_bytes: int) -> bytes:
+        """Registers, read once."""
+        transfer = Transfer(address, register, size_bytes)
+        self.fetch(transfer)
+        return bytes(transfer.data)
+
+    def send(self, message: Any) -> None:
+        """Send a message made with `smbus2.i2c_msg.write`."""
+        self._run((message,))
+
+    def write(self, address: int, data: bytes) -> None:
+        """Send register address and values."""
+        self.send(smbus2.i2c_msg.write(address, data))
+
+    def close(self) -> None:
+        """Close the bus."""
+        self._bus.close()
+
+    def _run(self, messages: tuple[Any, ...]) -> None:
+        for attempt in range(1, ATTEMPTS + 1):
+            try:
+                self._bus.i2c_rdwr(*messages)
+            except OSError as error:
+                if attempt == ATTEMPTS or error.errno not in WORTH_ANOTHER:
+                    raise
+                self._warnings["bus_retried"] += 1
+            else:
+                return
+
+
+def _why_not_open(path: str, error: OSError) -> str:
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return f"{path} may not be opened by this user: add it to the group that owns the device (on Debian: i2c)"
+    if error.errno in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
+        return f"there is no I2C bus {path}: is it enabled (on a Pi: dtparam=i2c_arm=on) and i2c-dev loaded?"
+    return f"{path} cannot be opened as an I2C bus ({error.strerror})"

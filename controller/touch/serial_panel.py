@@ -1,0 +1,212 @@
+"""Touch panels on a serial port: Elo SmartSet, 10-byte packets (Elo "SmartSet Touchscreen Controllers Technical Reference").
+
+A packet is 'U', a letter, seven bytes and a checksum. Touch packets are 'T': status, x, y and z, low byte first. The
+controller sends one when a finger comes (status bit 0), a stream of them while it stays (bit 1) and one when it goes
+(bit 2).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import select
+from collections import Counter
+from collections.abc import Sequence
+from typing import Final
+
+import serial
+
+from controller.device_settings import SerialTouch
+from controller.errors import TouchError
+from controller.touch import event_codes as ev
+from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
+
+PACKET_BYTES: Final = 10
+LEAD: Final = ord("U")
+TOUCH: Final = ord("T")
+CHECKSUM_SEED: Final = 0xAA
+TOUCHED: Final = 0x03  # bits of status: initial touch, stream
+LARGEST: Final = 4095  # of a coordinate
+
+RETRY_S: Final = 0.5  # between attempts to open a port that is gone
+STUCK_S: Final = 0.5  # without a packet of the stream the one that said the finger went must have been lost
+AT_ONCE_BYTES: Final = 64  # read together
+
+
+class SmartSetParser:
+    """Finds packets in a stream of bytes; after garbage it is in step again with the next whole packet.
+
+    Attributes
+    ----------
+    skipped : int
+        Bytes that were no packet, so far.
+    """
+
+    def __init__(self) -> None:
+        self.skipped = 0
+        self._held = bytearray()
+
+    def take(self, data: bytes) -> None:
+        """Append what was read."""
+        self._held += data
+
+    def next_packet(self) -> bytes | None:
+        """The next whole packet with the right checksum; None if there is none yet."""
+        held = self._held
+        while len(held) >= PACKET_BYTES:
+            if held[0] == LEAD and (CHECKSUM_SEED + sum(held[: PACKET_BYTES - 1])) & 0xFF == held[PACKET_BYTES - 1]:
+                packet = bytes(held[:PACKET_BYTES])
+                del held[:PACKET_BYTES]
+                return packet
+            start = held.find(LEAD, 1)  # the packet may begin within what was taken for one
+            start = len(held) if start < 0 else start
+            self.skipped += start
+            del held[:start]
+        return None
+
+    def forget(self) -> None:
+        """Drop a packet that has begun."""
+        self._held.clear()
+
+
+class SerialPanel:
+    """An `EventReader` of a SmartSet panel: one finger, by BTN_TOUCH, ABS_X and ABS_Y.
+
+    Parameters
+    ----------
+    settings : SerialTouch
+        Port and rate.
+
+    Raises
+    ------
+    TouchError
+        If the port cannot be opened.
+    """
+
+    def __init__(self, settings: SerialTouch) -> None:
+        self.warnings: Counter[str] = Counter()
+        self._settings = settings
+        self._parser = SmartSetParser()
+        self._poll = select.poll()
+        self._port: serial.Serial | None = None
+        self._touched = False
+        self._packet_s = 0.0
+        self._next_s = 0.0
+        try:
+            self._open()
+        except (OSError, ValueError) as error:
+            raise TouchError(_why_not_open(settings, error)) from error
+
+    @property
+    def description(self) -> DeviceDescription:
+        """Of any such panel."""
+        return self._description
+
+    @property
+    def present(self) -> bool:
+        """Whether the port is open; whether anybody is at its other end only packets say."""
+        return self._port is not None
+
+    def fileno(self) -> int | None:
+        """The port."""
+        return self._port.fileno() if self._port else None
+
+    def next_time_s(self) -> float | None:
+        """At once while packets are held here; when a stream that has stopped ends a touch; when to open the port again."""
+        if self._port is None or self._more:
+            return self._next_s if self._port is None else 0.0
+        return self._packet_s + STUCK_S if self._touched else None
+
+    def read(self, now_s: float) -> Sequence[Event]:
+        """Events of at most one packet; see `EventReader.read`."""
+        if self._port is None:
+            if now_s >= self._next_s:
+                self._next_s = now_s + RETRY_S
+                with contextlib.suppress(OSError, ValueError):
+                    self._open()
+            return ()
+        skipped = self._parser.skipped
+        packet = self._parser.next_packet()
+        if packet is None and not self._fill():
+            return self._lost(now_s)
+        packet = packet or self._parser.next_packet()
+        if self._parser.skipped != skipped:
+            self.warnings["bytes_skipped"] += self._parser.skipped - skipped
+        self._more = packet is not None
+        if packet is not None and packet[1] == TOUCH:
+            self._packet_s = now_s
+            return self._events(packet, now_s)
+        if packet is None and self._touched and now_s >= self._packet_s + STUCK_S:
+            self.warnings["contact_stuck"] += 1
+            return self._lifted(now_s)
+        return ()
+
+    def close(self) -> None:
+        """Close the port."""
+        if self._port:
+            with contextlib.suppress(OSError, KeyError):
+                self._poll.unregister(self._port.fileno())
+            with contextlib.suppress(OSError):
+                self._port.close()
+            self._port = None
+
+    def _open(self) -> None:
+        self._port = serial.Serial(self._settings.device, self._settings.baud, timeout=0, exclusive=True)
+        self._poll.register(self._port.fileno(), select.POLLIN)
+        self._parser.forget()
+        self._more = False
+        codes = {ev.EV_SYN: (ev.SYN_REPORT,), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
+        axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, LARGEST))
+        self._description = DeviceDescription(
+            "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes
+        )
+
+    def _fill(self) -> bool:
+        """Read what has come; False if the port is gone."""
+        assert self._port is not None
+        try:
+            for _, happened in self._poll.poll(0):
+                if not happened & select.POLLIN:
+                    return False  # hung up
+                data = os.read(self._port.fileno(), AT_ONCE_BYTES)
+                self._parser.take(data)
+                return bool(data)
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return True
+
+    def _events(self, packet: bytes, now_s: float) -> Sequence[Event]:
+        if not packet[2] & TOUCHED:
+            return self._lifted(now_s) if self._touched else ()
+        self._touched = True
+        return (
+            (ev.EV_ABS, ev.ABS_X, packet[3] | packet[4] << 8, now_s),
+            (ev.EV_ABS, ev.ABS_Y, packet[5] | packet[6] << 8, now_s),
+            (ev.EV_KEY, ev.BTN_TOUCH, 1, now_s),
+            (ev.EV_SYN, ev.SYN_REPORT, 0, now_s),
+        )
+
+    def _lifted(self, now_s: float) -> Sequence[Event]:
+        self._touched = False
+        return ((ev.EV_KEY, ev.BTN_TOUCH, 0, now_s), (ev.EV_SYN, ev.SYN_REPORT, 0, now_s))
+
+    def _lost(self, now_s: float) -> Sequence[Event]:
+        self.warnings["panel_lost"] += 1
+        self.close()
+        self._next_s = now_s + RETRY_S
+        return self._lifted(now_s) if self._touched else ()
+
+
+def _why_not_open(settings: SerialTouch, error: Exception) -> str:
+    device = settings.device
+    number = getattr(error, "errno", None)
+    if number in (errno.ENOENT, errno.ENXIO, errno.ENODEV, errno.EIO):
+        return f"there is no serial port {device}: is the touch panel plugged in? Its name is below /dev/serial/by-id"
+    if number in (errno.EACCES, errno.EPERM):
+        return f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: dialout)"
+    if number in (errno.EBUSY, errno.EAGAIN):
+        return f"{device} is in use by another program: end it first"
+    return f"{device} could not be opened at {settings.baud} baud: {error}"
