@@ -17,6 +17,7 @@ from controller.scene import (
     Scene,
     Spot,
     UnknownEffect,
+    anchored,
     edge_warnings,
     ended,
     find_scene,
@@ -27,6 +28,7 @@ from controller.scene import (
     reach,
     spot_emission,
     start_effect,
+    stopped,
     taken_over,
 )
 from controller.shapes import Boxes, Circle, Polygon, Rectangle
@@ -334,6 +336,28 @@ def test_a_spots_beats_are_its_period_apart_from_its_phase_on(scene_of):
     first, fourth = (spot_emission(spot, 2.0, beat) for beat in (0, 3))
     assert (first.time_s, fourth.time_s) == (pytest.approx(2.025), pytest.approx(2.175))
     assert (fourth.beat, fourth.period_s, fourth.owner, fourth.finger) == (3, 0.05, "square", None)
+
+
+def test_a_train_keeps_its_beat_from_when_its_first_emission_began_to_play(scene_of):
+    scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3 }}'))
+    state, (first,) = on_touch(scene, None, at(60, time_s=1.0))
+    state, (second,) = on_time(scene, anchored(state, first, 1.004), 1.0140001)
+    assert second.time_s == pytest.approx(1.014, abs=1e-12)
+    assert anchored(state, second, 1.02) is state
+    assert next_time_s(state) == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
+    state, (third, *_) = on_time(scene, state, 1.004 + 1 / 30)
+    assert (third.beat, state.next_s) == (3, pytest.approx(1.044))
+    assert on_time(scene, state, 1.004 + 1 / 30 + 1e-9)[1] == (), "the slower one began with it"
+
+
+def test_when_the_outputs_go_off_trains_are_over_and_the_way_goes_on(scene_of):
+    scene = scene_of(square(f'{PRESSED}, {{ effect = "texture", spacing_mm = 5 }}'))
+    state, _ = on_touch(scene, None, at(60))
+    state, _ = on_touch(scene, state, at(64, time_s=0.005))
+    state = stopped(state)
+    assert ended(state)
+    assert next_time_s(state) is None
+    assert on_touch(scene, state, at(65, time_s=0.5))[1][0].region == "square"
 
 
 # Commands
