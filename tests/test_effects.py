@@ -1,10 +1,12 @@
 """Effects and regions as they stand in a file: what they mean, and what is refused with file, key and value."""
 
+import re
+
 import msgspec
 import pytest
 
 from controller.board import data_folder, load_board
-from controller.effects import library
+from controller.effects import EffectTable, library
 from controller.errors import ConfigError
 from controller.scene import load_scene
 from controller.trains import Train
@@ -230,3 +232,19 @@ def test_the_library_scene_names_every_effect_that_a_region_can():
     text = (BOARD.folder / "library.toml").read_text()
     for name, effect in library().items():
         assert f'"{name}"' in text or effect.occasions == ("command",) or name == "train", name
+
+
+README = (data_folder("boards").parent / "controller" / "README.md").read_text()
+EXAMPLES = re.findall(r"^\| .* \| `([{\"].*[}\"])` \|$", README, re.MULTILINE)
+
+
+def test_the_readme_has_an_example_of_every_key():
+    assert len(EXAMPLES) == 11
+    for key in EffectTable.__struct_fields__:
+        assert any(re.search(rf"\b{key} =", example) for example in EXAMPLES), key
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_every_example_of_the_readme_is_felt(scene_of, example):
+    (area,) = scene_of(square(example)).areas
+    assert area.felt or area.spot
