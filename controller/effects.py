@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta
 
 from controller.board import Board
 from controller.errors import ConfigError
-from controller.records import NotNegative, Record, load_toml
+from controller.records import NotNegative, Record, as_record, load_toml
 
 LIBRARY = Path(__file__).with_name("effects.toml")
 WEAKEST = 0.25  # amplitude: below it the plate's response is not in proportion any more
@@ -88,22 +88,24 @@ class EffectTable(Record, frozen=True):
         return msgspec.structs.replace(base, **given)
 
 
-Effects = dict[Annotated[str, Meta(min_length=1, max_length=64)], EffectTable]
+Effects = dict[str, EffectTable]
+Tables = dict[Annotated[str, Meta(min_length=1, max_length=64)], dict[str, Any]]  # by name, as they stand in a file
 
 
 class LibraryTable(Record, frozen=True):
     """The whole library file."""
 
-    effects: Effects
+    effects: Tables
 
 
 @cache
 def library() -> Effects:
     """The effects that ship with the package, by name."""
-    return load_toml(LIBRARY, LibraryTable).effects
+    tables = load_toml(LIBRARY, LibraryTable).effects
+    return {name: as_record(f"{LIBRARY}: effects.{name}.", table, EffectTable) for name, table in tables.items()}
 
 
-def known_effects(file: Path, own: Effects, board: Board) -> tuple[Effects, Effects]:
+def known_effects(file: Path, own: Tables, board: Board) -> tuple[Effects, Effects]:
     """Effects that a scene's regions can name, and those of them that a command can play.
 
     A scene's own effects may build on the library's and on those above them, and take their names.
@@ -115,7 +117,8 @@ def known_effects(file: Path, own: Effects, board: Board) -> tuple[Effects, Effe
     """
     known = dict(library())
     for name, table in own.items():
-        known[name] = resolved(f"{file}: effects.{name}", table, known, board)
+        key = f"{file}: effects.{name}"
+        known[name] = resolved(key, as_record(f"{key}.", table, EffectTable), known, board)
     playable = {}
     for name, effect in known.items():
         if not {"move", "always"} & set(effect.occasions) and (effect.rate_hz or 0.0) <= highest_rate_hz(board) * (1 + ROUNDING):

@@ -99,6 +99,17 @@ class FingerState:
         if self._running:
             self._keep([running for running in self._running if not running.bound])
 
+    def anchor(self, first_s: float, start_s: float) -> None:
+        """Trains whose first beat was due at a time go on from when it really began."""
+        for running in self._running:
+            if running.first_s == first_s:
+                running.first_s = start_s
+        self._keep(self._running)
+
+    def end_all(self) -> None:
+        """All trains end; ways and lines stay as they are."""
+        self._keep([])
+
     def keep_commands(self) -> None:
         """Trains of regions end."""
         self._keep([running for running in self._running if running.area == COMMAND])

@@ -42,10 +42,23 @@ def load_toml(file: Path, kind: type[T]) -> T:
     for path, value in _leaves(tables, ()):
         if isinstance(value, float) and not math.isfinite(value):
             raise ConfigError(f"{file}: {_dotted(path)} = {value} is not a number one can work with")
+    return as_record(f"{file}: ", tables, kind)
+
+
+def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
+    """A table as a Record; `before` is what a message begins with: the file, and where in it the table is.
+
+    Tables by names of the user's choice are converted one by one: msgspec does not tell which of them is wrong.
+
+    Raises
+    ------
+    ConfigError
+        Naming key and value.
+    """
     try:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
-        raise ConfigError(f"{file}: {_in_words(str(error), tables)}") from error
+        raise ConfigError(f"{before}{_in_words(str(error), tables)}") from error
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:

@@ -37,6 +37,7 @@ __all__ = [
     "Scene",
     "Spot",
     "UnknownEffect",
+    "anchored",
     "edge_warnings",
     "ended",
     "find_scene",
@@ -47,6 +48,7 @@ __all__ = [
     "reach",
     "spot_emission",
     "start_effect",
+    "stopped",
     "taken_over",
 ]
 
@@ -151,6 +153,24 @@ def start_effect(
 def ended(state: FingerState) -> bool:
     """Whether no train is under way any more: a command's state may go then."""
     return state.next_s == math.inf
+
+
+def anchored(state: FingerState, first: Emission, start_s: float) -> FingerState:
+    """The trains that began with an emission keep their spacing from when it began to play, not from when it was due.
+
+    Parameters
+    ----------
+    first : Emission
+        With beat 0 of a train.
+    """
+    state.anchor(first.time_s, start_s)
+    return state
+
+
+def stopped(state: FingerState) -> FingerState:
+    """The outputs went off: all trains are over. The finger is where it was, and feels its next move."""
+    state.end_all()
+    return state
 
 
 def taken_over(scene: Scene, state: FingerState) -> FingerState:

@@ -16,6 +16,7 @@ from controller.effects import (
     Amplitude,
     Effects,
     EffectTable,
+    Tables,
     highest_rate_hz,
     known_effects,
     resolved,
@@ -78,7 +79,7 @@ class SceneTable(Record, frozen=True):
     """The whole file."""
 
     regions: Annotated[tuple[Region, ...], Meta(min_length=1)]
-    effects: Effects = msgspec.field(default_factory=dict)
+    effects: Tables = msgspec.field(default_factory=dict)
 
 
 class RegionRead(NamedTuple):

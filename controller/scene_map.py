@@ -146,10 +146,11 @@ def edge_warnings(scene: Scene, board: Board, channel_edges: int, all_edges: int
     ]
 
 
-def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArray[np.bool_]:
+def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0) -> NDArray[np.bool_]:
     """Which cells a scene can ask for: for every point where it may emit, the four cells around.
 
-    Beyond the outermost cells a point takes those nearest to it.
+    Beyond the outermost cells a point takes those nearest to it. What begins as a finger leaves its region
+    may be felt anywhere.
 
     Parameters
     ----------
@@ -157,20 +158,26 @@ def reach(scene: Scene, points_m: NDArray[np.float64], pitch_m: float) -> NDArra
         Cells of a whole regular grid, in any order.
     pitch_m : float
         Distance of neighbouring cells.
+    margin_m : float
+        How far beyond its region's border an emission for a finger may be: by prediction.
 
     Returns
     -------
     (cell,) bool array
     """
-    half_m = pitch_m + SLACK_M
     x, y = points_m[:, 0], points_m[:, 1]
-    boxes = Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
+    near, wide = (
+        Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
+        for half_m in (pitch_m + SLACK_M, pitch_m + SLACK_M + margin_m)
+    )
     reached = np.zeros(len(points_m), bool)
     for area in scene.areas:
-        if area.felt:
-            reached |= area.shape.meets(boxes)
+        if area.leave:
+            reached[:] = True
+        elif area.felt:
+            reached |= area.shape.meets(wide)
         if area.spot:
-            reached |= boxes.contain(area.spot.x_m, area.spot.y_m)
+            reached |= near.contain(area.spot.x_m, area.spot.y_m)
     return reached
 
 

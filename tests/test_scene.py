@@ -12,9 +12,12 @@ from controller.bank.selection import LATTICE_M
 from controller.board import data_folder, load_board
 from controller.errors import ConfigError
 from controller.scene import (
+    OUTSIDE,
     Area,
     Scene,
     Spot,
+    UnknownEffect,
+    anchored,
     edge_warnings,
     ended,
     find_scene,
@@ -23,6 +26,10 @@ from controller.scene import (
     on_time,
     on_touch,
     reach,
+    spot_emission,
+    start_effect,
+    stopped,
+    taken_over,
 )
 from controller.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.touch.recording import Recording
@@ -209,48 +216,272 @@ def test_a_scene_is_not_changed_and_can_be_handed_to_another_process(scene_of):
         scene.areas[0].name = "other"
 
 
-@pytest.mark.parametrize(
-    ("region", "words"),
-    [
-        ('name = "a"\nshape = "star"\neffects = []', "regions[0].shape = 'star'"),
-        (square('{ effect = "boom" }'), "regions[0].effects[0].effect = 'boom'"),
-        (square('{ effect = "click", loud = 1 }'), "regions[0].effects[0].loud = 1: unknown key"),
-        (square(CLICK) + "\ncolour = 3", "regions[0].colour = 3: unknown key"),
-        (square('{ effect = "train", rate_hz = "fast", duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 'fast'"),
-        (square('{ effect = "train", rate_hz = 0, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 0"),
-        (square('{ effect = "train", rate_hz = nan, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = nan"),
-        (square('{ effect = "train", rate_hz = 505, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
-        (square('{ effect = "always", rate_hz = 505 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
-        (square('{ effect = "always", rate_hz = 5, x_mm = 210.5 }'), "effects[0].x_mm = 210.5 is off the plate"),
-        (square('{ effect = "always", rate_hz = 5, y_mm = 148.5 }'), "effects[0].y_mm = 148.5 is off the plate"),
-        (square('{ effect = "always", rate_hz = 5, y_mm = -1 }'), "regions[0].effects[0].y_mm = -1"),
-        (square('{ effect = "texture", spacing_mm = 0 }'), "regions[0].effects[0].spacing_mm = 0"),
-        (square(f"{CLICK}, {CLICK}"), "this effect more than once: effects[0]"),
-        (square(CLICK, "wide", 171), "regions[0] ('wide') reaches 1 mm beyond the plate of 210 × 148 mm"),
-        (square(CLICK, "wide", -1), "regions[0] ('wide') reaches 1 mm beyond the plate"),
-        (square(CLICK, "none", 50, -4), "regions[0].width_mm = -4"),
-        (square(CLICK, ""), "regions[0].name = ''"),
-        (square(CLICK) + "\n[[regions]]\n" + square(CLICK), "regions[1].name = 'square' is taken by regions[0]"),
-        ('name = "a"\nshape = "circle"\nx_mm = 5\ny_mm = 9\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
-        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 5\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
-        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 143\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
-        (f'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1]]\neffects = [{CLICK}, {CLICK}]', "more than once"),
-        (f'name = "a"\nshape = "polygon"\ncorners_mm = {[[1, 1]] * 1001}\neffects = []', "regions[0].corners_mm"),
-        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2]]\neffects = []', "regions[0].corners_mm"),
-        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2], [3]]\neffects = []', "regions[0].corners_mm[2]"),
-        (
-            'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1], [1, 9]]\neffects = []',
-            "regions[0]: corners_mm: the edges from [1.0, 1.0] and from [9.0, 1.0] cross or touch",
-        ),
-        ('name = "a"\nshape = "plate"', "effects"),
-        ("", "shape"),
-    ],
+# Occasions
+
+PRESS, RELEASE, ENTER, LEAVE = (f'{{ when = "{occasion}" }}' for occasion in ("press", "release", "enter", "leave"))
+FIVE = "rate_hz = 100, count = 5"
+PRESSED = f'{{ when = "press", {FIVE} }}'
+
+
+def test_each_occasion_is_felt_at_its_own_time_and_place(scene_of):
+    way = [at(40), at(60), at(65), at(40), at(60), at(60, contact=False)]
+    inside = [at(60), at(65), at(65, contact=False)]
+    for effect, slid, pressed in (
+        (PRESS, [None] * 6, [60, None, None]),
+        (RELEASE, [None] * 5 + [60], [None, None, 65]),
+        (ENTER, [None, 60, None, None, 60, None], [None] * 3),
+        (LEAVE, [None, None, None, 40, None, None], [None] * 3),
+    ):
+        scene = scene_of(square(effect))
+        for samples, places in ((way, slid), (inside, pressed)):
+            assert touch(scene, *samples)[0] == [place and (place, "square") for place in places], effect
+
+
+def test_an_effect_may_have_several_occasions(scene_of):
+    felt, _ = touch(scene_of(square('"edge"')), at(40), at(60), at(65), at(40))
+    assert felt == [None, (60, "square"), None, (40, "square")]
+
+
+def test_from_one_region_to_the_next_the_stronger_of_leaving_and_entering_is_felt(scene_of):
+    for out, into, region, amplitude in ((1.0, 0.5, "left", 1.0), (0.5, 0.75, "right", 0.75)):
+        scene = scene_of(
+            square(f'{{ when = "leave", amplitude = {out} }}', "left", 20, 30),
+            square(f'{{ when = "enter", amplitude = {into} }}', "right", 50),
+        )
+        state, _ = on_touch(scene, None, at(40))
+        _, (emission,) = on_touch(scene, state, at(60))
+        assert (emission.region, emission.amplitude, emission.x_m) == (region, amplitude, 0.060)
+
+
+def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes_on_until_the_finger_is_lifted(scene_of):
+    entered = scene_of(square(PRESSED.replace("press", "enter")))
+    state, _ = on_touch(entered, None, at(40))
+    state, (first,) = on_touch(entered, state, at(60, time_s=1.0))
+    assert (first.beat, first.period_s, next_time_s(state)) == (0, 0.01, pytest.approx(1.01))
+    state, _ = on_touch(entered, state, at(40, time_s=1.005))
+    assert next_time_s(state) is None
+    left = scene_of(square(PRESSED.replace("press", "leave")))
+    state, _ = on_touch(left, None, at(60))
+    state, (first,) = on_touch(left, state, at(40, time_s=1.0))
+    state, _ = on_touch(left, state, at(30, time_s=1.005))
+    state, (second,) = on_time(left, state, 1.01)
+    assert (second.x_m, second.beat, second.region) == (0.030, 1, "square")
+    assert on_touch(left, state, at(30, time_s=1.015, contact=False)) == (None, ())
+
+
+def test_a_phase_delays_a_train_by_a_part_of_its_period(scene_of):
+    scene = scene_of(square('{ when = "press", rate_hz = 100, count = 2, phase = 0.25 }'))
+    state, none = on_touch(scene, None, at(60, time_s=1.0))
+    assert none == ()
+    state, (first,) = on_time(scene, state, next_time_s(state))
+    state, (second,) = on_time(scene, state, next_time_s(state))
+    assert (first.time_s, second.time_s) == (pytest.approx(1.0025), pytest.approx(1.0125))
+    assert (first.beat, second.beat) == (0, 1)
+    assert ended(state)
+
+
+def test_trains_of_one_finger_keep_their_own_beats(scene_of):
+    scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3, amplitude = 0.5 }}'))
+    state, felt = on_touch(scene, None, at(60))
+    assert [(e.amplitude, e.period_s) for e in felt] == [(1.0, 0.01)]
+    while (due_s := next_time_s(state)) is not None:
+        state, emissions = on_time(scene, state, due_s)
+        felt += emissions
+    fast, slow = ([round(e.time_s, 9) for e in felt if e.period_s == period_s] for period_s in (0.01, 1 / 30))
+    assert fast == [0.0, 0.01, 0.02, 0.03, 0.04]
+    assert slow == [round(1 / 30, 9), round(2 / 30, 9)], "its first is one with the other's"
+
+
+def test_a_press_that_is_felt_at_once_with_a_train_has_the_trains_beat(scene_of):
+    scene = scene_of(square('"click", { when = "press", rate_hz = 30, count = 3, amplitude = 0.5 }'))
+    _, (first,) = on_touch(scene, None, at(60))
+    assert (first.amplitude, first.beat, first.period_s) == (1.0, 0, 1 / 30)
+
+
+def test_what_was_missed_of_several_trains_comes_in_order_of_time(scene_of):
+    scene = scene_of(square(f'{{ when = "press", rate_hz = 30, count = 9 }}, {PRESSED}'))
+    state, _ = on_touch(scene, None, at(60))
+    state, emissions = on_time(scene, state, 0.0685)
+    assert [(round(e.time_s, 4), e.beat) for e in emissions] == [(0.04, 4), (0.0667, 2)]
+
+
+def test_fingers_have_trains_of_their_own(scene_of):
+    scene = scene_of(square(PRESSED))
+    states = [on_touch(scene, None, at(55 + finger, time_s=0.003 * finger, finger=finger))[0] for finger in range(4)]
+    for finger, state in enumerate(states):
+        _, (emission,) = on_time(scene, state, 0.02)
+        assert (emission.finger, emission.owner) == (finger, finger)
+        assert emission.time_s == pytest.approx(0.02 if finger == 0 else 0.01 + 0.003 * finger)
+
+
+def test_amplitudes_of_region_and_effect_multiply_and_a_region_may_ask_to_be_played_alone(scene_of):
+    region = square(f'"click", {{ effect = "texture", spacing_mm = 5, amplitude = 0.5 }}, {ALWAYS}') + "\namplitude = 0.6"
+    for policy in ("compose", "alternate"):
+        scene = scene_of(f'{region}\npolicy = "{policy}"')
+        state, (click,) = on_touch(scene, None, at(60))
+        _, (ridge,) = on_touch(scene, state, at(66))
+        (spot,) = scene.spots
+        assert (click.amplitude, ridge.amplitude, spot.amplitude) == pytest.approx((0.6, 0.3, 0.6))
+        assert {click.alternate, ridge.alternate, spot.alternate} == {policy == "alternate"}
+
+
+def test_lines_are_fixed_to_the_region_and_felt_both_ways(scene_of):
+    scene = scene_of(square('{ when = "move", along = "x", spacing_mm = 10 }'))  # at 60, 70 and 80 mm
+    felt, _ = touch(scene, *map(at, [52, 58, 61, 59.2, 55, 75, 74, 71, 69, 40, 62, 58]))
+    assert [hit[0] if hit else None for hit in felt] == [None, None, 61, 59.2, None, 75, None, None, 69, None, None, 58]
+
+
+def test_a_spots_beats_are_its_period_apart_from_its_phase_on(scene_of):
+    (spot,) = scene_of(square(ALWAYS.replace("20", "20, phase = 0.5"))).spots
+    first, fourth = (spot_emission(spot, 2.0, beat) for beat in (0, 3))
+    assert (first.time_s, fourth.time_s) == (pytest.approx(2.025), pytest.approx(2.175))
+    assert (fourth.beat, fourth.period_s, fourth.owner, fourth.finger) == (3, 0.05, "square", None)
+
+
+def test_a_train_keeps_its_beat_from_when_its_first_emission_began_to_play(scene_of):
+    scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3 }}'))
+    state, (first,) = on_touch(scene, None, at(60, time_s=1.0))
+    state, (second,) = on_time(scene, anchored(state, first, 1.004), 1.0140001)
+    assert second.time_s == pytest.approx(1.014, abs=1e-12)
+    assert anchored(state, second, 1.02) is state
+    assert next_time_s(state) == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
+    state, (third, *_) = on_time(scene, state, 1.004 + 1 / 30)
+    assert (third.beat, state.next_s) == (3, pytest.approx(1.044))
+    assert on_time(scene, state, 1.004 + 1 / 30 + 1e-9)[1] == (), "the slower one began with it"
+
+
+def test_when_the_outputs_go_off_trains_are_over_and_the_way_goes_on(scene_of):
+    scene = scene_of(square(f'{PRESSED}, {{ effect = "texture", spacing_mm = 5 }}'))
+    state, _ = on_touch(scene, None, at(60))
+    state, _ = on_touch(scene, state, at(64, time_s=0.005))
+    state = stopped(state)
+    assert ended(state)
+    assert next_time_s(state) is None
+    assert on_touch(scene, state, at(65, time_s=0.5))[1][0].region == "square"
+
+
+# Commands
+
+
+def command(scene, state=None, name="buzz", *, finger=None, amplitude=1.0, time_s=5.0, ticket=17):
+    return start_effect(scene, state, name, x_m=0.1, y_m=0.05, finger=finger, amplitude=amplitude, time_s=time_s, ticket=ticket)
+
+
+def test_a_command_plays_an_effect_at_a_point_and_its_ticket_comes_back_once(scene_of):
+    scene = scene_of(square(CLICK))
+    state, emissions = command(scene, name="double_click")
+    assert next_time_s(state) == pytest.approx(5.125)
+    state, more = on_time(scene, state, 6.0)
+    assert ended(state)
+    first, second = emissions + more
+    assert (first.ticket, second.ticket) == (17, 0)
+    assert first.owner == second.owner == "command 17"
+    assert {(e.x_m, e.y_m, e.finger, e.region) for e in (first, second)} == {(0.1, 0.05, None, "double_click")}
+    state, (click,) = command(scene, name="click")
+    assert ended(state)
+    assert click.ticket == 17
+
+
+def test_a_commands_amplitude_multiplies_down_to_the_weakest(scene_of):
+    scene = scene_of(square(CLICK))
+    for amplitude, played in ((0.5, 0.5), (0.25, 0.25)):
+        assert command(scene, name="click", amplitude=amplitude)[1][0].amplitude == played
+    _, (first,) = command(scene, name="notification", amplitude=0.25)
+    assert first.amplitude == 0.25
+
+
+def test_a_command_for_a_finger_follows_it_over_borders_until_it_is_lifted(scene_of):
+    scene = scene_of(square(TRAIN))
+    state, _ = on_touch(scene, None, at(60, time_s=4.995))
+    same, (first,) = command(scene, state, finger=3)
+    assert same is state
+    assert (first.x_m, first.owner, first.finger, first.ticket) == (0.060, 3, 3, 17)
+    state, _ = on_touch(scene, state, at(20, time_s=5.001))
+    state, (second,) = on_time(scene, state, next_time_s(state))
+    assert (second.x_m, second.time_s, second.region) == (0.020, pytest.approx(5 + 1 / 120), "buzz")
+    assert on_touch(scene, state, at(20, contact=False)) == (None, ())
+
+
+def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
+    file = tmp_path / "s.toml"
+    swell = "[effects.late]\nwhen = 'command'\nrate_hz = 100\ncount = 4\nenvelope = [[0, 0], [10, 0], [20, 1]]"
+    file.write_text(f"{swell}\n[[regions]]\n{square(CLICK)}\n")
+    scene = load_scene(file, BOARD)
+    state, none = command(scene, name="late")
+    assert none == ()
+    assert not ended(state)
+    state, emissions = on_time(scene, state, 5.021)
+    assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
+
+
+@pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])
+def test_an_effect_that_no_command_can_play_is_refused_and_the_others_are_listed(scene_of, name):
+    with pytest.raises(UnknownEffect, match=rf"no effect '{name}' that a command can play; there are: buzz, click, double_click"):
+        command(scene_of(square(CLICK)), name=name)
+    assert issubclass(UnknownEffect, ConfigError)
+
+
+def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_of):
+    old, new = scene_of(square(f"{TRAIN}, {TEXTURE}")), scene_of(square('"edge"', "new", 40), square(TEXTURE, "other", 95))
+    state, _ = on_touch(old, None, at(60, time_s=5.0))
+    state, _ = command(old, state, finger=3)
+    state = taken_over(new, state)
+    assert new.areas[state.region].name == "new"
+    state, emissions = on_time(new, state, 5.02)
+    assert [e.region for e in emissions] == ["buzz"]
+    state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
+    assert edge.region == "new"
+    point, _ = command(old)
+    assert on_time(new, taken_over(new, point), 5.0084)[1][0].region == "buzz"
+
+
+LIBRARY_SCENE = load_scene(BOARD.folder / "library.toml", BOARD)
+steps = st.lists(
+    st.tuples(st.floats(0, 0.05), st.sampled_from(["touch", "touch", "lift", "command"]), st.floats(0, 0.21), st.floats(0, 0.148)),
+    max_size=60,
 )
-def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_of, tmp_path, region, words):
-    with pytest.raises(ConfigError) as caught:
-        scene_of(region)
-    assert words in str(caught.value)
-    assert str(caught.value).startswith(str(tmp_path / "scene.toml"))
+
+
+@given(steps, st.sampled_from(sorted(LIBRARY_SCENE.effects)))
+def test_whatever_a_finger_does_time_moves_on_and_every_emission_can_be_played(todo, name):
+    scene, state, now_s = LIBRARY_SCENE, None, 100.0
+    for wait_s, what, x_m, y_m in todo:
+        now_s += wait_s
+        felt = ()
+        if state is not None:
+            state, felt = on_time(scene, state, now_s)
+            assert next_time_s(state) is None or next_time_s(state) > now_s
+            assert ended(state) == (next_time_s(state) is None)
+        if what == "command" and state is not None:
+            state, more = command(scene, state, name, finger=3, time_s=now_s)
+        elif what == "command":
+            continue
+        else:
+            state, more = on_touch(scene, state, TouchSample(3, x_m, y_m, now_s, what == "touch"))
+            assert len(more) <= 1
+            assert (state is None) == (what == "lift")
+        for e in (*felt, *more):
+            assert 0.25 <= e.amplitude <= 1
+            assert now_s - wait_s - 1e-9 <= e.time_s <= now_s
+            assert e.owner == e.finger == 3
+        assert [e.time_s for e in felt] == sorted(e.time_s for e in felt)
+
+
+@given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))
+def test_a_region_is_found_as_by_asking_one_after_the_other(x_m, y_m):
+    for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.areas[:-1]), Scene(())):
+        asked = [index for index, area in enumerate(scene.areas) if area.shape.contains(x_m, y_m)]
+        assert scene.region_at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
+
+
+def test_the_far_rim_belongs_to_a_scene():
+    shape = Rectangle(0.1, 0.05, 0.21, 0.148)
+    assert [_scene(shape).region_at(x, y) for x, y in ((0.21, 0.148), (0.1, 0.05), (0.21, 0.05), (0.0999, 0.05))] == [
+        0,
+        0,
+        0,
+        OUTSIDE,
+    ]
 
 
 def on_board(tmp_path, text, **limits):
@@ -437,6 +668,23 @@ def test_points_rounded_to_the_bank_lattice_are_reached_too(u, v, dx, dy, shape)
     if point:
         rounded = point[0] + dx * LATTICE_M / 2, point[1] + dy * LATTICE_M / 2
         assert reach(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
+
+
+def test_what_begins_by_leaving_a_region_may_be_felt_anywhere(scene_of):
+    points = Grid.of(BOARD.plate, 5e-3).points()
+    assert reach(scene_of(square(LEAVE)), points, 5e-3).all()
+    assert not reach(scene_of(square(ENTER)), points, 5e-3).all()
+
+
+def test_a_margin_reaches_what_a_prediction_may_ask_for(scene_of):
+    grid = Grid.of(BOARD.plate, 5e-3)
+    scene = scene_of(square(CLICK), square(ALWAYS, "spot", 140))
+    near, wide = (reach(scene, grid.points(), grid.pitch_m, margin_m) for margin_m in (0.0, 12e-3))
+    asked = list(grid.corners(0.050 - 11.9e-3, 0.090 + 11.9e-3)[0])
+    assert wide[asked].all()
+    assert not near[asked].all()
+    away = np.abs(grid.points() - (0.16, 0.07)).max(axis=1) < 0.02
+    assert np.array_equal(near[away], wide[away]), "a spot is where it is"
 
 
 def test_spots_reach_their_four_cells_and_their_region_none(scene_of):

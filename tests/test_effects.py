@@ -1,0 +1,250 @@
+"""Effects and regions as they stand in a file: what they mean, and what is refused with file, key and value."""
+
+import re
+
+import msgspec
+import pytest
+
+from controller.board import data_folder, load_board
+from controller.effects import EffectTable, library
+from controller.errors import ConfigError
+from controller.scene import load_scene
+from controller.trains import Train
+
+BOARD = load_board(data_folder("boards") / "simulated")
+CLICK = '{ effect = "click" }'
+
+
+@pytest.fixture
+def scene_of(tmp_path):
+    """Loads a scene from the lines of its regions."""
+
+    def load(*regions, effects="", board=BOARD):
+        file = tmp_path / "scene.toml"
+        file.write_text(effects + "".join(f"[[regions]]\n{region}\n" for region in regions))
+        return load_scene(file, board)
+
+    return load
+
+
+def square(effects, name="square", x_mm=50, size_mm=40):
+    place = f"x_mm = {x_mm}\ny_mm = 50\nwidth_mm = {size_mm}\nheight_mm = {size_mm}"
+    return f'name = "{name}"\nshape = "rectangle"\n{place}\neffects = [{effects}]'
+
+
+@pytest.mark.parametrize(
+    ("region", "words"),
+    [
+        ('name = "a"\nshape = "star"\neffects = []', "regions[0].shape = 'star'"),
+        (square('{ effect = "boom" }'), "regions[0].effects[0].effect = 'boom'"),
+        (square('{ effect = "click", loud = 1 }'), "regions[0].effects[0].loud = 1: unknown key"),
+        (square(CLICK) + "\ncolour = 3", "regions[0].colour = 3: unknown key"),
+        (square('{ effect = "train", rate_hz = "fast", duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 'fast'"),
+        (square('{ effect = "train", rate_hz = 0, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 0"),
+        (square('{ effect = "train", rate_hz = nan, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = nan"),
+        (square('{ effect = "train", rate_hz = 505, duration_ms = 1 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
+        (square('{ effect = "always", rate_hz = 505 }'), "regions[0].effects[0].rate_hz = 505 is above 500"),
+        (square('{ effect = "always", rate_hz = 5, x_mm = 210.5 }'), "effects[0].x_mm = 210.5 is off the plate"),
+        (square('{ effect = "always", rate_hz = 5, y_mm = 148.5 }'), "effects[0].y_mm = 148.5 is off the plate"),
+        (square('{ effect = "always", rate_hz = 5, y_mm = -1 }'), "regions[0].effects[0].y_mm = -1"),
+        (square('{ effect = "texture", spacing_mm = 0 }'), "regions[0].effects[0].spacing_mm = 0"),
+        (square(f"{CLICK}, {CLICK}"), "this effect more than once: effects[0]"),
+        (square(CLICK, "wide", 171), "regions[0] ('wide') reaches 1 mm beyond the plate of 210 × 148 mm"),
+        (square(CLICK, "wide", -1), "regions[0] ('wide') reaches 1 mm beyond the plate"),
+        (square(CLICK, "none", 50, -4), "regions[0].width_mm = -4"),
+        (square(CLICK, ""), "regions[0].name = ''"),
+        (square(CLICK) + "\n[[regions]]\n" + square(CLICK), "regions[1].name = 'square' is taken by regions[0]"),
+        ('name = "a"\nshape = "circle"\nx_mm = 5\ny_mm = 9\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 5\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        ('name = "a"\nshape = "circle"\nx_mm = 9\ny_mm = 143\nradius_mm = 6\neffects = []', "('a') reaches 1 mm beyond"),
+        (f'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1]]\neffects = [{CLICK}, {CLICK}]', "more than once"),
+        (f'name = "a"\nshape = "polygon"\ncorners_mm = {[[1, 1]] * 1001}\neffects = []', "regions[0].corners_mm"),
+        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2]]\neffects = []', "regions[0].corners_mm"),
+        ('name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [2, 2], [3]]\neffects = []', "regions[0].corners_mm[2]"),
+        (
+            'name = "a"\nshape = "polygon"\ncorners_mm = [[1, 1], [9, 9], [9, 1], [1, 9]]\neffects = []',
+            "regions[0]: corners_mm: the edges from [1.0, 1.0] and from [9.0, 1.0] cross or touch",
+        ),
+        ('name = "a"\nshape = "plate"', "effects"),
+        ("", "shape"),
+    ],
+)
+def test_a_scene_that_cannot_be_meant_is_refused_with_file_key_and_value(scene_of, tmp_path, region, words):
+    with pytest.raises(ConfigError) as caught:
+        scene_of(region)
+    assert words in str(caught.value)
+    assert str(caught.value).startswith(str(tmp_path / "scene.toml"))
+
+
+PRESS = 'when = "press"'
+BUZZ = f"{PRESS}, rate_hz = 100"
+
+
+@pytest.mark.parametrize(
+    ("effect", "words"),
+    [
+        ("{}", ".when is missing"),
+        ("{ spacing_mm = 3 }", ".when is missing"),
+        ('{ when = "now" }', ".when = 'now'"),
+        ('{ when = ["press", "press"] }', ".when = ['press', 'press'] has one of them twice"),
+        ('{ when = ["press", "move"], spacing_mm = 3 }', "'move' and 'always' stand alone"),
+        ('{ when = "command" }', 'when = "command": an application plays it'),
+        ('"boom"', " = 'boom' is no effect; known: always, buzz, click, detent, double_click, edge, grating, notification, te"),
+        (f"{{ {PRESS}, amplitude = 0.2 }}", ".amplitude = 0.2"),
+        (f"{{ {PRESS}, amplitude = 1.1 }}", ".amplitude = 1.1"),
+        (f"{{ {BUZZ} }}", "a train needs its end: count or duration_ms"),
+        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", "count = 3 and duration_ms = 30 both say how long"),
+        (f"{{ {BUZZ}, count = 0 }}", ".count = 0"),
+        (f"{{ {PRESS}, count = 3 }}", ".count needs a train"),
+        (f"{{ {PRESS}, envelope = [[0, 1]] }}", ".envelope needs a train"),
+        (f"{{ {PRESS}, phase = 0.5 }}", ".phase = 0.5 needs a rate_hz, or lines"),
+        (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
+        (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
+        ('{ when = "release", rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
+        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
+        (f"{{ {PRESS}, spacing_mm = 3 }}", '.spacing_mm = 3.0 needs when = "move"'),
+        (f'{{ {PRESS}, along = "x" }}', ".along = 'x' needs when = \"move\""),
+        ('{ when = "move" }', ".spacing_mm is missing"),
+        ('{ when = "move", spacing_mm = 0.05 }', ".spacing_mm = 0.05"),
+        ('{ when = "move", spacing_mm = 3, along = "z" }', ".along = 'z'"),
+        ('{ when = "move", spacing_mm = 3, phase = 0.5 }', ".phase = 0.5 needs a rate_hz, or lines along x or y"),
+        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move"'),
+        ('{ when = "move", spacing_mm = 3, count = 2 }', ".count needs a train"),
+        ('{ when = "always" }', ".rate_hz is missing"),
+        ('{ when = "always", rate_hz = 20, count = 3 }', ".count needs a train with an end"),
+        ('{ when = "always", rate_hz = 20, envelope = [[0, 1]] }', ".envelope needs a train with an end"),
+        (f"{{ {PRESS}, x_mm = 3 }}", '.x_mm = 3 needs when = "always"'),
+        (f"{{ {BUZZ}, count = 3, envelope = [] }}", ".envelope"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [0, 0.5]] }}", ".envelope[1] = [0.0, 0.5] is not later than the point before"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [9, 0.5], [8, 1]] }}", ".envelope[2] = [8.0, 1.0] is not later"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[-1, 1]] }}", ".envelope[0][0] = -1"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 1.5]] }}", ".envelope[0][1] = 1.5"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 0.1]] }}", ".envelope[0] = [0.0, 0.1]: an amplitude is 0 (silence) or 0.25 to 1"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 0], [20, 0]] }}", ".envelope is silent throughout"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [31, 1]] }}", ".envelope goes on to 31 ms, but the train ends at 30 ms"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[2, 0], [3, 1], [4, 0]] }}", ".envelope is silent at every emission"),
+    ],
+)
+def test_an_effect_whose_values_do_not_go_together_is_refused_in_a_region_and_by_name(scene_of, tmp_path, effect, words):
+    with pytest.raises(ConfigError) as caught:
+        scene_of(square(effect))
+    assert words in str(caught.value)
+    assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: regions[0].effects[0]")
+    if effect.startswith("{") and "command" not in effect:
+        with pytest.raises(ConfigError) as caught:
+            scene_of(square(CLICK), effects=f"effects.mine = {effect}\n")
+        assert words in str(caught.value)
+        assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: effects.mine")
+
+
+@pytest.mark.parametrize(
+    ("regions", "words"),
+    [
+        (
+            [square(f"{{ {BUZZ.replace('100', '300')}, count = 2 }}, {{ {BUZZ.replace('100', '205')}, count = 2 }}")],
+            "regions[0].effects: the trains that begin with when = 'press' are 505 emissions a second together, above 500",
+        ),
+        ([square('"always", { effect = "always", x_mm = 5 }')], "effects[1]: region 'square' has a spot already"),
+        (
+            [square('{ effect = "click", amplitude = 0.5 }') + "\namplitude = 0.4"],
+            "effects[0]: amplitude 0.5 in a region of amplitude 0.4 is 0.2, below 0.25",
+        ),
+        ([square(CLICK) + "\namplitude = 0.2"], "regions[0].amplitude = 0.2"),
+        ([square(CLICK) + '\npolicy = "loud"'], "regions[0].policy = 'loud'"),
+        (
+            [square(CLICK), square(CLICK, "small", 60, 10)],
+            "regions[1] ('small') is never felt: regions[0] ('square') covers it and comes first",
+        ),
+        (['name = "p"\nshape = "plate"\neffects = []', square(CLICK)], "regions[1] ('square') is never felt: regions[0] ('p')"),
+        (
+            [
+                f'name = "{n}"\nshape = "circle"\nx_mm = 60\ny_mm = 60\nradius_mm = {r}\neffects = ["click"]'
+                for n, r in (("a", 9), ("b", 8))
+            ],
+            "regions[1] ('b') is never felt",
+        ),
+        (
+            [square(CLICK), 'name = "t"\nshape = "polygon"\ncorners_mm = [[60, 60], [70, 60], [60, 90]]\neffects = ["click"]'],
+            "regions[1] ('t') is never felt",
+        ),
+    ],
+)
+def test_what_regions_and_effects_say_together_is_refused_where_it_cannot_be_meant(scene_of, regions, words):
+    with pytest.raises(ConfigError) as caught:
+        scene_of(*regions)
+    assert words in str(caught.value)
+
+
+def test_regions_that_overlap_in_part_or_only_hold_a_spot_are_accepted(scene_of):
+    spot = square('"always"', "spot", 60, 10)
+    partly = square(CLICK, "partly", 85, 10)
+    corner = 'name = "c"\nshape = "circle"\nx_mm = 70\ny_mm = 70\nradius_mm = 21\neffects = ["click"]'
+    assert len(scene_of(square(CLICK), spot, partly, corner).areas) == 4
+
+
+def test_trains_of_different_occasions_do_not_add_up(scene_of):
+    fast = "rate_hz = 400, count = 2"
+    assert scene_of(square(f'{{ when = "press", {fast} }}, {{ when = "enter", {fast} }}')).areas[0].trains_hz == 400
+
+
+def test_a_name_a_table_that_builds_on_it_and_the_primitives_mean_the_same(scene_of):
+    for effect in ('"double_click"', '{ effect = "double_click" }', f"{{ {PRESS}, rate_hz = 8, count = 2 }}"):
+        assert scene_of(square(effect)).areas[0].press == (Train(1.0, 2, 0.125),)
+
+
+def test_what_an_effect_builds_on_gives_way_to_what_is_given(scene_of):
+    quick = scene_of(square('{ effect = "buzz", count = 3, when = "enter", amplitude = 0.5 }')).areas[0]
+    assert quick.press == ()
+    assert quick.enter == (Train(0.5, 3, 1 / 120),)
+    longer = scene_of(square('{ effect = "double_click", duration_ms = 1000 }')).areas[0]
+    assert longer.press == (Train(1.0, 8, 0.125),)
+
+
+def test_a_scenes_own_effects_build_on_those_above_them_and_may_take_a_library_name(scene_of):
+    effects = "[effects.click]\neffect = 'click'\namplitude = 0.5\n[effects.soft]\neffect = 'click'\nwhen = 'release'\n"
+    scene = scene_of(square('"click", "soft"'), effects=effects)
+    assert scene.areas[0].press == scene.areas[0].release == (Train(0.5),)
+    assert scene.effects["click"] == scene.effects["soft"] == Train(0.5)
+    with pytest.raises(ConfigError, match=r"effects\.early\.effect = 'late' is no effect"):
+        scene_of(square(CLICK), effects="[effects.early]\neffect = 'late'\n[effects.late]\nwhen = 'press'\n")
+
+
+def test_commands_can_play_all_but_spots_what_a_moving_finger_feels_and_what_the_board_cannot(scene_of):
+    spatial = {name for name, effect in library().items() if set(effect.occasions) & {"move", "always"}}
+    assert spatial == {"texture", "detent", "grating", "always"}
+    assert set(scene_of(square(CLICK)).effects) == set(library()) - spatial
+    slow = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, max_duty=0.21))
+    assert set(library()) - set(scene_of(square(CLICK), board=slow).effects) == spatial | {"buzz"}
+
+
+@pytest.mark.parametrize("name", ["simulated", "ulx3s", "ice40_hx8k"])
+@pytest.mark.parametrize("effect", sorted(library()))
+def test_every_effect_of_the_library_can_be_named_by_a_region_or_a_command_of_every_board(scene_of, name, effect):
+    board = load_board(data_folder("boards") / name)
+    if library()[effect].occasions == ("command",):
+        assert effect in scene_of(square(CLICK), board=board).effects
+    else:
+        (area,) = scene_of(square(f'"{effect}"'), board=board).areas
+        assert area.felt or area.spot
+
+
+def test_the_library_scene_names_every_effect_that_a_region_can():
+    text = (BOARD.folder / "library.toml").read_text()
+    for name, effect in library().items():
+        assert f'"{name}"' in text or effect.occasions == ("command",) or name == "train", name
+
+
+README = (data_folder("boards").parent / "controller" / "README.md").read_text()
+EXAMPLES = re.findall(r"^\| .* \| `([{\"].*[}\"])` \|$", README, re.MULTILINE)
+
+
+def test_the_readme_has_an_example_of_every_key():
+    assert len(EXAMPLES) == 11
+    for key in EffectTable.__struct_fields__:
+        assert any(re.search(rf"\b{key} =", example) for example in EXAMPLES), key
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_every_example_of_the_readme_is_felt(scene_of, example):
+    (area,) = scene_of(square(example)).areas
+    assert area.felt or area.spot

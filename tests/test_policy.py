@@ -1,0 +1,103 @@
+"""What plays together: by hand, and over many turns of the plate."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.finger_state import Emission
+from controller.policy import APART_M, MOST, SAME_M, together
+
+T_S = 2e-3
+
+
+def emission(owner, x_mm, time_ms=0.0, *, y_mm=70.0, alternate=False, amplitude=1.0):
+    return Emission(time_ms * 1e-3, x_mm * 1e-3, y_mm * 1e-3, None, "r", amplitude, owner, alternate=alternate)
+
+
+def owners(emissions):
+    return [e.owner for e in emissions]
+
+
+def chosen_of(*due, most=MOST):
+    chosen, rest = together(due, T_S, most)
+    assert sorted(owners(chosen) + owners(rest)) == sorted(owners(due))
+    return owners(chosen)
+
+
+def test_what_is_due_within_t_of_the_first_is_one_waveform():
+    assert chosen_of(emission("a", 20), emission("b", 60, 1.9), emission("c", 100, 2.1), emission("d", 140, -5)) == ["a", "b", "d"]
+
+
+def test_alternating_emissions_go_alone_and_the_others_do_not_take_them_along():
+    alone = emission("alone", 20, alternate=True)
+    assert chosen_of(alone, emission("b", 60), emission("c", 100)) == ["alone"]
+    assert chosen_of(emission("b", 60), alone, emission("c", 100)) == ["b", "c"]
+
+
+@pytest.mark.parametrize(
+    ("apart_m", "both"),
+    [(0.0, True), (0.99 * SAME_M, True), (1.01 * SAME_M, False), (0.99 * APART_M, False), (1.01 * APART_M, True)],
+)
+@pytest.mark.parametrize("angle", [0.0, 1.0, 2.5])
+def test_two_foci_are_one_place_or_apart_or_take_turns(apart_m, both, angle):
+    x_mm, y_mm = 60 + apart_m * 1e3 * math.cos(angle), 70 + apart_m * 1e3 * math.sin(angle)
+    assert chosen_of(emission("a", 60), emission("b", x_mm, y_mm=y_mm)) == (["a", "b"] if both else ["a"])
+
+
+def test_one_place_cannot_have_two_amplitudes_at_once():
+    assert chosen_of(emission("a", 60), emission("b", 61, amplitude=0.5)) == ["a"]
+    assert chosen_of(emission("a", 60, amplitude=0.5), emission("b", 61, amplitude=0.5)) == ["a", "b"]
+
+
+def test_one_that_is_in_the_way_waits_and_the_next_one_is_taken():
+    assert chosen_of(emission("a", 60), emission("b", 65), emission("c", 100), emission("d", 104)) == ["a", "c"]
+
+
+def test_ten_foci_are_one_waveform_and_the_eleventh_waits():
+    due = [emission(k, 10 * k) for k in range(12)]
+    assert chosen_of(*due) == list(range(10))
+    assert chosen_of(*due, most=3) == [0, 1, 2]
+
+
+places = st.tuples(st.floats(0, 200), st.floats(0, 140))
+trains = st.lists(st.tuples(st.floats(0.5, 30), st.floats(0, 10), places, st.booleans()), min_size=1, max_size=8)
+
+
+@given(trains, st.floats(2, 8))
+def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
+    """Each owner's newest emission replaces the one that waits, in its place: then none waits more turns than there are owners."""
+    due, waited, next_ms = {}, {}, [phase_ms for _, phase_ms, _, _ in trains]
+    for turn in range(60):
+        now_ms = turn * turn_ms
+        for owner, (period_ms, _, (x_mm, y_mm), alternate) in enumerate(trains):
+            while next_ms[owner] <= now_ms:
+                due[owner] = emission(owner, x_mm, next_ms[owner], y_mm=y_mm, alternate=alternate)
+                next_ms[owner] += period_ms
+        if not due:
+            continue
+        chosen, rest = together(list(due.values()), T_S)
+        assert chosen
+        assert len(chosen) == 1 or not any(e.alternate for e in chosen)
+        for e in chosen:
+            del due[e.owner]
+            waited.pop(e.owner, None)
+        assert owners(rest) == list(due)
+        for e in rest:
+            waited[e.owner] = waited.get(e.owner, 0) + 1
+            assert waited[e.owner] < len(trains)
+
+
+@given(st.lists(st.tuples(places, st.floats(0, 5), st.booleans()), min_size=1, max_size=14), st.integers(1, 10))
+def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
+    due = [emission(k, x, at, y_mm=y, alternate=alone) for k, ((x, y), at, alone) in enumerate(wanted)]
+    chosen, rest = together(due, T_S, most)
+    assert sorted((*chosen, *rest), key=lambda e: e.owner) == due
+    assert chosen[0] is due[0]
+    assert len(chosen) <= most
+    assert all(e.time_s <= chosen[0].time_s + T_S for e in chosen)
+    for k, one in enumerate(chosen):
+        for other in chosen[:k]:
+            apart_m = math.dist((one.x_m, one.y_m), (other.x_m, other.y_m))
+            assert apart_m <= SAME_M * 1.0001 or apart_m >= APART_M * 0.9999

@@ -1,0 +1,47 @@
+"""Benchmarks: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/test_scene_speed.py`."""
+
+import pytest
+
+from controller.finger_state import Emission
+from controller.policy import together
+from controller.scene import find_scene, load_scene, on_time, on_touch, start_effect
+from controller.touch.samples import TouchSample
+
+REPORTS = 1000
+
+
+@pytest.fixture(scope="module")
+def scene(board):
+    return load_scene(find_scene(board, board.scene), board)
+
+
+@pytest.mark.parametrize("way", ["over seven keys", "along the slider", "at rest"])
+def test_a_thousand_touch_reports(benchmark, scene, way):
+    x_m, y_m, step_m = {
+        "over seven keys": (0.005, 0.03, 2.6e-3),
+        "along the slider": (0.073, 0.09, 0.2e-3),
+        "at rest": (0.1, 0.12, 0),
+    }[way]
+    samples = [TouchSample(1, x_m + (k * step_m) % 0.11, y_m, k * 1e-3, True) for k in range(REPORTS)]
+
+    def slide():
+        state = None
+        for sample in samples:
+            state, _ = on_touch(scene, state, sample)
+
+    benchmark(slide)
+
+
+def test_a_thousand_beats_of_a_train(benchmark, scene):
+    def beat():
+        state, _ = start_effect(scene, None, "train", x_m=0.1, y_m=0.1, finger=None, amplitude=1.0, time_s=0.0, ticket=1)
+        for k in range(REPORTS):
+            state, _ = on_time(scene, state, k * 0.02)
+
+    benchmark(beat)
+
+
+@pytest.mark.parametrize("count", [1, 4, 10])
+def test_choose_what_plays_together(benchmark, count):
+    due = [Emission(0.0, 0.02 * k, 0.07, k, "r", owner=k) for k in range(count)]
+    benchmark(together, due, 2e-3)
