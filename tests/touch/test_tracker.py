@@ -1,5 +1,7 @@
 import gc
+import sys
 import tracemalloc
+from pathlib import Path
 
 import msgspec
 import pytest
@@ -10,7 +12,10 @@ from controller.device_settings import TouchPanel
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.tracker import Tracker
-from tests.touch.scripted_source import ScriptedSource, played, touch
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from scripted_source import ScriptedSource, played, touch
 
 TOUCH = TouchPanel(x_mm_from_axes=(210.0, 0.0, 0.0), y_mm_from_axes=(0.0, 148.0, 0.0), max_size_mm=30.0)
 PERIOD_S = 10e-3
@@ -213,7 +218,7 @@ def test_whatever_comes_each_finger_begins_moves_and_is_released_once(steps, con
 
 @pytest.mark.parametrize("name", ["dell_canvas_touch.evemu", "ep0430m09.4-finger-drag-down.events"])
 def test_a_recording_passes_through_but_for_what_is_bridged(board, name):
-    recording = Recording.open(board.folder.parent.parent / "tests" / "touch" / "recordings" / name)
+    recording = Recording.open(Path(__file__).parent / "recordings" / name)
     axes = recording.axes(board)
     bare = played(RecordingSource(recording, axes, 0.0))
     t = Tracker(RecordingSource(recording, axes, 0.0), board.touch, board.plate.length_m, board.plate.width_m)
@@ -230,7 +235,7 @@ def peak_of_a_turn_bytes(fingers):
     t = tracker(*script)
     samples = [t._source.read(k * PERIOD_S) for k in range(400)]
     turn = iter(range(400))
-    t._source.read = lambda now_s: samples[next(turn)]
+    t._source.read = lambda _: samples[next(turn)]
     largest = before = 0
     for k in range(400):
         if k == 200:
@@ -258,5 +263,4 @@ def test_no_block_over_512_bytes_and_nothing_kept_from_report_to_report():
     assert largest <= 512
     _, kept_by_few = peak_of_a_turn_bytes(4)
     _, kept_by_many = peak_of_a_turn_bytes(10)
-    print(largest, kept_by_few, kept_by_many)
     assert kept_by_few < 2048 > kept_by_many
