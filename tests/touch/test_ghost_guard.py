@@ -1,0 +1,230 @@
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from controller.device_settings import TouchPanel
+from controller.touch.ghost_guard import PERSISTENCE, GhostGuard
+from controller.touch.panel import Protocol
+from controller.touch.tracker import Tracker
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from ghostly_panel import PERIOD_S, GhostlyPanel
+from scripted_source import ScriptedSource, played, touch
+
+T_S, GHOST_S = 2e-3, 30e-3
+LIVES_REPORTS = 3  # from the scan that heard the emission on: gone 28 ms after it at the latest
+TOUCH = TouchPanel(x_mm_from_axes=(210.0, 0.0, 0.0), y_mm_from_axes=(0.0, 148.0, 0.0), ghost_ms=GHOST_S * 1e3)
+
+
+def perform(panel, *, ghost_ms=GHOST_S * 1e3, train_s=0.0, spot_period_s=None, until_s=10.0):
+    """A loop that plays an emission for each press, a train of 50 Hz while it stays, and a spot if asked.
+
+    Gives the tracker, and (press time, place, emissions) of every finger played.
+    """
+    tracker = Tracker(panel, msgspec.structs.replace(TOUCH, ghost_ms=ghost_ms), 0.210, 0.148)
+    fingers, down = [], {}
+    spot_s = 0.0 if spot_period_s else float("inf")
+    free_s = 0.0
+
+    def play(at_s):
+        nonlocal free_s
+        start_s = max(at_s + 1e-3, free_s)
+        free_s = start_s + T_S
+        panel.heard(start_s, free_s)
+        tracker.emitted(start_s, free_s)
+
+    while True:
+        train_next_s = min((finger[3] for finger in down.values()), default=float("inf"))
+        at_s = min(train_next_s, spot_s, tracker.next_time_s() or float("inf"))
+        if at_s > until_s:
+            return tracker, [finger[:3] for finger in fingers]
+        for sample in tracker.read(at_s):
+            if not sample.contact:
+                del down[sample.finger]
+            elif sample.finger not in down:
+                down[sample.finger] = finger = [sample.time_s, (sample.x_m, sample.y_m), 1, sample.time_s + 20e-3]
+                fingers.append(finger)
+                play(at_s)
+        for number, finger in down.items():
+            if finger[3] <= at_s:
+                finger[3] = finger[3] + 20e-3 if finger[3] - finger[0] < train_s else float("inf")
+                if finger[3] < float("inf") and tracker.confirmed(number):
+                    finger[2] += 1
+                    play(at_s)
+        if spot_s <= at_s:
+            spot_s += spot_period_s
+            play(at_s)
+
+
+@pytest.mark.parametrize("protocol", [Protocol.A, Protocol.B])
+def test_without_the_guard_one_tap_would_play_for_ever(protocol):
+    panel = GhostlyPanel([(0.5, 0.6, (50, 50))], probability=1.0, lives_reports=LIVES_REPORTS, protocol=protocol)
+    _, fingers = perform(panel, ghost_ms=0.0, train_s=0.05, until_s=3.0)
+    assert len(fingers) > 50
+    assert fingers[-1][0] > 2.9
+
+
+@given(st.floats(0, 1), st.integers(1, LIVES_REPORTS), st.sampled_from([Protocol.A, Protocol.B]), st.integers(0, 1 << 30))
+@settings(max_examples=60, deadline=None)
+def test_the_ghost_loop_dies_out_at_once_only_real_fingers_are_played(probability, lives_reports, protocol, seed):
+    """The bound: no emission beyond those of the real fingers."""
+    taps = [(0.2 + 0.3 * k, 0.3 + 0.3 * k, (20 + 15 * k, 30 + 8 * k)) for k in range(10)]
+    panel = GhostlyPanel(taps, probability=probability, lives_reports=lives_reports, protocol=protocol, seed=seed, until_s=4.0)
+    tracker, fingers = perform(panel, until_s=4.0)
+    assert [panel.is_real(*place) for _, place, _ in fingers] == [True] * len(taps)
+    assert sum(emissions for _, _, emissions in fingers) == len(taps)
+    assert tracker.tracking.ghosts == panel.ghosts
+    assert tracker.tracking.longest_ghost_s <= GHOST_S
+
+
+@given(st.integers(0, 1 << 30), st.sampled_from([Protocol.A, Protocol.B]))
+@settings(max_examples=30, deadline=None)
+def test_trains_of_several_fingers_make_ghosts_but_no_ghost_makes_an_emission(seed, protocol):
+    taps = [(0.2 + 0.07 * k, 1.5, (30 + 40 * k, 40 + 20 * k)) for k in range(4)]
+    panel = GhostlyPanel(taps, probability=1.0, lives_reports=LIVES_REPORTS, protocol=protocol, seed=seed, until_s=3.0)
+    _, fingers = perform(panel, train_s=1.0, until_s=3.0)
+    ghosts = [finger for finger in fingers if not panel.is_real(*finger[1])]
+    if protocol is Protocol.B:
+        assert not ghosts
+    assert len(fingers) - len(ghosts) == 4
+    assert sum(emissions for _, _, emissions in ghosts) <= 0.02 * panel.ghosts
+    assert panel.ghosts > 100
+
+
+@given(st.floats(0.001, 0.3), st.sampled_from([None, 10e-3, 2.5e-3]), st.sampled_from([Protocol.A, Protocol.B]))
+@settings(max_examples=40, deadline=None)
+def test_a_finger_that_lands_in_emissions_is_played_within_the_stated_time(after_s, spot_period_s, protocol):
+    """Also where emissions are back to back for seconds: at most 3 G after its first report."""
+    lands_s = 2.0 + after_s
+    first = (1.9, 2.05, (30, 30))
+    panel = GhostlyPanel([first, (lands_s, 4.0, (150, 100))], probability=0.0, lives_reports=1, protocol=protocol, until_s=4.5)
+    _, fingers = perform(panel, spot_period_s=spot_period_s, until_s=4.5)
+    second = [begun_s for begun_s, (x_m, _), _ in fingers if x_m == pytest.approx(0.150)]
+    assert len(second) == 1
+    assert second[0] <= lands_s + PERIOD_S + max(PERSISTENCE * GHOST_S, T_S + GHOST_S)
+
+
+@pytest.mark.parametrize("protocol", [Protocol.A, Protocol.B])
+@pytest.mark.parametrize("spot_period_s", [10e-3, 20e-3])
+def test_under_an_endless_spot_full_of_ghosts_real_fingers_are_played_and_ghosts_hardly_ever(protocol, spot_period_s):
+    """With numbers from the panel never; where contacts are told apart by distance alone, one in some hundreds."""
+    taps = [(0.5 + 0.4 * k, 0.75 + 0.4 * k, (30 + 10 * k, 40 + 5 * k)) for k in range(10)]
+    panel = GhostlyPanel(taps, probability=1.0, lives_reports=LIVES_REPORTS, protocol=protocol, until_s=5.0)
+    _, fingers = perform(panel, spot_period_s=spot_period_s, until_s=5.0)
+    real = [finger for finger in fingers if panel.is_real(*finger[1])]
+    assert panel.ghosts > 200
+    assert len(fingers) - len(real) <= (panel.ghosts / 100 if protocol is Protocol.A else 0)
+    if protocol is Protocol.B:
+        assert len(real) == len(taps)
+        assert max(begun_s - tap[0] for (begun_s, _, _), tap in zip(real, taps, strict=True)) <= PERIOD_S + PERSISTENCE * GHOST_S
+    else:
+        assert len(real) >= len(taps) - 1
+
+
+def held_until(first_s, *emissions, ghost_s=GHOST_S, stayed_since_s=None):
+    guard = GhostGuard(ghost_s)
+    for start_s, end_s in emissions:
+        guard.emitted(start_s, end_s)
+    return guard.cleared_s(first_s, first_s if stayed_since_s is None else stayed_since_s) if guard.suspects(first_s) else None
+
+
+def test_a_contact_before_an_emission_or_after_its_shadow_is_no_suspect():
+    assert held_until(0.999, (1.0, 1.002)) is None
+    assert held_until(1.033, (1.0, 1.002)) is None
+    assert held_until(1.0, (1.0, 1.002)) == pytest.approx(1.032)
+    assert held_until(1.031, (1.0, 1.002)) == pytest.approx(1.032)
+
+
+def test_shadows_that_touch_are_one_and_the_wait_has_an_end_all_the_same():
+    train = [(1 + k * 20e-3, 1.002 + k * 20e-3) for k in range(100)]
+    assert held_until(1.001, *train[:3]) == pytest.approx(1.072)
+    assert held_until(1.001, *train) == pytest.approx(1.001 + PERSISTENCE * GHOST_S)
+    assert held_until(1.001, *train, stayed_since_s=1.05) == pytest.approx(1.05 + PERSISTENCE * GHOST_S)
+
+
+def test_a_report_read_late_is_judged_by_the_shadow_it_was_made_in():
+    two = [(1.0, 1.002), (1.1, 1.102)]
+    assert held_until(1.01, *two) == pytest.approx(1.032)
+    assert held_until(1.05, *two) is None
+    assert held_until(1.11, *two) == pytest.approx(1.132)
+
+
+def test_a_repetition_without_end_is_ended_by_the_next_emission():
+    assert held_until(5.0, (1.0, float("inf"))) == pytest.approx(5.0 + PERSISTENCE * GHOST_S)
+    assert held_until(5.0, (1.0, float("inf")), (5.001, 5.001)) == pytest.approx(5.031)
+    assert held_until(5.04, (1.0, float("inf")), (5.001, 5.001)) is None
+
+
+def test_a_panel_without_ghosts_holds_nobody_back():
+    assert held_until(1.001, (1.0, 1.002), ghost_s=0.0) is None
+
+
+def test_a_suspect_that_stays_is_played_when_the_shadow_ends_and_one_that_goes_never():
+    def tracker(*reports):
+        t = Tracker(ScriptedSource(*reports), TOUCH, 0.210, 0.148)
+        t.emitted(1.0, 1.002)
+        return t
+
+    stays = tracker((1.01, [touch(0, 100)]), (1.02, [touch(0, 101)]), (2.0, []))
+    assert played(stays, 1.0319) == []
+    (sample,) = played(stays, 1.1)
+    assert (sample.x_m, sample.contact) == (0.101, True)
+    assert sample.time_s == pytest.approx(1.032)
+    assert stays.confirmed(0)
+    assert (stays.tracking.held_back, stays.tracking.ghosts) == (1, 0)
+    assert stays.tracking.longest_hold_s == pytest.approx(0.022)
+    goes = tracker((1.01, [touch(0, 100)]), (1.032, []))
+    assert played(goes) == []
+    assert (goes.tracking.held_back, goes.tracking.ghosts) == (1, 1)
+    assert goes.tracking.longest_ghost_s == pytest.approx(0.022)
+
+
+def test_a_ghost_that_goes_is_not_bridged_to_another_at_its_place():
+    t = Tracker(ScriptedSource((1.01, [touch(0, 100)]), (1.02, []), (1.025, [touch(1, 100)]), (1.03, [])), TOUCH, 0.210, 0.148)
+    t.emitted(1.0, 1.002)
+    assert played(t) == []
+    assert t.tracking.ghosts == 2
+
+
+def test_a_suspect_that_jumps_has_not_stayed():
+    steps = [(1.01 + 0.008 * k, [touch(0, 100 + 6 * (k >= 5))]) for k in range(40)]
+    t = Tracker(ScriptedSource(*steps), TOUCH, 0.210, 0.148)
+    t.emitted(1.0, float("inf"))
+    assert played(t)[0].time_s == pytest.approx(1.05 + PERSISTENCE * GHOST_S, abs=0.009)
+    slow = [(1.01 + 0.008 * k, [touch(0, 100 + 4 * k)]) for k in range(25)]
+    t = Tracker(ScriptedSource(*slow), TOUCH, 0.210, 0.148)
+    t.emitted(1.0, float("inf"))
+    assert played(t)[0].time_s == pytest.approx(1.01 + PERSISTENCE * GHOST_S, abs=0.009)
+
+
+shares = st.floats(0, 1)
+hauntings = st.lists(st.tuples(st.floats(0, 0.08), st.floats(1e-4, 10e-3), shares, shares), min_size=1, max_size=12)
+
+
+@given(hauntings)
+@settings(deadline=None)
+def test_no_ghost_of_any_emissions_is_ever_played(hauntings):
+    """A ghost begins anywhere from the start of its emission until G after its end, and is gone by then."""
+    end_s, sounds, changes = 1.0, [], []
+    for finger, (gap_s, duration_s, born, gone) in enumerate(hauntings):
+        start_s, end_s = end_s + gap_s, end_s + gap_s + duration_s
+        sounds.append((start_s, end_s))
+        last_s = end_s + GHOST_S
+        born_s = start_s + 1e-6 + born * (last_s - start_s - 2e-6)
+        changes += [(born_s, finger, True), (born_s + gone * (last_s - born_s), finger, False)]
+    reports, there = [], {}
+    for at_s, finger, begins in sorted(changes, key=lambda change: (change[0], change[1], not change[2])):
+        there = there | {finger: touch(finger, 9 * finger)} if begins else {k: v for k, v in there.items() if k != finger}
+        reports.append((at_s, list(there.values())))
+    t = Tracker(ScriptedSource(*reports), TOUCH, 0.210, 0.148)
+    samples = []
+    for start_s, end_s in sounds:
+        samples += played(t, start_s)
+        t.emitted(start_s, end_s)
+    assert samples + played(t) == []
+    assert t.tracking.ghosts == len(hauntings)

@@ -1,0 +1,157 @@
+import json
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.offline.prediction_error import METHODS, alpha_beta, kalman, main, measure, overshoot_m, rest_m
+from controller.touch.prediction import FARTHEST_AHEAD_M, LONGEST_AHEAD_S, PAUSE_S, REST_M, STOP_GAIN, Motion
+from controller.touch.recording import Recording
+
+PERIOD_S = 8e-3
+FOLDER = Path(__file__).parent / "recordings"
+OURS = "alpha-beta (the tracker)"
+
+
+def moved(way, period_s=PERIOD_S):
+    """A motion that was told the places `way` gives at each report, from time 0 on."""
+    motion = Motion(*way(0.0), 0.0)
+    for k in range(1, 100):
+        motion.report(*way(k * period_s), k * period_s)
+    return motion
+
+
+@pytest.fixture(scope="module")
+def figures():
+    return measure(Recording.open(path) for path in sorted(FOLDER.glob("*.ev*")))
+
+
+@given(st.floats(-0.8, 0.8), st.floats(-0.8, 0.8), st.floats(0, 0.015), st.floats(0.004, 0.012))
+def test_a_finger_of_constant_velocity_is_met_exactly(vx, vy, lag_s, period_s):
+    end_s = 99 * period_s
+    motion = moved(lambda time_s: (vx * time_s, vy * time_s), period_s)
+    at_s = end_s + 0.7 * period_s
+    x_m, y_m = motion.place(at_s, lag_s, period_s)
+    resting = REST_M if math.hypot(vx, vy) * 9 * period_s < 2 * REST_M else 0  # so slow that it may count as at rest
+    assert math.hypot(x_m - vx * (at_s + lag_s), y_m - vy * (at_s + lag_s)) <= 1e-6 + 3 * resting
+
+
+def test_one_percent_more_or_less_ahead_is_seen():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    x_m, _ = motion.place(motion.time_s + 5e-3, 10e-3, PERIOD_S)
+    assert x_m - motion.x_m == pytest.approx(0.3 * 15e-3, rel=1e-4)
+
+
+@given(st.lists(st.tuples(st.floats(-1.7e-4, 1.7e-4), st.floats(-1.7e-4, 1.7e-4)), min_size=20, max_size=60))
+def test_a_finger_at_rest_has_one_place_whatever_noise_its_reports_have(noise):
+    motion = Motion(0.1, 0.05, 0.0)
+    places = set()
+    for k, (x_m, y_m) in enumerate(noise, 1):
+        motion.report(0.1 + x_m / 2, 0.05 + y_m / 2, k * PERIOD_S)
+        if k >= 9:
+            places.add(motion.place(k * PERIOD_S + 5e-3, 10e-3, PERIOD_S))
+    assert len(places) == 1
+    assert math.dist(places.pop(), (0.1, 0.05)) < REST_M
+
+
+def test_a_finger_leaves_its_rest_with_the_first_report_beyond_the_dead_band():
+    motion = moved(lambda _: (0.1, 0.05))
+    motion.report(0.1 + REST_M + 1e-6, 0.05, 100 * PERIOD_S)
+    assert motion.place(100 * PERIOD_S, 0.0, PERIOD_S)[0] == 0.1 + REST_M + 1e-6
+
+
+def test_a_finger_that_is_not_reported_any_more_rests_where_it_was_reported_last():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    assert motion.place(motion.time_s + 2.5 * PERIOD_S, 20e-3, PERIOD_S) == (motion.x_m, motion.y_m)
+    halfway_m = motion.place(motion.time_s + 2 * PERIOD_S, 0.0, PERIOD_S)[0] - motion.x_m
+    assert halfway_m == pytest.approx(0.3 * 2 * PERIOD_S / 2, rel=1e-3)
+
+
+def test_once_a_report_shows_a_stop_the_prediction_is_close_to_it():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    stop_m = motion.x_m
+    motion.report(stop_m, 0.0, motion.time_s + PERIOD_S)
+    assert motion.place(motion.time_s, 20e-3, PERIOD_S) == (stop_m, 0.0)
+
+
+def test_a_step_that_is_shorter_than_those_before_limits_the_speed():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    motion.report(motion.x_m + 0.3e-3, 0.0, motion.time_s + PERIOD_S)
+    assert motion.vx == pytest.approx(STOP_GAIN * 0.3e-3 / PERIOD_S)
+
+
+def test_a_finger_that_turns_is_not_sent_on():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    motion.report(motion.x_m - 0.5e-3, 0.0, motion.time_s + PERIOD_S)
+    assert motion.place(motion.time_s, 20e-3, PERIOD_S) == (motion.x_m, motion.y_m)
+
+
+def test_neither_time_nor_way_ahead_is_without_limit():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    assert motion.place(motion.time_s, 0.2, PERIOD_S)[0] - motion.x_m == pytest.approx(0.3 * LONGEST_AHEAD_S, rel=1e-3)
+    fast = moved(lambda time_s: (3.0 * time_s, 4.0 * time_s))
+    assert math.dist(fast.place(fast.time_s, 20e-3, PERIOD_S), (fast.x_m, fast.y_m)) == pytest.approx(FARTHEST_AHEAD_M)
+
+
+def test_after_a_pause_the_velocity_of_before_is_forgotten():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    motion.report(motion.x_m, 1e-3, motion.time_s + PAUSE_S + 1e-3)
+    assert motion.vx == 0
+    assert 0 < motion.vy <= 1e-3 / PAUSE_S
+
+
+@given(
+    st.lists(st.tuples(st.floats(0, 0.3), st.floats(0, 0.2), st.floats(-1, 1)), max_size=40), st.floats(-1, 2), st.floats(0, 0.2)
+)
+def test_whatever_is_reported_and_however_time_jumps_the_place_is_not_far_from_the_last_report(reports, at_s, lag_s):
+    motion = Motion(0.1, 0.1, 0.0)
+    for x_m, y_m, time_s in reports:
+        motion.report(x_m, y_m, time_s)
+    place = motion.place(at_s, lag_s, PERIOD_S)
+    assert math.dist(place, (motion.x_m, motion.y_m)) <= FARTHEST_AHEAD_M * (1 + 1e-9)
+
+
+def test_on_the_recordings_the_tracker_is_as_good_as_the_readme_says(figures):
+    errors = figures["methods"][OURS]["error_mm"]
+    for horizon_ms, p95_mm, worst_mm in (("3.4", 0.36, 1.7), ("10", 0.8, 4.7), ("20", 1.4, 8.0), ("30", 1.9, 11.0)):
+        assert errors[horizon_ms]["p95"] < p95_mm
+        assert errors[horizon_ms]["worst"] < worst_mm
+
+
+def test_on_the_recordings_no_other_way_has_a_smaller_worst_error(figures):
+    for horizon_ms in ("3.4", "10", "20", "30"):
+        worst_mm = {name: found["error_mm"][horizon_ms]["worst"] for name, found in figures["methods"].items()}
+        assert min(worst_mm, key=worst_mm.get) == OURS
+
+
+def test_stops_turns_and_rest_are_met_better_than_by_the_kalman_filter():
+    assert overshoot_m(alpha_beta, turns=False) < 0.7e-3
+    assert overshoot_m(kalman, turns=False) > 3e-3
+    assert overshoot_m(alpha_beta, turns=True) < 0
+    assert rest_m(alpha_beta) == 0
+    assert rest_m(kalman) > 0.2e-3
+
+
+def test_every_method_is_exact_on_a_straight_line_and_told_apart_at_one_percent(board, evemu_text):
+    recording = Recording(evemu_text(*[(k * 8e-3, {0: (20 + 1.6 * k, 50)}) for k in range(90)]))
+    found = measure([recording])["methods"]
+    assert found["last report"]["error_mm"]["10"]["median"] == pytest.approx(2.0, rel=0.009)
+    for name in METHODS.keys() - {"last report"}:
+        assert found[name]["error_mm"]["10"]["median"] < 0.02
+
+
+def test_the_command_prints_a_table_or_json_and_draws(capsys, tmp_path):
+    file = str(FOLDER / "ep0430m09.2-fingers-touch-release.events")
+    assert main([file, "--plot", str(tmp_path / "error.png")]) == 0
+    assert OURS in capsys.readouterr().out
+    assert (tmp_path / "error.png").stat().st_size > 1000
+    assert main([file, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["recordings"]["ep0430m09.2-fingers-touch-release.events"]["fingers"] == 2
+
+
+@pytest.mark.parametrize(("arguments", "code"), [(["absent.evemu"], 69), ([__file__, "--plot", "x.gif"], 78)])
+def test_what_cannot_be_done_is_said_in_one_line(arguments, code, capsys):
+    assert main(arguments) == code
+    assert capsys.readouterr().err.count("\n") == 1
