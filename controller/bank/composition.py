@@ -1,100 +1,174 @@
-"""Drive words for several points at once, or for points between cells: add responses, then take the sign.
+"""Drive words for several points at once, for points between cells, and for less than full amplitude.
 
-Between cells a response is interpolated bilinearly, before the sign. Of several points each response
-is first divided by the sum of its absolute values, which is the amplitude that point would get alone:
-equal weights then give every finger the same share of its own best, however strongly the plate
-answers there. Added as they are, the strongest would take the bits of the others.
+Responses are interpolated and added before the sign is taken. Each point's response is first divided
+by the amplitude that point would get alone: equal weights then give every finger the same share of
+its own best, however strongly the plate answers there.
+
+An amplitude is a share of what the same point would get if all points of the emission were played at
+full amplitude. It is reached by weights, for what fingers have more or less of than each other, and
+by holding bits at idle where the sum is weak, for what they have less of together. Both are set by
+what the bits really do at each point: amplitudes are linear in the bits, so that is one inner
+product for each point, and few rounds are enough.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from operator import mul
 
 import numpy as np
 
-from controller.bank.packing import CHANNELS
+from controller.bank.amplitude import hold_threshold, in_band_share
+from controller.bank.holding import Holding
+from controller.bank.interpolation import Interpolation
+from controller.bank.packing import CHANNELS, WORD, WordPacker
 from controller.bank.reader import Bank
 
-TYPICAL_POINTS = 10  # room taken in advance; more are composed too
-# A sum is either exactly zero or far above this: a channel that idles high plays high at zero.
-JUST_BELOW_ZERO = -np.finfo(np.float32).tiny
+MOST_POINTS = 10
+ROUNDS = 4  # at most, of setting weights and threshold
+CLOSE = 0.01  # near enough: well below a step of amplitude
+NO_SUM = np.array(0, np.float32)
+
+Point = tuple[float, float, float]  # x_m, y_m, amplitude
 
 
 class Composer:
     """Composes drive words from a bank's responses in memory taken once.
+
+    Everything is done in deviations from idle: a response of a channel that idles high is negated, so
+    that a bit deviates where its sum is above a threshold of at least zero, and what it then adds to
+    the displacement is the response itself. A sum of zero leaves the channel idle.
 
     Parameters
     ----------
     bank : Bank
         The open bank; its response section is mapped with the first composition.
     idle_word : int
-        Level of each channel where the sum is exactly zero.
+        Level of each channel while nothing is to be gained by another.
     """
 
     def __init__(self, bank: Bank, idle_word: int) -> None:
         if not 0 <= idle_word < 1 << CHANNELS:
             raise ValueError(f"idle word {idle_word:#x} is not {CHANNELS} bits")
         values = bank.samples * CHANNELS
-        self._bank = bank
-        self._corners = np.empty((4, values), np.float32)
-        self._points = np.empty((TYPICAL_POINTS, values), np.float32)
-        self._sum = np.empty(values, np.float32)
-        self._ones = np.ones(values, np.float32)
-        self._bits = np.empty(values, np.bool_)
-        self._corner_weights = np.empty(4, np.float32)
-        self._point_weights = np.empty(TYPICAL_POINTS, np.float32)
-        idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.float32)
-        self._threshold = np.tile(idle_high * JUST_BELOW_ZERO, bank.samples)
+        self._holding = Holding(bank.samples, bank.header.bit_clock_hz)
+        self._packer = WordPacker(self._holding.padded_samples)
+        padded = self._holding.padded_samples * CHANNELS
+        self._interpolation = Interpolation(bank)
+        self._interpolated = np.empty(values, np.int16)
+        self._points = np.zeros((MOST_POINTS, padded), np.float32)
+        self._points_of_samples = self._points[:, :values]
+        self._sum = np.empty(padded, np.float32)
+        self._ones = np.ones(padded, np.float32)
+        self._deviates = np.empty(padded, np.float32)  # bits as numbers; also the room for absolute values
+        self._weights = np.empty(MOST_POINTS, np.float32)
+        self._reached = np.empty(MOST_POINTS, np.float32)
+        idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
+        self._flip = np.tile(1 - 2 * idle_high, bank.samples)
+        self._low_at = np.tile(-idle_high, bank.samples)  # largest whole number that plays low
+        self._held = np.empty((), np.float32)
+        self._normalised = np.empty(padded, np.float32)
+        self._idle_word = np.array(idle_word, WORD)
+        self._bits = self._packer.bits
+        self._bits_of_samples = self._bits[:values]
+        self._view = self._packer.words.data.cast("B")[: 4 * bank.samples].toreadonly()
 
-    def compose(self, points: Sequence[tuple[float, float, float]]) -> memoryview:
+    def compose(self, points: Sequence[Point]) -> memoryview:
         """Drive words that make every point jump at T.
 
         Parameters
         ----------
-        points : sequence of (x_m, y_m, weight)
-            Where, and with what share; a negative weight pulls instead of pushing. Points beyond the
-            outermost cells take the nearest place among the cells.
+        points : sequence of (x_m, y_m, amplitude)
+            1 to `MOST_POINTS`; above 0 to 1. Points beyond the outermost cells take the nearest place
+            among the cells.
 
         Returns
         -------
         memoryview
-            4 bytes a sample, as they go to the wire.
+            4 bytes a sample, as they go to the wire; valid until the next call.
 
         Raises
         ------
         BankError
             If a cell that a point needs is not in the bank, or damaged.
         ValueError
-            If there are no points, or numbers that are not finite.
+            If there are no points or too many, or numbers that are not finite or beyond their range.
         """
-        if not points:
-            raise ValueError("no points to compose")
-        if len(points) > len(self._points):
-            self._points = np.empty((len(points), self._sum.size), np.float32)
-            self._point_weights = np.empty(len(points), np.float32)
-        for row, (x_m, y_m, _) in enumerate(points):
-            self._interpolate(x_m, y_m, self._points[row])
-        if len(points) == 1 and points[0][2] > 0:
-            summed = self._points[0]  # its sign does not depend on its size
+        count = len(points)
+        if not 1 <= count <= MOST_POINTS:
+            raise ValueError(f"{count} points to compose, not 1 to {MOST_POINTS}")
+        full = True
+        for _, _, amplitude in points:
+            if not 0 < amplitude <= 1:
+                raise ValueError(f"amplitude {amplitude} is not above 0 and at most 1")
+            full = full and amplitude == 1
+        if count == 1 and full:
+            x_m, y_m, _ = points[0]
+            self._interpolation.at(x_m, y_m, self._interpolated)
+            np.greater(self._interpolated, self._low_at, out=self._bits_of_samples)
+            self._packer.pack()
         else:
-            summed = self._sum
-            for row, (_, _, weight) in enumerate(points):
-                np.abs(self._points[row], out=self._sum)
-                total = float(np.dot(self._sum, self._ones))
-                self._point_weights[row] = weight / total if total else 0.0
-            if not np.isfinite(self._point_weights[: len(points)]).all():
-                raise ValueError("a weight is not finite")
-            np.dot(self._point_weights[: len(points)], self._points[: len(points)], out=summed)
-        np.greater(summed, self._threshold, out=self._bits)
-        return np.packbits(self._bits, bitorder="little").data
+            self._compose(points, full)
+            self._packer.pack()
+            np.bitwise_xor(self._packer.words, self._idle_word, out=self._packer.words)
+        return self._view
 
-    def _interpolate(self, x_m: float, y_m: float, out: np.ndarray[tuple[int], np.dtype[np.float32]]) -> None:
-        """Response at a point in m per V, from the cells around it that count."""
-        used = 0
-        for cell, weight in zip(*self._bank.grid.corners(x_m, y_m), strict=True):
-            if weight > 0:
-                levels, scale_m_per_v = self._bank.response(cell)
-                np.copyto(self._corners[used], levels.reshape(-1))
-                self._corner_weights[used] = weight * scale_m_per_v
-                used += 1
-        np.dot(self._corner_weights[:used], self._corners[:used], out=out)
+    def _compose(self, points: Sequence[Point], full: bool) -> None:
+        """Set the bits for several points, or for less than full amplitude."""
+        count = len(points)
+        sizes = []  # of each response alone
+        for row, point in enumerate(points):
+            self._interpolation.at(point[0], point[1], self._interpolated)
+            np.multiply(self._interpolated, self._flip, out=self._interpolated)
+            np.copyto(self._points_of_samples[row], self._interpolated)
+            np.abs(self._points[row], out=self._deviates)
+            sizes.append(float(np.dot(self._deviates, self._ones)) or 1.0)
+        shares = [1.0] * count
+        self._add(shares, sizes)
+        np.greater(self._sum, NO_SUM, out=self._bits)
+        if full:
+            return
+        shares = [amplitude for _, _, amplitude in points]
+        whole = _length(shares) / math.sqrt(count)
+        left = in_band_share(whole)
+        wanted = [share * reached * left / whole for share, reached in zip(shares, self._reach(sizes), strict=True)]
+        self._add(shares, sizes)
+        self._holding.measure(self._sum)
+        self._holding.normalise(self._sum, self._normalised)
+        for further in range(ROUNDS - 1, -1, -1):
+            self._held[...] = hold_threshold(left)
+            np.greater(self._normalised, self._held, out=self._bits)
+            if not further:
+                return
+            reached = self._reach(sizes)
+            if all(abs(want - got) <= CLOSE * want for want, got in zip(wanted, reached, strict=True)):
+                return
+            length = _length(shares)
+            gain = sum(map(mul, reached, shares)) / length**2  # of the plate and of what is held, for all points together
+            if gain <= 0:
+                return
+            shares = [share + (want - got) / gain for share, want, got in zip(shares, wanted, reached, strict=True)]
+            grown = _length(shares) / length
+            left = min(left * grown, 1.0)
+            shares = [share / grown for share in shares]  # the sum stays as strong as was measured: what grows is held less
+            if count > 1:
+                self._add(shares, sizes)
+                self._holding.normalise(self._sum, self._normalised)
+
+    def _add(self, shares: list[float], sizes: list[float]) -> None:
+        """Sum of the points' responses, each of size one, with these shares."""
+        for row, (share, size) in enumerate(zip(shares, sizes, strict=True)):
+            self._weights[row] = share / size
+        np.dot(self._weights[: len(shares)], self._points[: len(shares)], out=self._sum)
+
+    def _reach(self, sizes: list[float]) -> list[float]:
+        """What the bits do at each point, in sizes of its response."""
+        count = len(sizes)
+        np.copyto(self._deviates, self._bits)
+        np.dot(self._points[:count], self._deviates, out=self._reached[:count])
+        return [float(self._reached[row]) / size for row, size in enumerate(sizes)]
+
+
+def _length(shares: list[float]) -> float:
+    return math.sqrt(sum(map(mul, shares, shares)))

@@ -49,12 +49,44 @@ class Grid:
         """Cells of the whole grid, built or not."""
         return self.nx * self.ny
 
+    def place(self, cell: int) -> tuple[float, float]:
+        """Point of a cell in m."""
+        iy, ix = divmod(cell, self.nx)
+        return self.x0_m + ix * self.pitch_m, self.y0_m + iy * self.pitch_m
+
     def nearest(self, x_m: float, y_m: float) -> tuple[int, float]:
         """Cell nearest to a point, and its distance from it in m."""
         ix = min(max(round((x_m - self.x0_m) / self.pitch_m), 0), self.nx - 1)
         iy = min(max(round((y_m - self.y0_m) / self.pitch_m), 0), self.ny - 1)
         distance_m = math.hypot(x_m - self.x0_m - ix * self.pitch_m, y_m - self.y0_m - iy * self.pitch_m)
         return iy * self.nx + ix, distance_m
+
+    def patch(self, x_m: float, y_m: float) -> tuple[int, int, int, float, float]:
+        """Give the cells around a point that count: the first, how many along x and along y, and the place between.
+
+        Returns
+        -------
+        cell : int
+            The one with the lowest x and y; the others are `cell + 1`, `cell + nx`, `cell + nx + 1`.
+        columns, rows : int
+            1 or 2; 1 where the point lies on a column or row of cells, or beyond the outermost.
+        right, up : float
+            Where between the columns and the rows, in pitches: 0 where there is one.
+        """
+        ix, right = self._along(x_m - self.x0_m, self.nx - 1)
+        iy, up = self._along(y_m - self.y0_m, self.ny - 1)
+        return iy * self.nx + ix, 2 if right else 1, 2 if up else 1, right, up
+
+    def _along(self, distance_m: float, last: int) -> tuple[int, float]:
+        """Index and what is beyond it, in pitches; nothing outside the grid.
+
+        It is rounded to a millionth of a pitch: on a cell, rounding must not ask for its neighbours.
+        """
+        millionths = round(distance_m / self.pitch_m * 1e6)
+        if millionths <= 0:
+            return 0, 0.0
+        index, beyond = divmod(millionths, 1_000_000)
+        return (last, 0.0) if index >= last else (index, beyond * 1e-6)
 
     def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
         """Give the four cells around a point and their bilinear weights, which sum to one.

@@ -51,7 +51,7 @@ class Bank:
         self.close = weakref.finalize(self, os.close, fd)
         self._entry_of, self._crc_of, self._scale_of = tables
         self._drive: memoryview | None = None
-        self._response: memoryview | None = None
+        self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
         self._response_good = bytearray(header.entries)
         self._drive_stride = sections["drive"].stride
@@ -164,19 +164,59 @@ class Bank:
         BankError
             If the cell has no entry, or a damaged one.
         """
+        entry = self._checked_response(cell)
+        start = entry * self._response_stride
+        view = self._response[start : start + self._response_bytes]
+        return np.frombuffer(view, np.int8).reshape(self.samples, CHANNELS), self._scale_of[entry]
+
+    def scale(self, cell: int) -> float:
+        """Scale of a cell that `response_patch` gave, in m per V of one level."""
+        return self._scale_of[self._entry_of[cell]]
+
+    def response_patch(self, cell: int, columns: int, rows: int) -> NDArray[np.int8]:
+        """Responses of up to four neighbouring cells as one array, for one pass over all of them.
+
+        Parameters
+        ----------
+        cell : int
+            The one with the lowest x and y.
+        columns, rows : int
+            1 or 2 each.
+
+        Returns
+        -------
+        (rows, columns, samples * 32) int8 array
+            In drive order; a read-only view of the file.
+
+        Raises
+        ------
+        BankError
+            If a cell has no entry, or a damaged one.
+        """
+        first = self._checked_response(cell)
+        if columns == 2:
+            self._checked_response(cell + 1)  # entries are numbered as cells are: the next one in the file
+        stride = self._response_stride
+        up = self._checked_response(cell + self.grid.nx) - first if rows == 2 else 0
+        if columns == rows == 2:
+            self._checked_response(cell + self.grid.nx + 1)
+        shape = (rows, columns, self._response_bytes)
+        return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
+
+    def _checked_response(self, cell: int) -> int:
+        """Entry of a cell whose response is mapped and good."""
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
-        if self._response is None:
-            self._response = self._map("response")
-        start = entry * self._response_stride
-        view = self._response[start : start + self._response_bytes]
         if not self._response_good[entry]:
+            if not self._response:
+                self._response = self._map("response")
+            start = entry * self._response_stride
             self.counters.response_checked += 1
-            if zlib.crc32(view) != self._crc_of[entry][1]:
+            if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
-        return np.frombuffer(view, np.int8).reshape(self.samples, CHANNELS), self._scale_of[entry]
+        return entry
 
     def _missing(self, cell: int) -> BankError:
         return BankError(f"{self.path}: no entry for cell {cell} of {self.grid.nx} x {self.grid.ny}; rebuild it: {self.rebuild}")

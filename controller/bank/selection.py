@@ -1,21 +1,25 @@
 """Which waveform serves a set of points: an entry as it is, or responses composed.
 
-A lone finger near a cell's centre plays the bank's entry without any arithmetic. Farther off, and
-for several points at once, responses are interpolated, summed and signed. Points are first rounded
-to a lattice, so that a finger at rest asks for the same waveform again and finds it resident.
+A lone finger near a cell's centre at full amplitude plays the bank's entry without any arithmetic.
+Farther off, for less, and for several points at once, responses are interpolated, summed and signed.
+Points are first rounded to a lattice and amplitudes to steps, so that a finger at rest asks for the
+same waveform again and finds it resident.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-from controller.bank.composition import Composer
+from controller.bank.amplitude import AMPLITUDES, amplitude_step
+from controller.bank.composition import Composer, Point
 from controller.bank.reader import Bank
 
 LATTICE_M = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
+NEAR_M = 0.4e-3  # a waveform for a place this near serves as well: at most 1.5 % less (README.md)
 
-Point = tuple[float, float, float]  # x_m, y_m, weight
-Key = int | tuple[tuple[int, int, float], ...]  # a cell, or points on the lattice with their weights
+LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
+Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
 
 
 class Selection:
@@ -26,9 +30,9 @@ class Selection:
     bank : Bank
         The open bank.
     snap_m : float
-        A lone finger at most this far from a cell's centre plays that cell.
+        A lone finger of full amplitude at most this far from a cell's centre plays that cell.
     idle_word : int
-        Level of every channel whose summed response is exactly zero.
+        Level of every channel while nothing is to be gained by another.
     """
 
     def __init__(self, bank: Bank, snap_m: float, idle_word: int) -> None:
@@ -42,14 +46,28 @@ class Selection:
         """Whether anything had to be composed so far, and the response section with it mapped."""
         return self._composer is not None
 
+    def prepare(self) -> None:
+        """Take the memory for composing now, where it must not be taken later."""
+        if self._composer is None:
+            self._composer = Composer(self._bank, self._idle_word)
+
     def key(self, points: Sequence[Point]) -> Key:
-        """Name of the waveform for these points; equal keys have equal words."""
+        """Name of the waveform for these points (x_m, y_m, amplitude); equal keys have equal words.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is not above 0 and at most 1.
+        """
         if len(points) == 1:
-            x_m, y_m, _ = points[0]
-            cell, distance_m = self._bank.grid.nearest(x_m, y_m)
-            if distance_m <= self._snap_m:
-                return cell
-        return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), weight) for x_m, y_m, weight in points))
+            x_m, y_m, amplitude = points[0]
+            step = amplitude_step(amplitude)
+            if step == 0:
+                cell, distance_m = self._bank.grid.nearest(x_m, y_m)
+                if distance_m <= self._snap_m:
+                    return cell
+            return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
+        return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), amplitude_step(share)) for x_m, y_m, share in points))
 
     def words(self, key: Key) -> memoryview:
         """Drive words of a key, valid until the next call.
@@ -63,8 +81,23 @@ class Selection:
             return self._bank.words(key)
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
-        return self._composer.compose([(x * LATTICE_M, y * LATTICE_M, weight) for x, y, weight in key])
+        return self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
 
-    def reusable(self, key: Key, resident: Key) -> bool:
-        """Whether a resident waveform serves instead."""
-        return key == resident
+    def reusable(self, key: Key, resident: Key, near_m: float = NEAR_M) -> bool:
+        """Whether a waveform that the FPGA holds serves instead of another that it does not.
+
+        Only for one point: of the same amplitude, and at most `near_m` away.
+        """
+        wanted, there = self._lone(key), self._lone(resident)
+        if wanted is None or there is None or wanted[2] != there[2]:
+            return False
+        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= near_m
+
+    def _lone(self, key: Key) -> tuple[float, float, int] | None:
+        """Place and step of amplitude of a key of one point."""
+        if isinstance(key, int):
+            return (*self._bank.grid.place(key), 0)
+        if len(key) != 1:
+            return None
+        x, y, step = key[0]
+        return x * LATTICE_M, y * LATTICE_M, step

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from controller.bank.composition import TYPICAL_POINTS, Composer
+from controller.bank.composition import MOST_POINTS, Composer
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
 from controller.bank.reader import Bank
@@ -43,16 +43,20 @@ def bank(tmp_path_factory, make_bank, waves):
         yield opened
 
 
+def interpolated(bank, x_m, y_m):
+    """Bilinear, with weights in 256ths: whole numbers."""
+    cells, shares = bank.grid.corners(x_m, y_m)
+    used = [(cell, share * bank.response(cell)[1]) for cell, share in zip(cells, shares, strict=True) if share]
+    total = sum(share for _, share in used)
+    return sum(round(256 * share / total) * bank.response(cell)[0].astype(np.int64) for cell, share in used)
+
+
 def reference(bank, points, normalised=True):
-    """The composition in float64, straight from its definition."""
+    """The composition of points at full amplitude in float64, straight from its definition."""
     total = np.zeros((bank.samples, CHANNELS))
-    for x_m, y_m, weight in points:
-        here = np.zeros_like(total)
-        for cell, share in zip(*bank.grid.corners(x_m, y_m), strict=True):
-            if share:
-                levels, scale = bank.response(cell)
-                here += share * scale * levels.astype(np.float64)
-        total += weight * here / np.abs(here).sum() if normalised else weight * here
+    for x_m, y_m, _ in points:
+        here = interpolated(bank, x_m, y_m)
+        total += here / np.abs(here).sum() if normalised else here
     return total
 
 
@@ -61,17 +65,19 @@ def amplitude(words, response):
     return float(np.sum((channel_bits(np.frombuffer(words, "<u4")) * 2.0 - 1) * response) / np.abs(response).sum())
 
 
-@pytest.mark.parametrize("count", [1, 2, 5, TYPICAL_POINTS + 3])
+@pytest.mark.parametrize("count", [1, 2, 5, MOST_POINTS])
 def test_composes_what_its_definition_in_float64_gives(bank, count):
     random = np.random.default_rng(count)
     composer = Composer(bank, IDLE_WORD)
     for _ in range(5):
-        points = [(*random.uniform([0, 0], [19e-3, 17e-3]), random.uniform(0.5, 2)) for _ in range(count)]
+        points = [(*random.uniform([0, 0], [19e-3, 17e-3]).tolist(), 1.0) for _ in range(count)]
         exact = reference(bank, points)
         bits = channel_bits(np.frombuffer(composer.compose(points), "<u4"))
-        expected = channel_bits(drive_words(exact, IDLE_WORD))
-        # float32 rounds a sum of some 1e-5 by some 1e-7 of it: only a sum next to zero may change its sign
-        assert (np.abs(exact[bits != expected]) < 2e-6 * np.abs(exact).max()).all()
+        differing = exact[bits != channel_bits(drive_words(exact, IDLE_WORD))]
+        # one point is whole numbers throughout; float32 rounds a sum of several by some 1e-7 of it,
+        # so only one next to zero may change its sign
+        assert differing.size == 0 or count > 1
+        assert (np.abs(differing) < 1e-6 * np.abs(exact).max()).all()
 
 
 def test_on_a_cell_it_plays_the_entry_but_for_bits_too_small_for_8_bits(bank, waves):
@@ -106,15 +112,9 @@ def test_equal_weights_give_equal_shares_however_unequal_the_responses(tmp_path,
         strong, weak = amplitude(words, responses[0]), amplitude(words, responses[5])
         assert strong == pytest.approx(weak, abs=0.03)  # 6,400 random bits: 0.01 expected
         assert min(strong, weak) > 0.65  # two independent fingers: 1 / sqrt(2)
-        as_they_are = drive_words(reference(bank, points, normalised=False), IDLE_WORD)
+        scales = {cell: bank.response(cell)[1] for cell in (0, 5)}
+        as_they_are = drive_words(sum(scales[c] * bank.response(c)[0].astype(float) for c in scales), IDLE_WORD)
         assert amplitude(as_they_are, responses[5]) < 0.2
-        favoured = Composer(bank, IDLE_WORD).compose([(*ends[0], 0.5), (*ends[1], 1.0)])
-        assert amplitude(favoured, responses[5]) > weak + 0.1
-
-
-def test_a_negative_weight_pulls(bank, waves):
-    point = GRID.points()[10]
-    assert amplitude(Composer(bank, IDLE_WORD).compose([(*point, -1.0)]), waves.at(*point)) < -0.999
 
 
 def test_where_nothing_is_to_be_done_channels_stay_idle(tmp_path, make_bank):
@@ -124,9 +124,9 @@ def test_where_nothing_is_to_be_done_channels_stay_idle(tmp_path, make_bank):
     with Bank.open(tmp_path / "bank") as bank:
         composer = Composer(bank, IDLE_WORD)
         quiet = [IDLE_WORD] * 9
-        assert np.frombuffer(composer.compose([(0, 0, 0.0)]), "<u4").tolist() == quiet
         quiet[4] |= 1 << 3
-        assert np.frombuffer(composer.compose([(0, 0, 1.0)]), "<u4").tolist() == quiet
+        for points in ([(0, 0, 1.0)], [(0, 0, 0.5)], [(0, 0, 1.0), (0, 0, 1.0)], [(0, 0, 0.5), (0, 0, 1.0)]):
+            assert np.frombuffer(composer.compose(points), "<u4").tolist() == quiet
 
 
 def test_only_cells_that_count_are_looked_up(bank):
@@ -139,16 +139,23 @@ def test_only_cells_that_count_are_looked_up(bank):
         composer.compose([(*GRID.points()[0], 1.0), (1.0, 1.0, 1.0)])  # beyond the rim: the corner cell
 
 
-@pytest.mark.parametrize("points", [[], [(np.nan, 0, 1.0)], [(0.01, 0.01, np.nan)], [(0.01, 0.01, 1.0), (0.01, 0.01, np.inf)]])
+POINT = (0.01, 0.01, 1.0)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [[], [POINT] * (MOST_POINTS + 1), [(np.nan, 0, 1.0)], *([POINT, (0.01, 0.01, a)] for a in (np.nan, np.inf, 0.0, -0.5, 1.01))],
+)
 def test_refuses_what_cannot_be_composed(bank, points):
-    with pytest.raises(ValueError, match=r"point|finite|NaN"):
+    with pytest.raises(ValueError, match=r"points|NaN|amplitude"):
         Composer(bank, IDLE_WORD).compose(points)
 
 
-def test_words_handed_out_do_not_change_with_the_next_composition(bank):
+def test_words_are_handed_out_without_copying_and_cannot_be_written(bank):
     composer = Composer(bank, IDLE_WORD)
     first = composer.compose([(*GRID.points()[0], 1.0)])
     before = first.tobytes()
-    composer.compose([(*GRID.points()[20], 1.0)])
-    assert first == before
+    assert composer.compose([(*GRID.points()[20], 1.0)]).tobytes() != before
+    assert first != before  # valid until the next call
     assert len(first) == 4 * SAMPLES
+    assert first.readonly

@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from controller.bank.amplitude import AMPLITUDES, amplitude_step
 from controller.bank.composition import Composer
+from controller.bank.packing import edges
 from controller.bank.reader import Bank
 from controller.bank.selection import LATTICE_M, Selection
 
@@ -46,7 +50,7 @@ def test_a_finger_at_rest_asks_for_the_same_waveform_whatever_its_noise(selectio
     assert len(keys) == 1
 
 
-def test_the_order_of_the_fingers_does_not_matter_but_their_weights_do(selection):
+def test_the_order_of_the_fingers_does_not_matter_but_their_amplitudes_do(selection):
     a, b = (0.05, 0.05, 1.0), (0.15, 0.1, 0.5)
     assert selection.key([a, b]) == selection.key([b, a])
     assert selection.key([a, b]) != selection.key([(0.05, 0.05, 0.5), (0.15, 0.1, 1.0)])
@@ -56,3 +60,48 @@ def test_two_fingers_on_cells_are_composed_all_the_same(bank, selection):
     (ax, ay), (bx, by) = bank.grid.points()[[50, 120]]
     words = bytes(selection.words(selection.key([(ax, ay, 1.0), (bx, by, 1.0)])))
     assert words not in {bytes(bank.words(50)), bytes(bank.words(120))}
+
+
+def test_less_than_full_amplitude_is_composed_on_a_cell_too(bank, selection):
+    x_m, y_m = bank.grid.points()[50]
+    key = selection.key([(x_m, y_m, 0.5)])
+    assert not isinstance(key, int)
+    held, full = (np.frombuffer(words, "<u4") for words in (selection.words(key), bank.words(50)))
+    assert edges(held).sum() < 0.7 * edges(full).sum()
+
+
+@given(st.floats(0.25, 1))
+def test_an_amplitude_is_rounded_by_less_than_it_may_be_off(amplitude):
+    step = amplitude_step(amplitude)
+    assert AMPLITUDES[step] == pytest.approx(amplitude, rel=0.022)
+    assert amplitude_step(AMPLITUDES[step]) == step
+
+
+def test_a_quarter_is_the_least_amplitude():
+    assert AMPLITUDES[0] == 1
+    assert AMPLITUDES[amplitude_step(0.25)] == AMPLITUDES[amplitude_step(1e-9)] == 0.25
+
+
+@pytest.mark.parametrize("amplitude", [0.0, -1.0, 1.001, float("nan"), float("inf")])
+def test_refuses_an_amplitude_that_cannot_be(selection, amplitude):
+    with pytest.raises(ValueError, match="amplitude"):
+        selection.key([(0.05, 0.05, amplitude)])
+
+
+def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serves(bank, selection):
+    x_m, y_m = bank.grid.points()[50]
+    cell = selection.key([(x_m, y_m, 1.0)])
+    x_m, y_m = x_m + 1.5e-3, y_m  # off the cell
+    here = selection.key([(x_m, y_m, 1.0)])
+    near, far = (selection.key([(x_m + off_m, y_m, 1.0)]) for off_m in (0.25e-3, 0.75e-3))
+    assert selection.reusable(near, here)
+    assert not selection.reusable(far, here)
+    assert not selection.reusable(here, cell)
+    assert selection.reusable(here, cell, near_m=1.7e-3)
+    assert selection.reusable(cell, cell)
+    weaker = selection.key([(x_m, y_m, 0.5)])
+    assert not selection.reusable(weaker, here)
+    assert selection.reusable(weaker, weaker)
+    two = selection.key([(x_m, y_m, 1.0), (0.15, 0.1, 1.0)])
+    assert not selection.reusable(two, here)
+    assert not selection.reusable(here, two)
