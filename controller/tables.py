@@ -45,8 +45,8 @@ def service_table(figures: dict[str, Any]) -> str:
     """Table of what a service did, from start to end."""
     latency = figures["latency_us"]
     lines = [
-        f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} resident, "
-        f"{figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
+        f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
+        f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
         "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),

@@ -36,7 +36,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         "Builds the board's bank when it is missing or stale.",
     )
     play.add_argument(
-        "--replay", metavar="FILE", help="evemu recording instead of the panel (default without a panel: the board's own)"
+        "--replay", metavar="FILE", help="evemu recording instead of the panel (default: the board's own, if it has no panel)"
     )
     play.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
     play.add_argument(
@@ -112,7 +112,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     figures = {"link": options.link or "model"} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
-    figures["warnings"] = overdone + figures["warnings"]
+    figures["warnings"] = [*overdone, *figures["warnings"]]
     show(options, figures, run_table)
     if picture:
         _plot_run(picture, board, judged, recording.name)
