@@ -136,6 +136,8 @@ class Exchange:
             try:
                 self.control(Control.STOP)
                 return
+            except FaultError:
+                return  # its outputs are off
             except LinkError:
                 continue
 
