@@ -145,7 +145,8 @@ class Thermometer:
     Parameters
     ----------
     settings : Temperature
-    sensor : Sensor
+    sensor : Sensor or None
+        None: the one that the settings name; it may be absent, and come later.
 
     Attributes
     ----------
@@ -159,13 +160,13 @@ class Thermometer:
         Why the last attempt gave nothing; empty if it did.
     """
 
-    def __init__(self, settings: Temperature, sensor: Sensor) -> None:
+    def __init__(self, settings: Temperature, sensor: Sensor | None = None) -> None:
         self.temperature_c = math.nan
         self.refused = 0
         self.failed = 0
         self.cause = ""
         self._settings = settings
-        self._sensor = sensor
+        self._sensor = sensor or _sensor(settings)
         self._good_s = -math.inf
         self._doubtful_c = math.nan  # the reading before, if it was a jump
         self._retry_s = -math.inf
@@ -206,11 +207,8 @@ class Thermometer:
         self.cause = ""
 
 
-def open_thermometer(settings: Temperature) -> Thermometer:
-    """The board's sensor; it may be absent, and come later."""
-    if settings.kind == "hwmon":
-        return Thermometer(settings, Hwmon(settings.device))
-    return Thermometer(settings, Lm75(settings.device, settings.address))
+def _sensor(settings: Temperature) -> Sensor:
+    return Hwmon(settings.device) if settings.kind == "hwmon" else Lm75(settings.device, settings.address)
 
 
 def _why_not(settings: Temperature, error: OSError) -> str:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from controller import temperature
 from controller.device_settings import Temperature
-from controller.temperature import HOLD_S, JUMP_C, RETRY_S, Hwmon, Thermometer, bit_clock_scale, lm75_c, open_thermometer
+from controller.temperature import HOLD_S, JUMP_C, RETRY_S, Hwmon, Thermometer, bit_clock_scale, lm75_c
 
 SETTINGS = Temperature(kind="hwmon", device="plate", coefficient_per_k=-100e-6)
 
@@ -149,7 +149,7 @@ def test_a_board_without_its_sensor_plays_at_its_own_bit_clock():
     lm75 = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
     hwmon = Temperature(kind="hwmon", device="no such chip", coefficient_per_k=-1e-4)
     for settings in (lm75, hwmon):
-        thermometer = open_thermometer(settings)
+        thermometer = Thermometer(settings)
         assert thermometer.scale(0.0) == 1
         assert "no temperature sensor answers" in thermometer.cause
         thermometer.close()

@@ -1,14 +1,14 @@
-"""What is done about a panel that was lost: the rule.
+"""What is done about a panel that was lost: the rule, and the way back to armed, a step at a time.
 
 | lost by | then |
 |---|---|
 | HOST_SILENT: this process stalled | again at once |
-| link error, reset, brown-out | again, after a pause in which the FPGA has surely switched off |
-| NO_PERMIT, OVER_TEMPERATURE, also while arming | wait until the permit is back, then again |
+| link error, reset, brown-out | again when the FPGA has surely switched off, then after ever longer pauses up to 2 s |
+| NO_PERMIT, OVER_TEMPERATURE | wait until the permit is back, then again |
 | edges, duty, short pulse, long emission, underrun | the end: a fault of the host or the board, which the same again would repeat |
 
-Again is: disarm as well as it can be done, then `Session.bring_up` (identity, faults cleared, settings) and `arm`. What
-does not hear the first switches off by its heartbeat timeout, so outputs are off all the way.
+Again is: identity, settings, arming. Outputs are off all the way: the first thing is to disarm as well as it can be
+done, and what does not hear that switches off by its heartbeat timeout.
 """
 
 from __future__ import annotations
@@ -16,14 +16,19 @@ from __future__ import annotations
 from enum import Enum
 from typing import Final
 
+from controller.board import Board
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.exchange import Refused
-from controller.fpga.registers import Fault, Result
+from controller.fpga.registers import Fault, Result, State
+from controller.fpga.session import Session
 
 WAITED_FOR: Final = Fault.NO_PERMIT | Fault.OVER_TEMPERATURE
+PERMITS: Final = State.RUN_PERMIT | State.TEMPERATURE_GOOD
+PERMIT_POLL_S: Final = 0.1
+LONGEST_PAUSE_S: Final = 2.0
 
 
-class Recovery(Enum):
+class Action(Enum):
     """What to do about an error."""
 
     AGAIN = "again"
@@ -31,13 +36,109 @@ class Recovery(Enum):
     END = "end"
 
 
-def recovery_from(error: ControllerError) -> Recovery:
+def action_for(error: ControllerError) -> Action:
     """What the rule says about an error of the link or the FPGA."""
     if isinstance(error, FaultError):
         faults = Fault(error.faults)
         if not faults or faults & ~(WAITED_FOR | Fault.HOST_SILENT):
-            return Recovery.END
-        return Recovery.WAIT if faults & WAITED_FOR else Recovery.AGAIN
+            return Action.END
+        return Action.WAIT if faults & WAITED_FOR else Action.AGAIN
     if isinstance(error, Refused) and error.result is Result.NO_PERMIT:
-        return Recovery.WAIT
-    return Recovery.AGAIN if isinstance(error, LinkError) else Recovery.END
+        return Action.WAIT
+    return Action.AGAIN if isinstance(error, LinkError) else Action.END
+
+
+def permitted(state: State) -> bool:
+    """Whether run permit and temperature allow arming."""
+    return state & PERMITS == PERMITS
+
+
+class Recovery:
+    """The way back: after `begin`, call `step` whenever the time `next_s` has come, until it returns True.
+
+    Parameters
+    ----------
+    session : Session
+    board : Board
+
+    Attributes
+    ----------
+    next_s : float
+        When to call `step`, on the loop's clock.
+    cause : str
+        Why outputs are off, in words for the user: the newest.
+    attempts : int
+        Since `begin`.
+    """
+
+    def __init__(self, session: Session, board: Board) -> None:
+        self.next_s = 0.0
+        self.cause = ""
+        self.attempts = 0
+        self._session = session
+        self._safe_s = (board.limits.heartbeat_timeout_ms + board.limits.ramp_ms) * 1e-3
+        self._pause_s = self._safe_s
+        self._known = False  # identity and settings are right
+        self._armed_s: float | None = None  # when the ramp that runs ends
+
+    def begin(self, error: ControllerError, now_s: float) -> None:
+        """Switch outputs off and plan the first attempt.
+
+        Raises
+        ------
+        ControllerError
+            The same one, if the rule says that it is the end.
+        """
+        self._session.off()
+        self.attempts = 0
+        self._pause_s = self._safe_s
+        self._fail(error, now_s)
+        if isinstance(error, FaultError):  # it is off already
+            self.next_s = now_s
+
+    def step(self, now_s: float) -> bool:
+        """Do what is next; True once the outputs have arrived at their idle levels. All slots are to be taken as empty.
+
+        Raises
+        ------
+        ControllerError
+            If something turns up that is the end.
+        """
+        try:
+            return self._next(now_s)
+        except (LinkError, FaultError) as error:
+            self._session.off()
+            self._fail(error, now_s)
+            return False
+
+    def _next(self, now_s: float) -> bool:
+        session = self._session
+        if self._armed_s is not None:
+            if now_s >= self._armed_s:
+                session.require_armed()
+                self._armed_s = None
+                return True
+            session.heartbeat()
+            self.next_s = min(self._armed_s, session.heartbeat_due_s)
+            return False
+        if not self._known:
+            self.attempts += 1
+            session.bring_up()
+            self._known = True
+        if not permitted(session.heartbeat().state):
+            self.next_s = now_s + PERMIT_POLL_S
+            return False
+        self._armed_s = session.arm()
+        self.next_s = min(self._armed_s, session.heartbeat_due_s)
+        return False
+
+    def _fail(self, error: ControllerError, now_s: float) -> None:
+        action = action_for(error)
+        if action is Action.END:
+            raise error
+        self._known = False
+        self._armed_s = None
+        self.cause = str(error)
+        self.next_s = now_s + (self._pause_s if action is Action.AGAIN else PERMIT_POLL_S)
+        if action is Action.AGAIN:
+            self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)

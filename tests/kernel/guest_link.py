@@ -81,7 +81,7 @@ class Panel:
         self.far_end = FarEnd(SETTINGS, NAMES)
         self.link = SpiLink(SETTINGS, time.monotonic)
         self.session = Session(self.link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
-        self.outputs = Outputs(self.session, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
+        self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
         self.come_on()
 
     def come_on(self):
