@@ -53,7 +53,7 @@ def calibrate_touch(options: argparse.Namespace) -> int:
     replay = None
     if options.replay:
         clock, replay = VirtualClock(), Recording.open(Path(options.replay))
-    source = open_touch(_bare(board), clock.now_s, replay)
+    source = open_touch(_bare(board), replay)
     try:
         touches = _touches(source, clock, targets, board)
     finally:
