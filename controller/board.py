@@ -247,6 +247,11 @@ def load_board(path: Path) -> Board:
     return msgspec.structs.replace(board, folder=file.parent)
 
 
+def simulated(board: Board) -> Board:
+    """The same board with its gateware computed in place of its FPGA."""
+    return msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, kind="simulated"))
+
+
 def find_board(name_or_path: str) -> Path:
     """Folder of a board: a path, else a name looked up in /etc, the source tree and the installed data.
 

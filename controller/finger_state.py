@@ -128,13 +128,6 @@ class FingerState:
             [(progress.to_go_m(self.x_m, self.y_m, x, y), progress.amplitude) for progress in self._progress], default=NOWHERE
         )
 
-    def anchor(self, emission: Emission, start_s: float) -> None:
-        """The first beat of a train was started: the others keep their distance to it."""
-        for running in self._running:
-            if running.beat > 0 and running.first_s == emission.time_s and running.train.period_s == emission.period_s:
-                running.first_s = start_s
-        self.next_s = min([train.next_s for train in self._running], default=math.inf)
-
     def take(self, scene: Scene, until_s: float) -> tuple[Emission, ...]:
         """Emissions due up to a time, of each train the last, in order of time."""
         emissions: list[Emission] = []

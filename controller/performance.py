@@ -21,12 +21,14 @@ from controller.scene import (
     FingerState,
     Scene,
     Spot,
+    anchored,
     ended,
     next_time_s,
     on_time,
     on_touch,
     spot_emission,
     start_effect,
+    stopped,
     taken_over,
 )
 from controller.touch.samples import TouchSample
@@ -196,7 +198,7 @@ class Performance:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
             if emission.period_s and emission.beat == 0 and emission.owner in self._states:
-                self._states[emission.owner].anchor(emission, start_s)
+                anchored(self._states[emission.owner], emission, start_s)
 
     def left_out(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
         """These will not be played."""
@@ -210,11 +212,7 @@ class Performance:
         self._due.clear()
         self._counters.skipped.outputs_off += len(waiting)
         self.left_out(waiting, Outcome.REFUSED, now_s)
-        self._states = {
-            owner: taken_over(self.scene, FingerState(state.finger, state.x_m, state.y_m))
-            for owner, state in self._states.items()
-            if state.finger is not None
-        }
+        self._states = {owner: stopped(state) for owner, state in self._states.items() if state.finger is not None}
         self.spots_from(now_s)
 
     def swap(self, scene: Scene, now_s: float) -> None:

@@ -41,6 +41,25 @@ def run_table(figures: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def service_table(figures: dict[str, Any]) -> str:
+    """Table of what a service did, from start to end."""
+    latency = figures["latency_us"]
+    lines = [
+        f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
+        f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
+        f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
+        f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
+        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        "",
+        f"{'latency (µs)':<26}{'count':>8}{'p50':>11}{'p99':>11}{'p99.9':>11}{'worst':>11}",
+        _latency_line("report to read", latency["report"]),
+    ]
+    lines += [
+        _latency_line(f"{stage}, {kind}", latency[kind][stage]) for kind in ("uploads", "resident") for stage in latency[kind]
+    ]
+    return "\n".join(lines + [f"warning: {warning}" for warning in figures["warnings"]])
+
+
 def plain_table(figures: dict[str, Any]) -> str:
     """One line for each figure, nested ones with dots."""
     flat = _flat(figures, "")

@@ -153,7 +153,8 @@ def test_the_waveform_played_longest_ago_gives_up_its_slot(perform):
 
 
 def test_a_train_ends_when_the_finger_is_lifted(perform, cell):
-    assert perform([(0.0, {0: cell[1]}), (0.09, {0: None}), (0.5, {})], TRAIN).capture.focus_ticks.size == 5
+    run = perform([(0.0, {0: cell[1]}), (0.061, {0: None}), (0.5, {})], TRAIN)
+    assert run.capture.focus_ticks.size == 4, "that it is lifted is known when it has not come back: one and a half reports later"
 
 
 def test_two_fingers_due_at_once_are_one_emission_with_two_foci(perform, board, bank_file):
@@ -180,10 +181,11 @@ def test_what_becomes_due_while_the_plate_is_busy_is_composed_when_it_is_free(pe
 
 def test_the_time_that_an_emission_waits_for_the_plate_is_told_in_ns(perform, board, cell):
     slow = msgspec.structs.replace(board, limits=msgspec.structs.replace(board.limits, max_duty=0.1))
-    run = perform([(0.0, {0: cell[1]}), (0.01, {0: None}), (0.011, {0: cell[1]}), (0.1, {0: None})], CLICK, on=slow)
+    other = (cell[1][0] + 40, cell[1][1])
+    run = perform([(0.0, {0: cell[1]}), (0.011, {1: other}), (0.1, {0: None, 1: None})], CLICK, on=slow)
     first, second = (played.trigger_s for played in run.played)
-    asked_s = run.start_s + 0.011 + RESIDENT_BYTES * 8 / board.link.sck_hz
-    assert run.counters.resident_latency.wait.worst_ns == pytest.approx((second - asked_s) * 1e9, rel=0.01)
+    asked_s = run.start_s + 0.011 + UPLOAD_BYTES * 8 / board.link.sck_hz
+    assert run.counters.upload_latency.wait.worst_ns == pytest.approx((second - asked_s) * 1e9, rel=0.01)
     assert second - first == pytest.approx(20e-3, rel=0.01)
 
 
@@ -192,7 +194,7 @@ def test_of_one_finger_only_the_newest_emission_waits(perform):
     run = perform([*reports, (0.1, {0: None})], TEXTURE)
     assert run.counters.skipped.merged > 0
     assert run.counters.emissions + run.counters.skipped.merged == 7
-    assert run.played[-1].emissions[0].x_m == pytest.approx(0.102)
+    assert run.played[-1].emissions[0].x_m >= 0.102, "the newest, or where the finger will be when it is played"
 
 
 def test_emissions_never_overlap_and_keep_the_duty_limit(perform, board):
@@ -334,8 +336,8 @@ def test_beats_of_spots_that_a_short_stall_missed_are_not_made_up_for(board, ban
     assert counters.host_silent == 0
     starts = link.take_capture().focus_ticks / board.link.clock_hz
     apart_s = np.diff(starts)[1:]  # the first one waits for its upload
-    assert apart_s.max() > 60e-3
-    assert (apart_s < 17e-3).sum() == 1, "the one that was under way in the stall; two that are due at once are one, every time"
+    assert apart_s.max() == pytest.approx(80e-3)
+    assert apart_s / 20e-3 == pytest.approx(np.round(apart_s / 20e-3), abs=1e-9), "all others in their beat; of two due at once one"
 
 
 def test_a_refused_upload_is_counted_and_costs_no_waveform_that_is_there(board, bank_file, tmp_path, evemu_text):
@@ -418,21 +420,26 @@ def test_stalls_with_emissions_between_them_are_not_in_a_row(board, bank_file, t
     assert counters.host_silent == 6
 
 
-def test_a_lost_run_permit_ends_the_loop_with_its_cause_and_outputs_off(board, bank_file, tmp_path, cell, evemu_text):
+def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, bank_file, tmp_path, cell, evemu_text):
     class PermitLost(VirtualClock):
         def wait(self, selector, until_s):
             super().wait(selector, until_s)
             if self._now_s > 0.2:
-                link.gateware.permit(round(self._now_s * board.link.clock_hz), False)
+                link.gateware.permit(round(self._now_s * board.link.clock_hz), self._now_s > 0.7)
 
+    reports = [(0.0, {0: cell[1]}), (0.5, {0: None}), (1.0, {0: cell[1]}), (1.1, {0: None})]
     with Bank.open(bank_file, board) as bank:
-        link, _, loop = loop_of(board, bank, tmp_path, PermitLost(), [(0.0, {0: cell[1]}), (0.5, {0: None})], evemu_text)
-        with pytest.raises(FaultError, match="run permit went away"):
-            loop.run()
+        link, counters, loop = loop_of(board, bank, tmp_path, PermitLost(), reports, evemu_text)
+        loop.run()
         link.close()
     capture = link.take_capture()
-    assert capture.hv[-1] == 0
-    assert capture.words[-1] == 0
+    seconds = capture.ticks / board.link.clock_hz
+    without = (seconds > 0.25) & (seconds < 0.7)
+    assert not capture.hv[without].any()
+    assert not capture.words[without].any()
+    assert counters.outages == 1
+    assert "run permit went away" in counters.outage
+    assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
 
 
 def test_spots_of_different_rates_each_keep_their_own_beat(perform):

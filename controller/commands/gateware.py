@@ -85,7 +85,7 @@ def _channels(options: argparse.Namespace, board: Board) -> list[int]:
 
 def gateware_factory(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
     """What computes the gateware's pins, and whether in real time."""
-    if options.link == "model":
+    if options.link != "rtl":
         return GatewareModel, getattr(options, "speed", "max") != "max"
     from controller.offline.rtl_gateware import RtlGateware
 

@@ -1,4 +1,4 @@
-"""`haptic-panel run`: replay a touch recording on the simulated panel."""
+"""`haptic-panel run`: a board's panel, or its simulation."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board import Board, find_board, load_board
+from controller.board import Board, find_board, load_board, simulated
 from controller.commands.bank import open_bank
 from controller.commands.gateware import gateware_factory
 from controller.commands.output import picture_path, progress_bar, show
+from controller.device_settings import RecordingTouch
+from controller.errors import ConfigError
 from controller.hardware import recording_path
 from controller.scene import edge_warnings, load_scene
 from controller.scene_file import find_scene
-from controller.tables import run_table
+from controller.tables import run_table, service_table
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
@@ -27,17 +29,21 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     play = commands.add_parser(
         "run",
         parents=[common],
-        help="replay a touch recording on the simulated panel",
-        description="Replay a touch recording through the event loop, the frame protocol and the gateware, let a simulated "
-        "plate feel every emission, and print what the fingers felt. Builds the board's bank when it is missing or stale.",
+        help="run a panel; without devices: replay a touch recording on the simulated panel",
+        description="On a board with devices: play on its FPGA what its touch panel's fingers ask for, until SIGTERM or Ctrl-C; "
+        "SIGHUP reads the scene again. On the simulated board, or with --link: replay a touch recording through the event loop, "
+        "the frame protocol and the gateware, let a simulated plate feel every emission, and print what the fingers felt. "
+        "Builds the board's bank when it is missing or stale.",
     )
-    play.add_argument("--replay", metavar="FILE", help="evemu recording (default: the board's own)")
+    play.add_argument(
+        "--replay", metavar="FILE", help="evemu recording instead of the panel (default: the board's own, if it has no panel)"
+    )
     play.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
     play.add_argument(
         "--bank", metavar="FILE", help="play from this bank; it is refused, not rebuilt, if it does not fit the board"
     )
     play.add_argument(
-        "--link", choices=["model", "rtl"], default="model", help="the FPGA: its model (default), or its Verilog, compiled"
+        "--link", choices=["model", "rtl"], help="instead of the board's FPGA: its model, or its Verilog, compiled; simulates all"
     )
     play.add_argument(
         "--speed", choices=["1", "max"], help="1: real time (default); max: as fast as the machine goes (always with --link rtl)"
@@ -47,13 +53,41 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the board's panel, or simulate it."""
+    board = load_board(find_board(options.board))
+    devices = board.link.kind != "simulated" or not isinstance(board.touch, RecordingTouch)
+    if devices and options.link is None:
+        return _serve(options, board)
+    return _simulate(options, board)
+
+
+def _serve(options: argparse.Namespace, board: Board) -> int:
+    """Play on the board's own devices."""
+    from controller.device import serve
+
+    if options.plot or options.speed == "max":
+        raise ConfigError("--plot and --speed max are for simulated panels: add --link model to simulate this board")
+    scene_file = find_scene(board, options.scene or board.scene)
+    scene = load_scene(scene_file, board)
+    replay = None
+    if options.replay or isinstance(board.touch, RecordingTouch):
+        replay = Recording.open(recording_path(board, options.replay))
+    with open_bank(options, board, scene, scene_file) as bank:
+        for warning in edge_warnings(scene, board, *bank.worst_edges):
+            print(f"haptic-panel: {scene_file}: {warning}", file=sys.stderr)
+        figures = serve(board, scene, str(scene_file), bank, replay)
+    show(options, figures, service_table)
+    return 0
+
+
+def _simulate(options: argparse.Namespace, board: Board) -> int:
     """Replay a recording on the simulated panel and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
     from controller.offline import simulated_run
 
     picture = picture_path(options)
-    board = load_board(find_board(options.board))
+    board = simulated(board)
     scene_file = find_scene(board, options.scene or board.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
@@ -75,10 +109,10 @@ def run(options: argparse.Namespace) -> int:
         judged = simulated_run.judge(done, progress_bar("plate"))
     if judged.left_out:
         print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
-    figures = {"link": options.link} | simulated_run.report(done, judged.foci)
+    figures = {"link": options.link or "model"} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
-    figures["warnings"] = overdone + figures["warnings"]
+    figures["warnings"] = [*overdone, *figures["warnings"]]
     show(options, figures, run_table)
     if picture:
         _plot_run(picture, board, judged, recording.name)
