@@ -1,0 +1,132 @@
+"""`haptic-panel calibrate-touch`: where the panel's axes lie on the plate, from touches at known places."""
+
+from __future__ import annotations
+
+import argparse
+import selectors
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from controller.board import Board, find_board, load_board
+from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.output import show
+from controller.errors import CalibrationError
+from controller.hardware import open_touch
+from controller.touch.board_lines import board_lines, write_calibration
+from controller.touch.calibration import MOST, Calibration, Point, calibrate, check_targets, default_targets
+from controller.touch.held_touches import HELD_S, HeldTouches
+from controller.touch.recording import Recording
+from controller.touch.source import TouchSource
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    command = commands.add_parser(
+        "calibrate-touch",
+        parents=[common],
+        help="find where the touch panel's axes lie on the plate",
+        description="Ask for a touch on each of 3 to 5 targets in turn, with one finger held still for a moment, and print the two "
+        "lines for [touch] of board.toml with their residual. Coordinates are in mm from the plate's corner, x along the length.",
+    )
+    command.add_argument("--targets", type=int, choices=(3, 4, 5), default=MOST, help="how many (default: 5)")
+    command.add_argument(
+        "--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a target of your own; give each of them"
+    )
+    command.add_argument("--replay", metavar="FILE", help="take the touches from an evemu recording, not from the board's panel")
+    command.add_argument("--write", action="store_true", help="change the two lines of the board's board.toml")
+    command.set_defaults(command=calibrate_touch)
+
+
+def calibrate_touch(options: argparse.Namespace) -> int:
+    """Ask for the touches and print, or write, what follows from them."""
+    board = load_board(find_board(options.board))
+    targets = [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets)
+    check_targets(targets, board.plate)
+    clock: Clock = MonotonicClock()
+    replay = None
+    if options.replay:
+        clock, replay = VirtualClock(), Recording.open(Path(options.replay))
+    source = open_touch(_bare(board), replay)
+    try:
+        touches = _touches(source, clock, targets, board)
+    finally:
+        source.close()
+    found = calibrate(targets, touches, board.plate)
+    file = board.folder / "board.toml"
+    if options.write:
+        write_calibration(file, found)
+    show(options, _figures(board, targets, found, file if options.write else None), _table)
+    return 0
+
+
+def _bare(board: Board) -> Board:
+    """The board with a panel that covers the plate exactly, so that places are shares of the axes and none is cut off."""
+    plate = board.plate
+    whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0)}
+    return msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, **whole))
+
+
+def _touches(source: TouchSource, clock: Clock, targets: Sequence[Point], board: Board) -> list[Point]:
+    """Where the axes say each target was touched, 0 to 1."""
+    found: list[Point] = []
+    held = HeldTouches()
+    _ask(targets, 0)
+    while len(found) < len(targets):
+        source_s = source.next_time_s()
+        next_s = min(held.due_s, float("inf") if source_s is None else source_s)
+        fileno = source.fileno()
+        if fileno is None and next_s == float("inf"):
+            raise CalibrationError(
+                f"the recording ends after {len(found)} of {len(targets)} touches:"
+                f" it needs one finger at a time, held still for {HELD_S:g} s on each target"
+            )
+        with selectors.DefaultSelector() as selector:
+            if fileno is not None:
+                selector.register(fileno, selectors.EVENT_READ)
+            clock.wait(selector, next_s)
+        now_s = clock.now_s()
+        place = held.take(source.read(now_s), now_s)
+        if place is not None:
+            found.append((place[0] / board.plate.length_m, place[1] / board.plate.width_m))
+            _ask(targets, len(found))
+    return found
+
+
+def _ask(targets: Sequence[Point], index: int) -> None:
+    if index == len(targets):
+        return
+    x_mm, y_mm = targets[index]
+    print(
+        f"haptic-panel: touch {index + 1} of {len(targets)}: at x = {x_mm:.1f} mm, y = {y_mm:.1f} mm, and hold still",
+        file=sys.stderr,
+        flush=True,
+    )
+
+
+def _figures(board: Board, targets: Sequence[Point], found: Calibration, written: Path | None) -> dict[str, Any]:
+    return {
+        "board": board.name,
+        "targets_mm": [list(target) for target in targets],
+        "x_mm_from_axes": [round(value, 3) for value in found.x_mm_from_axes],
+        "y_mm_from_axes": [round(value, 3) for value in found.y_mm_from_axes],
+        "lines": list(board_lines(found)),
+        "residual_mm": {"rms": found.rms_mm, "worst": found.worst_mm} if found.residuals_mm else None,
+        "written": None if written is None else str(written),
+    }
+
+
+def _table(figures: dict[str, Any]) -> str:
+    residual = figures["residual_mm"]
+    if residual is None:
+        judged = "residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"
+    else:
+        judged = f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {len(figures['targets_mm'])}"
+    where = f"written to {figures['written']}" if figures["written"] else "for [touch] of board.toml (--write puts them there)"
+    return "\n".join([*figures["lines"], judged, where])

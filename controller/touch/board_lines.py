@@ -1,0 +1,86 @@
+"""The two lines of a board.toml that calibration changes, and nothing else of the file."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import tempfile
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from controller.board import load_board
+from controller.errors import CalibrationError
+from controller.touch.calibration import Calibration, Row
+
+KEYS = ("x_mm_from_axes", "y_mm_from_axes")
+
+
+def board_lines(calibration: Calibration) -> tuple[str, str]:
+    """The lines as they belong into [touch]."""
+    return _line(KEYS[0], calibration.x_mm_from_axes), _line(KEYS[1], calibration.y_mm_from_axes)
+
+
+def with_calibration(text: str, calibration: Calibration) -> str:
+    """Text of a board.toml with its two lines changed; comments, order and line ends stay.
+
+    Raises
+    ------
+    CalibrationError
+        If the lines are not there, each once and on one line, below [touch].
+    """
+    changed = text
+    for key, line in zip(KEYS, board_lines(calibration), strict=True):
+        changed, count = re.subn(rf"^([ \t]*){key}[ \t]*=[ \t]*\[[^\]\r\n]*\]", rf"\g<1>{line}", changed, flags=re.M)
+        if count != 1:
+            raise CalibrationError(f"{key} stands on {count} lines of its own, not on one: write the lines into [touch] by hand")
+    before, after = tomllib.loads(text), tomllib.loads(changed)
+    if _without(before) != _without(after) or before.get("touch", {}).keys() & set(KEYS) != set(KEYS):
+        raise CalibrationError("the lines are not those of [touch]: write them by hand")
+    return changed
+
+
+def write_calibration(file: Path, calibration: Calibration) -> None:
+    """Change the two lines of a board.toml in place: all of it or nothing, whatever interrupts.
+
+    Raises
+    ------
+    CalibrationError
+        If the file cannot be written, or its lines are not found; it is as it was then.
+    ConfigError
+        If the board would not be valid with the new lines; it is as it was then.
+    """
+    file = file.resolve()  # a link stays a link
+    temporary = None
+    try:
+        with file.open(encoding="utf-8", newline="") as old:
+            changed = with_calibration(old.read(), calibration)
+        handle, name = tempfile.mkstemp(prefix=".board-", suffix=".toml", dir=file.parent)
+        temporary = Path(name)
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as new:
+            new.write(changed)
+            new.flush()
+            os.fsync(new.fileno())
+        shutil.copymode(file, temporary)
+        load_board(temporary)
+        temporary.replace(file)
+        folder = os.open(file.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as error:
+        raise CalibrationError(f"{file}: cannot be written ({error.strerror}): write the lines by hand") from error
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _line(key: str, row: Row) -> str:
+    return f"{key} = [{', '.join(f'{round(value, 3) + 0.0:.3f}' for value in row)}]"
+
+
+def _without(tables: dict[str, Any]) -> dict[str, Any]:
+    touch = {key: value for key, value in tables.get("touch", {}).items() if key not in KEYS}
+    return tables | {"touch": touch}
