@@ -203,7 +203,7 @@ def test_what_points_can_have_together_is_what_they_have_when_composed_exactly(m
     assert field.at(POINTS) == pytest.approx(together, rel=1e-9)
     alone = [float(PlateTwin(BOARD, HIGHEST_HZ).exact_amplitudes((point,))[0]) for point in POINTS]
     assert [twin.reference_amplitude(*point) for point in POINTS] == pytest.approx(alone, rel=1e-12)
-    assert (together < 0.9 * np.array(alone)).all()
+    assert together != pytest.approx(alone, rel=0.1)
 
 
 @pytest.mark.parametrize("width_mm", [4.0, 5.2])
