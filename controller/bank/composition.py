@@ -78,6 +78,7 @@ class Composer:
         self._reached = np.empty((2, MOST_POINTS), np.float32)
         idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
         self._flip = np.tile(1 - 2 * idle_high, samples + rest_rows)
+        self._flip_in_band = self._flip[:values]
         self._low_at = np.tile(-idle_high, samples)  # largest whole number that plays low
         self._idle_word = np.array(idle_word, WORD)
         self._bits = self._packer.bits
@@ -129,10 +130,14 @@ class Composer:
         count = len(points)
         sizes = []  # of each response alone
         for row, point in enumerate(points):
-            self._band_and_rest.at(point[0], point[1], self._interpolated)
-            np.multiply(self._interpolated, self._flip, out=self._interpolated)
+            if full:
+                self._band.at(point[0], point[1], self._in_band)
+                np.multiply(self._in_band, self._flip_in_band, out=self._in_band)
+            else:
+                self._band_and_rest.at(point[0], point[1], self._interpolated)
+                np.multiply(self._interpolated, self._flip, out=self._interpolated)
+                np.copyto(self._rests[row], self._outside)
             np.copyto(self._points_of_samples[row], self._in_band)
-            np.copyto(self._rests[row], self._outside)
             np.abs(self._points[row], out=self._deviates)
             sizes.append(float(np.dot(self._deviates, self._ones)) or 1.0)
         shares = [1.0] * count
