@@ -18,7 +18,7 @@ def told(events):
 
 
 def test_a_contact_begins_moves_and_ends_as_the_kernel_would_tell_it():
-    panel = ContactEvents()
+    panel = ContactEvents(sized=True)
     assert told(panel.report([Contact(2, 100, 200, 7)], 1.5)) == [
         (SLOT, 2), (ID, 0), (MAJOR, 7), (X, 100), (Y, 200), (KEY, TOUCH, 1), REPORT,
     ]  # fmt: skip
@@ -30,14 +30,14 @@ def test_a_contact_begins_moves_and_ends_as_the_kernel_would_tell_it():
 
 
 def test_another_contact_of_the_same_number_has_another_tracking_id_and_its_slot_keeps_the_place():
-    panel = ContactEvents()
+    panel = ContactEvents(sized=True)
     panel.report([Contact(0, 5, 6)], 0.0)
     panel.report([], 0.1)
     assert told(panel.report([Contact(0, 5, 6)], 0.2)) == [(ID, 1), (KEY, TOUCH, 1), REPORT]
 
 
 def test_slots_are_named_when_they_change():
-    panel = ContactEvents()
+    panel = ContactEvents(sized=True)
     panel.report([Contact(0, 1, 1), Contact(1, 2, 2)], 0.0)
     assert told(panel.report([Contact(0, 1, 9), Contact(1, 2, 9)], 0.1)) == [(SLOT, 0), (Y, 9), (SLOT, 1), (Y, 9), REPORT]
     assert told(panel.report([Contact(1, 2, 9)], 0.2)) == [(SLOT, 0), (ID, -1), REPORT]
@@ -45,10 +45,10 @@ def test_slots_are_named_when_they_change():
 
 
 def test_tracking_ids_begin_again_after_the_last_one():
-    panel = ContactEvents()
+    panel = ContactEvents(sized=True)
     ids = []
     for _ in range(65537):
-        ids.append(panel.report([Contact(0, 1, 1)], 0.0)[-3 if not ids else 0][2])
+        ids.append(panel.report([Contact(0, 1, 1)], 0.0)[1 if not ids else 0][2])
         panel.report([], 0.0)
     assert ids[-2:] == [65535, 0]
 
@@ -69,7 +69,7 @@ contacts = st.builds(Contact, st.integers(0, MAX_CONTACTS - 1), st.integers(0, 2
 def test_a_decoder_sees_exactly_the_contacts_of_each_report(reports):
     board = load_board(data_folder("boards") / "simulated")
     decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.B)
-    panel = ContactEvents()
+    panel = ContactEvents(sized=True)
     for listed in reports:
         events = panel.report(listed, 0.0)
         assert len(events) <= 5 * MAX_CONTACTS + 2  # a list of at most 512 bytes
@@ -83,4 +83,10 @@ def test_a_decoder_sees_exactly_the_contacts_of_each_report(reports):
 
 def test_a_number_beyond_the_slots_is_the_callers_mistake():
     with pytest.raises(IndexError):
-        ContactEvents().report([Contact(MAX_CONTACTS, 1, 1)], 0.0)
+        ContactEvents(sized=True).report([Contact(MAX_CONTACTS, 1, 1)], 0.0)
+
+
+def test_a_panel_that_tells_no_extents_has_none():
+    events = ContactEvents(sized=False).report([Contact(0, 1, 1)], 0.0)
+    assert MAJOR not in {code for _, code, _, _ in events}
+    assert (MAJOR, 0) in told(ContactEvents(sized=True).report([Contact(0, 1, 1)], 0.0))
