@@ -30,7 +30,7 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
     if sized:
         axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, LARGEST_SIZE)
     codes = {
-        ev.EV_SYN: (ev.SYN_REPORT, ev.SYN_DROPPED),
+        ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS),
         ev.EV_KEY: (ev.BTN_TOUCH,),
         ev.EV_ABS: tuple(sorted(axes)),
     }

@@ -27,9 +27,8 @@ def head(description: DeviceDescription) -> str:
     numbers = (description.bus, description.vendor, description.product, description.version)
     lines = ["# EVEMU 1.3", f"N: {name}", "I: " + " ".join([f"{number & 0xFFFF:04x}" for number in numbers])]
     lines += [f"P: {row}" for row in _mask(description.properties, PROPERTY_BYTES)]
-    codes = dict(description.codes) | {0: tuple(description.codes)}  # of type 0: the types themselves
     for kind, size_bytes in MASK_BYTES.items():
-        lines += [f"B: {kind:02x} {row}" for row in _mask(codes.get(kind, ()), size_bytes)]
+        lines += [f"B: {kind:02x} {row}" for row in _mask(description.codes.get(kind, ()), size_bytes)]
     for code, axis in sorted(description.axes.items()):
         lines.append(f"A: {code:02x} {axis.minimum} {axis.maximum} {axis.fuzz} {axis.flat} {axis.resolution}")
     return "\n".join(lines) + "\n"

@@ -160,7 +160,7 @@ class SerialPanel:
         self._poll.register(self._port.fileno(), select.POLLIN)
         self._parser.forget()
         self._more = False
-        codes = {ev.EV_SYN: (ev.SYN_REPORT,), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
+        codes = {ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
         axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, LARGEST))
         self._description = DeviceDescription(
             "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes
