@@ -18,6 +18,12 @@ when = "command"
 rate_hz = 100.0
 count = 5
 
+[effects.late]
+when = "command"
+rate_hz = 100.0
+count = 2
+phase = 0.5
+
 [[regions]]
 name = "all"
 shape = "plate"
@@ -160,3 +166,29 @@ def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp
     assert told == [(1, Outcome.SKIPPED, pytest.approx(1.0))]
     performance.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
     assert performance.due
+
+
+@pytest.mark.parametrize("how", ["lifted", "outputs off"])
+def test_a_command_that_ends_before_its_first_emission_is_told_so_once(performance, told, how):
+    performance.touch(TouchSample(3, 0.1, 0.05, 0.0, True))
+    played(performance, 0.0)
+    command(performance, 1, effect="late", finger=3, now_s=1.0)
+    assert not performance.due
+    if how == "lifted":
+        performance.touch(TouchSample(3, 0.1, 0.05, 1.003, False))
+    else:
+        performance.interrupted(1.003)
+    performance.advance(2.0)
+    outcome = {"lifted": Outcome.SKIPPED, "outputs off": Outcome.REFUSED}[how]
+    assert told == [(1, outcome, pytest.approx(0.003))]
+
+
+def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(board, tmp_path, told):
+    spots = "".join(
+        f'[[regions]]\nname = "{x_mm}"\nshape = "circle"\nx_mm = {x_mm}\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+        for x_mm in (60, 66)
+    )
+    (tmp_path / "spots.toml").write_text(spots)
+    assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s is None
+    (tmp_path / "spots.toml").write_text(spots.replace("66", "80"))
+    assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s == 0.04

@@ -430,9 +430,11 @@ def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
     scene = load_scene(file, BOARD)
     state, none = command(scene, name="late")
     assert none == ()
+    assert state.unfelt == ((17, 5.0),)
     assert not ended(state)
     state, emissions = on_time(scene, state, 5.021)
     assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
+    assert state.unfelt == ()
 
 
 @pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])

@@ -90,6 +90,30 @@ def test_not_even_a_long_tremble_adds_up_to_a_way():
         assert hits(Spacing(1e-3, None, 0.0, 1.0), points) == []
 
 
+@given(
+    st.sampled_from([0, 1, None]),
+    st.floats(1e-3, 0.03),
+    st.floats(0, 0.2),
+    st.floats(0, 0.14),
+    st.floats(0, 2 * math.pi),
+    st.floats(0, 0.9),
+)
+def test_the_way_to_go_is_the_way_after_which_something_is_felt(axis, spacing_m, x_m, y_m, angle, gone):
+    """For a finger that has gone a part of a spacing in one direction and goes on in it."""
+    x, y = math.cos(angle), math.sin(angle)
+    here = x_m + gone * spacing_m * x, y_m + gone * spacing_m * y
+    for part, felt in ((0.999, False), (1.001, True)):
+        progress = Spacing(spacing_m, axis, 0.01, 1.0).begin(x_m, y_m)
+        assume(not progress.crossed(*here))
+        to_go_m = progress.to_go_m(*here, x, y)
+        assume(1e-5 < to_go_m < 10)
+        assert progress.crossed(here[0] + part * to_go_m * x, here[1] + part * to_go_m * y) == felt
+
+
+def test_a_finger_that_goes_along_the_lines_never_comes_to_one():
+    assert Spacing(0.01, 0, 0.0, 1.0).begin(0.005, 0.005).to_go_m(0.005, 0.005, 0.0, 1.0) == math.inf
+
+
 def test_the_way_round_a_small_circle_is_its_circumference_within_a_percent():
     radius_m = 4e-3
     points = [(radius_m * math.cos(k / 200), radius_m * math.sin(k / 200)) for k in range(20_000)]
