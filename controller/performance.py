@@ -131,10 +131,11 @@ class Performance:
                 missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
                 self._spot_beats[spot] = beat + missed + 1
 
-    def all_spots(self, next_s: float) -> list[Emission]:
-        """Every spot, to take part in an emission; their beat goes on at `next_s`."""
+    def with_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
+        """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
         self.spots_from(next_s)
-        return [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
+        spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
+        return list(together([*emissions, *spots], NEVER)[0])
 
     def spots_from(self, start_s: float) -> None:
         """The spots' beat begins anew."""

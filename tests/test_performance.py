@@ -192,3 +192,16 @@ def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(boar
     assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s is None
     (tmp_path / "spots.toml").write_text(spots.replace("66", "80"))
     assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s == 0.04
+
+
+@pytest.mark.parametrize(("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 1), (100, "alternate", 1)])
+def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board, tmp_path, told, finger_mm, policy, together):
+    spot = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+    (tmp_path / "spot.toml").write_text(
+        f'{spot}[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
+    )
+    performance = performing(load_scene(tmp_path / "spot.toml", board), told)
+    performance.touch(TouchSample(3, finger_mm * 1e-3, 0.07, 1.0, True))
+    emissions = performance.with_spots(performance.take(T_S), 1.05)
+    assert [e.finger for e in emissions] == [3, None][:together]
+    assert performance.next_spot_s() == 1.05
