@@ -304,7 +304,7 @@ class EventLoop:
             next_s = playback.next_repetition_s(now_s)
             panel_s = self._time_base.fpga_s(next_s)
             if next_s < now_s + playback.duration_s and period_s is not None:
-                emissions += performance.all_spots(panel_s + period_s)
+                emissions = performance.with_spots(emissions, panel_s + period_s)
             else:
                 performance.spots_from(panel_s)
         beats = [emission.time_s for emission in emissions if emission.period_s]

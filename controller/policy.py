@@ -15,7 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from controller.finger_state import Emission
+from controller.finger_state import Emission, spot_emission
+from controller.scene_map import Spot
 
 MOST = 10  # foci of one waveform
 SAME_M = 2.5e-3
@@ -56,6 +57,14 @@ def together(due: Sequence[Emission], duration_s: float, most: int = MOST) -> tu
         else:
             chosen.append(emission)
     return tuple(chosen), tuple(rest)
+
+
+def common_period_s(spots: Sequence[Spot]) -> float | None:
+    """Period in which the FPGA can repeat all spots as one waveform, without the host; None if they need turns."""
+    if not spots or len({(spot.rate_hz, spot.phase) for spot in spots}) > 1:
+        return None
+    _, rest = together([spot_emission(spot, 0.0, 0) for spot in spots], 0.0)
+    return None if rest else 1 / spots[0].rate_hz
 
 
 def _in_the_way(emission: Emission, chosen: Sequence[Emission]) -> bool:

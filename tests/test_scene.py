@@ -253,6 +253,27 @@ def test_from_one_region_to_the_next_the_stronger_of_leaving_and_entering_is_fel
         assert (emission.region, emission.amplitude, emission.x_m) == (region, amplitude, 0.060)
 
 
+def test_of_what_two_regions_want_at_once_one_that_is_to_be_played_alone_is(scene_of):
+    for policies in (("alternate", "compose"), ("compose", "alternate")):
+        scene = scene_of(
+            square(f"{LEAVE}, {ENTER}", "left", 20, 30) + f'\npolicy = "{policies[0]}"',
+            square(f"{LEAVE}, {ENTER}", "right", 50) + f'\namplitude = 0.5\npolicy = "{policies[1]}"',
+        )
+        state, _ = on_touch(scene, None, at(40))
+        _, (emission,) = on_touch(scene, state, at(60))
+        assert emission.alternate
+
+
+def test_the_strongest_of_the_lines_crossed_at_once_is_felt(scene_of):
+    lines = [
+        f'{{ when = "move", along = "x", spacing_mm = {spacing}, amplitude = {a} }}'
+        for spacing, a in ((5, 0.3), (10, 0.9), (4, 0.5))
+    ]
+    state, _ = on_touch(scene_of(square(", ".join(lines))), None, at(51))
+    _, (emission,) = on_touch(scene_of(square(", ".join(lines))), state, at(61))
+    assert emission.amplitude == 0.9
+
+
 def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes_on_until_the_finger_is_lifted(scene_of):
     entered = scene_of(square(PRESSED.replace("press", "enter")))
     state, _ = on_touch(entered, None, at(40))
@@ -260,7 +281,7 @@ def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes
     assert (first.beat, first.period_s, next_time_s(state)) == (0, 0.01, pytest.approx(1.01))
     state, _ = on_touch(entered, state, at(40, time_s=1.005))
     assert next_time_s(state) is None
-    left = scene_of(square(PRESSED.replace("press", "leave")))
+    left = scene_of(square(PRESSED.replace("press", "leave")), square(CLICK, "other", 10, 25))
     state, _ = on_touch(left, None, at(60))
     state, (first,) = on_touch(left, state, at(40, time_s=1.0))
     state, _ = on_touch(left, state, at(30, time_s=1.005))
@@ -409,9 +430,11 @@ def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
     scene = load_scene(file, BOARD)
     state, none = command(scene, name="late")
     assert none == ()
+    assert state.unfelt == ((17, 5.0),)
     assert not ended(state)
     state, emissions = on_time(scene, state, 5.021)
     assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
+    assert state.unfelt == ()
 
 
 @pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])
@@ -431,6 +454,10 @@ def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_
     assert [e.region for e in emissions] == ["buzz"]
     state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
     assert edge.region == "new"
+    leaving = scene_of(square(PRESSED.replace("press", "leave")))
+    state, _ = on_touch(leaving, None, at(60))
+    state, _ = on_touch(leaving, state, at(20))
+    assert ended(taken_over(new, state))
     point, _ = command(old)
     assert on_time(new, taken_over(new, point), 5.0084)[1][0].region == "buzz"
 
