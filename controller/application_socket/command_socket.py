@@ -12,7 +12,7 @@ import errno
 import math
 import select
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import msgspec
@@ -276,8 +276,9 @@ class CommandSocket:
             case messages.AskFigures(id=number):
                 if now_s >= self._figures_until_s:
                     self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
-                client.put(messages.Figures(id=number, figures=self._figures))
                 self.counters.done += 1
+                figures = self._figures | {"application_socket": asdict(self.counters)}
+                client.put(messages.Figures(id=number, figures=figures))
             case messages.Hello(id=number):
                 client.put(
                     messages.Greeting(
