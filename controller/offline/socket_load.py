@@ -36,7 +36,8 @@ REST_S = 5.0  # for the last answers
 SETTLED = 0.2  # share of the time after which memory has to be constant
 FOR_FINGERS = 8  # one command in so many
 MARGIN_MM = 15.0
-BEHIND_BYTES = 1 << 16
+RECEIVE_BYTES = 1 << 16
+OUTCOMES = ("played", "merged", "skipped", "refused")
 
 
 @dataclass
@@ -82,7 +83,7 @@ def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, 
 
     def read(account: Account) -> None:
         try:
-            more = account.socket.recv(BEHIND_BYTES)
+            more = account.socket.recv(RECEIVE_BYTES)
         except BlockingIOError:
             return
         if not more:
@@ -172,10 +173,7 @@ def _report(
     took_s: float,
 ) -> dict[str, Any]:
     answered = sum((account.answered for account in accounts), Counter[str]())
-    told = {
-        name: after["application_socket"][name] - before["application_socket"][name]
-        for name in ("played", "merged", "skipped", "refused")
-    }
+    counted = {name: count - before["application_socket"][name] for name, count in after["application_socket"].items()}
     settled = [resident for at_s, resident in memory if at_s >= SETTLED * took_s]
     sent = sum(account.sent for account in accounts)
     return {
@@ -183,7 +181,7 @@ def _report(
         "rate_hz": round(sent / took_s, 1),
         "answered": dict(sorted(answered.items())),
         "answered_once": answered.total() == sent and not any(account.wrong or account.waiting for account in accounts),
-        "sums_exact": all(answered[name] == count for name, count in told.items()),
+        "sums_exact": all(answered[name] == counted[name] for name in OUTCOMES),
         "unanswered": sum(len(account.waiting) for account in accounts),
         "answered_twice": sum(account.wrong for account in accounts),
         "refused_because": dict(sum((account.reasons for account in accounts), Counter[str]())),
@@ -213,6 +211,9 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
                 return drive(
                     path, panel.pid, seconds=options.seconds, rate_hz=options.rate, clients=options.clients, places=options.places
                 )
+            except LinkError:
+                panel.wait(REST_S)  # it ends by itself, and says why
+                raise
             finally:
                 panel.send_signal(signal.SIGTERM)
 
