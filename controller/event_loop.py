@@ -26,6 +26,7 @@ from controller.latency import Counters
 from controller.outputs import Outputs
 from controller.performance import Performance
 from controller.playback import ENDLESS, Playback
+from controller.policy import MOST
 from controller.scene import ROUNDING_S, Emission, Scene
 from controller.touch.samples import TouchSample
 from controller.touch.source import TrackedTouch
@@ -178,8 +179,8 @@ class EventLoop:
         self._change.begin(name, ticket)
 
     def figures(self) -> dict[str, Any]:
-        """Counters and latencies so far, ready for JSON."""
-        return self._counters.export() | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
+        """Counters and latencies so far, ready for JSON; without histograms, which would keep the loop for too long."""
+        return self._counters.export(histograms=False) | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
 
     def effects(self) -> tuple[str, ...]:
         """Names of the effects that `play` knows."""
@@ -303,7 +304,8 @@ class EventLoop:
         if playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
             next_s = playback.next_repetition_s(now_s)
             panel_s = self._time_base.fpga_s(next_s)
-            if next_s < now_s + playback.duration_s and period_s is not None:
+            room = len(emissions) + len(performance.scene.spots) <= MOST
+            if next_s < now_s + playback.duration_s and period_s is not None and room:
                 emissions += performance.all_spots(panel_s + period_s)
             else:
                 performance.spots_from(panel_s)

@@ -37,6 +37,7 @@ SETTLED = 0.2  # share of the time after which memory has to be constant
 FOR_FINGERS = 8  # one command in so many
 MARGIN_MM = 15.0
 RECEIVE_BYTES = 1 << 16
+SENT_AT_ONCE = 32  # before answers are read: who falls behind shall not be let go for not reading
 OUTCOMES = ("played", "merged", "skipped", "refused")
 
 
@@ -105,7 +106,7 @@ def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, 
             if now_s >= memory_s:
                 memory.append((now_s - started_s, _resident_bytes(pid)))
                 memory_s = now_s + 1.0
-            due = min(int((now_s - started_s) * rate_hz) + 1, total)
+            due = min(int((now_s - started_s) * rate_hz) + 1, total, number + SENT_AT_ONCE)
             for number_sent in range(number, due):
                 account = accounts[number_sent % clients]
                 request = _request(chance, number_sent, spots, fingers)

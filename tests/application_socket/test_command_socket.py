@@ -176,6 +176,16 @@ def test_figures_are_told_and_not_counted_anew_for_each_who_asks(panel):
     assert panel.control.times_told == 2
 
 
+def test_figures_too_long_for_the_queue_are_refused_and_the_client_stays(panel):
+    client = panel.connect()
+    panel.control.figures = lambda: {"histogram": list(range(20_000))}
+    (answer,) = panel.ask(client, {"kind": "figures", "id": 1})
+    assert answer["outcome"] == "refused"
+    assert answer["reason"].endswith("bytes, more than 65536")
+    assert len(panel.ask(client, {"kind": "hello"})) == 1
+    assert balanced(panel)
+
+
 def test_a_scene_is_answered_when_it_is_in_force_or_refused(panel):
     client = panel.connect()
     assert (
