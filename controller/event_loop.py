@@ -178,8 +178,8 @@ class EventLoop:
         self._change.begin(name, ticket)
 
     def figures(self) -> dict[str, Any]:
-        """Counters and latencies so far, ready for JSON."""
-        return self._counters.export() | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
+        """Counters and latencies so far, ready for JSON; without histograms, which would keep the loop for too long."""
+        return self._counters.export(histograms=False) | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
 
     def effects(self) -> tuple[str, ...]:
         """Names of the effects that `play` knows."""
