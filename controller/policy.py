@@ -1,7 +1,7 @@
 """Which of the emissions that wait are played together, and which wait for the plate's next turn. Pure.
 
 The plate plays one waveform at a time. Foci that are apart share one: their responses are summed, and each gets
-less than it would get alone (two 0.72, four 0.54, ten 0.36). It depends on how far apart two are, here the
+less than it would get alone (of two about 0.72, of four 0.5, of ten 0.35). It depends on how far apart two are, here the
 worse of both (simulated panel, median of 16 random pairs; tests/offline/test_policy.py):
 
     mm      0.5   1.5   2.5   4     5     6     7     8     9     10    12    20

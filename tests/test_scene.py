@@ -1,5 +1,7 @@
 import math
 import pickle
+import random
+import tracemalloc
 
 import msgspec
 import numpy as np
@@ -492,6 +494,38 @@ def test_whatever_a_finger_does_time_moves_on_and_every_emission_can_be_played(t
             assert now_s - wait_s - 1e-9 <= e.time_s <= now_s
             assert e.owner == e.finger == 3
         assert [e.time_s for e in felt] == sorted(e.time_s for e in felt)
+
+
+def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
+    walk, places, samples = random.Random(1), [(0.1, 0.07)] * 4, []
+    for k in range(3000):
+        x_m, y_m = (
+            min(max(at_m + walk.uniform(-3e-3, 3e-3), 0), far) for at_m, far in zip(places[k % 4], (0.21, 0.148), strict=True)
+        )
+        places[k % 4] = x_m, y_m
+        samples.append(TouchSample(k % 4, x_m, y_m, k * 1e-3, walk.random() > 0.01))
+
+    def play():
+        states, emissions = {}, 0
+        for sample in samples:
+            for state in states.values():
+                emissions += len(on_time(LIBRARY_SCENE, state, sample.time_s)[1])
+            state, more = on_touch(LIBRARY_SCENE, states.pop(sample.finger, None), sample)
+            emissions += len(more)
+            if state is not None:
+                states[sample.finger] = state
+        return emissions
+
+    assert play() > 500
+    tracemalloc.start()
+    try:
+        before, _ = tracemalloc.get_traced_memory()
+        play()
+        after, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert after - before < 512
+    assert peak - before < 8192
 
 
 @given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))

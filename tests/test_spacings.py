@@ -101,13 +101,25 @@ def test_not_even_a_long_tremble_adds_up_to_a_way():
 def test_the_way_to_go_is_the_way_after_which_something_is_felt(axis, spacing_m, x_m, y_m, angle, gone):
     """For a finger that has gone a part of a spacing in one direction and goes on in it."""
     x, y = math.cos(angle), math.sin(angle)
+    assume(axis is None or abs((x, y)[axis]) > 1e-3)
     here = x_m + gone * spacing_m * x, y_m + gone * spacing_m * y
     for part, felt in ((0.999, False), (1.001, True)):
         progress = Spacing(spacing_m, axis, 0.01, 1.0).begin(x_m, y_m)
         assume(not progress.crossed(*here))
         to_go_m = progress.to_go_m(*here, x, y)
-        assume(1e-5 < to_go_m < 10)
+        across_m = to_go_m * abs((x, y)[axis]) if axis is not None else to_go_m
+        assume(across_m > 1e-5)  # a thousandth of it is more than rounding
         assert progress.crossed(here[0] + part * to_go_m * x, here[1] + part * to_go_m * y) == felt
+
+
+@pytest.mark.parametrize(
+    ("way", "x", "to_go_m"), [([15, 20.1], 1, 9.9), ([15, 20.1], -1, 10.1), ([15, 20.1, 22], -1, 2), ([25, 19.9], 1, 10.1)]
+)
+def test_the_line_just_felt_is_not_the_next_one_on_the_way_back(way, x, to_go_m):
+    progress = Spacing(10e-3, 0, 0.0, 1.0).begin(way[0] * 1e-3, 0.0)
+    for at_mm in way[1:]:
+        progress.crossed(at_mm * 1e-3, 0.0)
+    assert progress.to_go_m(way[-1] * 1e-3, 0.0, x, 0.0) * 1e3 == pytest.approx(to_go_m, abs=1e-5)
 
 
 def test_a_finger_that_goes_along_the_lines_never_comes_to_one():
