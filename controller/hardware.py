@@ -125,13 +125,7 @@ def tracked(source: TouchSource, board: Board) -> Tracker:
 
 
 def open_thermometer(board: Board) -> Thermometer | None:
-    """Sensor of the plate's temperature; None where the board has none.
-
-    Raises
-    ------
-    ConfigError
-        If it is not there.
-    """
+    """Sensor of the plate's temperature, which may come later; None where the board has none."""
     if board.temperature is None:
         return None
     from controller.temperature import Thermometer

@@ -6,6 +6,7 @@ from typing import Any
 
 LABELS = {
     "relative_amplitude": "relative amplitude",
+    "exact_share": "of exact composition",
     "amplitude_um": "amplitude (µm)",
     "contrast": "contrast (outside 10 mm)",
     "contrast_all": "contrast (all points)",
@@ -38,6 +39,12 @@ def run_table(figures: dict[str, Any]) -> str:
             heading = f"{title} ({values['count']})"
             lines += ["", f"{heading:<30}{'median':>10}{'worst':>10}"]
             lines += [f"{LABELS[name]:<30}{_number(v['median']):>10}{_number(v['worst']):>10}" for name, v in _measured(values)]
+    if figures["together"]:
+        lines += ["", f"{'fingers at once':<18}{'emissions':>10}{'worst finger of exact':>24}{'crest to finger (mm)':>24}"]
+    for row in figures["together"]:
+        share, distance = row["worst_finger_exact_share"], row["distance_mm"]
+        values = [f"{_number(figure['median'])} / {_number(figure['worst'])}" for figure in (share, distance)]
+        lines.append(f"{row['fingers']:<18}{row['emissions']:>10}{values[0]:>24}{values[1]:>24}")
     return "\n".join(lines)
 
 

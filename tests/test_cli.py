@@ -113,8 +113,13 @@ def test_run_prints_one_json_object_with_every_figure(capsys, small_board):
             assert summary["p999"] is None
     wire = figures["latency_us"]["wire"]["uploads"]["p50"]
     assert wire == pytest.approx(8 * (4096 + 4 * 36) / 25, rel=0.01), "µs at 25 MHz; 1 % for the pauses between frames"
-    for name in ("relative_amplitude", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
+    for name in ("relative_amplitude", "exact_share", "amplitude_um", "contrast", "contrast_all", "spot_mm", "distance_mm"):
         assert set(figures["focus"][name]) == {"median", "worst"}
+    assert figures["focus"]["exact_share"] == figures["focus"]["relative_amplitude"], "one finger, full amplitude"
+    (alone,) = figures["together"]
+    assert (alone["fingers"], alone["emissions"]) == (1, 1)
+    assert alone["worst_finger_exact_share"] == figures["focus"]["exact_share"]
+    assert alone["distance_mm"] == figures["focus"]["distance_mm"]
     assert figures["focus"]["relative_amplitude"]["median"] > 0.7, "a click within 1.5 mm of a cell of the 10 mm grid"
 
 

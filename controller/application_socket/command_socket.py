@@ -87,7 +87,7 @@ class CommandSocket:
         self._epoll = select.epoll()
         self._epoll.register(self._listener_fd, select.EPOLLIN)
         self._clients = [Connection(settings.commands_per_s, settings.burst) for _ in range(settings.max_clients)]
-        self._first = 0  # who is served first; the next one in the next turn
+        self._first = 0  # who is served first: the one after whom a turn's lines were used up before
         self._tickets = Tickets(WAITING_PER_CLIENT * settings.max_clients)
         self._requests = messages.request_decoder()
         self._numbers = msgspec.json.Decoder(messages.Numbered)
@@ -123,13 +123,13 @@ class CommandSocket:
             self._epoll.register(self._listener_fd, select.EPOLLIN)
         left = LINES_A_TURN
         self._next_s = next_s = self._listen_s
-        count = len(self._clients)
-        self._first = (self._first + 1) % count
+        first, count = self._first, len(self._clients)
         for number in range(count):
-            client = self._clients[(self._first + number) % count]
+            client = self._clients[(first + number) % count]
             if client.open:
-                if client.resume_s <= now_s:
+                if left and client.resume_s <= now_s:
                     left -= self._handle_lines(client, min(left, LINES_A_CLIENT), now_s, control)
+                    self._first = (first + number + 1) % count
                 next_s = min(next_s, self._settle(client, now_s))
         self._next_s = min(self._next_s, next_s)  # an outcome may have come meanwhile
 

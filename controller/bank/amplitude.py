@@ -18,8 +18,7 @@ AMPLITUDES = tuple(2 ** (-step / STEPS_PER_HALF) for step in range(LEAST_STEP + 
 # Share of the full amplitude that is left when every sample is held whose response is below a threshold,
 # in units of the mean of its absolute value over 96 us: median over 120 points of the simulated board.
 THRESHOLDS = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
-IN_BAND = (1.0, 0.9719, 0.8928, 0.7768, 0.6394, 0.4969, 0.3637, 0.2487, 0.1374, 0.0586)
-WHOLE = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
+SHARES = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
 
 
 def amplitude_step(amplitude: float) -> int:
@@ -35,20 +34,11 @@ def amplitude_step(amplitude: float) -> int:
     return min(round(-STEPS_PER_HALF * math.log2(amplitude)), LEAST_STEP)
 
 
-def hold_threshold(in_band: float) -> float:
-    """Threshold, in local means, at which about this share of the full in-band amplitude is left."""
-    return _interpolate(in_band, IN_BAND, THRESHOLDS)
-
-
-def in_band_share(whole: float) -> float:
-    """Share of the in-band amplitude at which this share of the whole displacement is left."""
-    return _interpolate(whole, WHOLE, IN_BAND)
-
-
-def _interpolate(value: float, falling: tuple[float, ...], result: tuple[float, ...]) -> float:
-    """Value of `result` where `falling`, which begins with 1, has a value; linear in between, the last one below the last."""
-    for index in range(1, len(falling)):
-        if value >= falling[index]:
-            part = max(falling[index - 1] - value, 0.0) / (falling[index - 1] - falling[index])
-            return result[index - 1] + part * (result[index] - result[index - 1])
-    return result[-1]
+def hold_threshold(share: float) -> float:
+    """Threshold, in local means, at which about this share of the full amplitude is left."""
+    for index in range(1, len(SHARES)):
+        if share >= SHARES[index]:
+            above, below = SHARES[index - 1], SHARES[index]
+            part = max(above - share, 0.0) / (above - below)
+            return THRESHOLDS[index - 1] + part * (THRESHOLDS[index] - THRESHOLDS[index - 1])
+    return THRESHOLDS[-1]

@@ -19,7 +19,8 @@ from operator import mul
 
 import numpy as np
 
-from controller.bank.amplitude import hold_threshold, in_band_share
+from controller.bank.amplitude import hold_threshold
+from controller.bank.file_format import REST_SAMPLES
 from controller.bank.holding import Holding
 from controller.bank.interpolation import Interpolation
 from controller.bank.packing import CHANNELS, WORD, WordPacker
@@ -51,28 +52,37 @@ class Composer:
     def __init__(self, bank: Bank, idle_word: int) -> None:
         if not 0 <= idle_word < 1 << CHANNELS:
             raise ValueError(f"idle word {idle_word:#x} is not {CHANNELS} bits")
-        values = bank.samples * CHANNELS
-        self._holding = Holding(bank.samples, bank.header.bit_clock_hz)
+        samples, rest_rows = bank.samples, bank.header.rest_rows
+        values = samples * CHANNELS
+        self._holding = Holding(samples, bank.header.bit_clock_hz)
         self._packer = WordPacker(self._holding.padded_samples)
         padded = self._holding.padded_samples * CHANNELS
-        self._interpolation = Interpolation(bank)
-        self._interpolated = np.empty(values, np.int16)
+        self._band = Interpolation(bank, samples)
+        self._band_and_rest = Interpolation(bank, samples + rest_rows)
+        self._interpolated = np.empty(values + rest_rows * CHANNELS, np.int16)
+        self._in_band, self._outside = self._interpolated[:values], self._interpolated[values:]
         self._points = np.zeros((MOST_POINTS, padded), np.float32)
         self._points_of_samples = self._points[:, :values]
+        self._rests = np.empty((MOST_POINTS, rest_rows * CHANNELS), np.float32)
         self._sum = np.empty(padded, np.float32)
+        self._normalised = np.empty(padded, np.float32)
+        self._held = np.empty((), np.float32)
         self._ones = np.ones(padded, np.float32)
         self._deviates = np.empty(padded, np.float32)  # bits as numbers; also the room for absolute values
+        of_rest = self._deviates[: rest_rows * REST_SAMPLES * CHANNELS]
+        self._deviates_of_rest = of_rest.reshape(rest_rows, REST_SAMPLES, CHANNELS)
+        self._deviations = np.empty((rest_rows, 1, CHANNELS), np.float32)
+        self._deviations_in_a_row = self._deviations.reshape(-1)
+        self._eight = np.ones((1, REST_SAMPLES), np.float32)
         self._weights = np.empty(MOST_POINTS, np.float32)
-        self._reached = np.empty(MOST_POINTS, np.float32)
+        self._reached = np.empty((2, MOST_POINTS), np.float32)
         idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
-        self._flip = np.tile(1 - 2 * idle_high, bank.samples)
-        self._low_at = np.tile(-idle_high, bank.samples)  # largest whole number that plays low
-        self._held = np.empty((), np.float32)
-        self._normalised = np.empty(padded, np.float32)
+        self._flip = np.tile(1 - 2 * idle_high, samples + rest_rows)
+        self._low_at = np.tile(-idle_high, samples)  # largest whole number that plays low
         self._idle_word = np.array(idle_word, WORD)
         self._bits = self._packer.bits
         self._bits_of_samples = self._bits[:values]
-        self._view = self._packer.words.data.cast("B")[: 4 * bank.samples].toreadonly()
+        self._view = self._packer.words.data.cast("B")[: 4 * samples].toreadonly()
 
     def compose(self, points: Sequence[Point]) -> memoryview:
         """Drive words that make every point jump at T.
@@ -105,8 +115,8 @@ class Composer:
             full = full and amplitude == 1
         if count == 1 and full:
             x_m, y_m, _ = points[0]
-            self._interpolation.at(x_m, y_m, self._interpolated)
-            np.greater(self._interpolated, self._low_at, out=self._bits_of_samples)
+            self._band.at(x_m, y_m, self._in_band)
+            np.greater(self._in_band, self._low_at, out=self._bits_of_samples)
             self._packer.pack()
         else:
             self._compose(points, full)
@@ -119,9 +129,10 @@ class Composer:
         count = len(points)
         sizes = []  # of each response alone
         for row, point in enumerate(points):
-            self._interpolation.at(point[0], point[1], self._interpolated)
+            self._band_and_rest.at(point[0], point[1], self._interpolated)
             np.multiply(self._interpolated, self._flip, out=self._interpolated)
-            np.copyto(self._points_of_samples[row], self._interpolated)
+            np.copyto(self._points_of_samples[row], self._in_band)
+            np.copyto(self._rests[row], self._outside)
             np.abs(self._points[row], out=self._deviates)
             sizes.append(float(np.dot(self._deviates, self._ones)) or 1.0)
         shares = [1.0] * count
@@ -130,9 +141,8 @@ class Composer:
         if full:
             return
         shares = [amplitude for _, _, amplitude in points]
-        whole = _length(shares) / math.sqrt(count)
-        left = in_band_share(whole)
-        wanted = [share * reached * left / whole for share, reached in zip(shares, self._reach(sizes), strict=True)]
+        wanted = [share * reached for share, reached in zip(shares, self._reach(sizes), strict=True)]
+        left = _length(shares) / math.sqrt(count)
         self._add(shares, sizes)
         self._holding.measure(self._sum)
         self._holding.normalise(self._sum, self._normalised)
@@ -166,8 +176,11 @@ class Composer:
         """What the bits do at each point, in sizes of its response."""
         count = len(sizes)
         np.copyto(self._deviates, self._bits)
-        np.dot(self._points[:count], self._deviates, out=self._reached[:count])
-        return [float(self._reached[row]) / size for row, size in enumerate(sizes)]
+        np.matmul(self._eight, self._deviates_of_rest, out=self._deviations)
+        in_band, outside = self._reached
+        np.dot(self._points[:count], self._deviates, out=in_band[:count])
+        np.dot(self._rests[:count], self._deviations_in_a_row, out=outside[:count])
+        return [float(in_band[row] + outside[row]) / size for row, size in enumerate(sizes)]
 
 
 def _length(shares: list[float]) -> float:

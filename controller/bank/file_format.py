@@ -20,9 +20,10 @@ from controller.bank.packing import CHANNELS
 from controller.errors import BankError
 
 MAGIC = b"HPNLBANK"
-VERSION = 1
+VERSION = 2
 PAGE = 4096
 LINE = 64  # responses start on a cache line
+REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
 MAX_HEADER = 1 << 20
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
@@ -75,9 +76,14 @@ class Header:
         """Bytes of the header: whole pages."""
         return up(FIXED.size + 5 * SECTION.size + len(self._json()) + CRC.size, PAGE)
 
+    @property
+    def rest_rows(self) -> int:
+        """Rows of the rest of a response: one for each `REST_SAMPLES` samples."""
+        return -(-self.samples // REST_SAMPLES)
+
     def sections(self) -> tuple[Section, ...]:
         """Where everything lies; it follows from the counts alone. Tables have no CRC yet."""
-        drive_bytes, response_bytes = 4 * self.samples, CHANNELS * self.samples
+        drive_bytes, response_bytes = 4 * self.samples, CHANNELS * (self.samples + self.rest_rows)
         offset = self.header_bytes
         placed = []
         for name, rows, row_bytes, stride in (

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.bank.file_format import REST_SAMPLES
 from controller.bank.packing import CHANNELS
 
 LOCAL_S = 96e-6  # over which the strength of a response is taken
-SIDE_BY_SIDE = 4  # samples for which strengths are laid out at a time: longer runs for numpy's inner loop
+SIDE_BY_SIDE = REST_SAMPLES  # samples for which strengths are laid out at a time: longer runs for numpy's inner loop
 TINY = np.array(1e-30, np.float32)  # below every strength but that of nothing
 
 Values = NDArray[np.float32]
@@ -29,7 +30,7 @@ class Holding:
     Attributes
     ----------
     padded_samples : int
-        Whole blocks: what lies behind the last sample has to be zero.
+        Whole blocks, and whole rows of the rest: what lies behind the last sample has to be zero.
     """
 
     def __init__(self, samples: int, bit_clock_hz: float) -> None:

@@ -23,10 +23,13 @@ class Interpolation:
     ----------
     bank : Bank
         The open bank; its response section is mapped with the first interpolation.
+    taken : int
+        How many rows of a response: all samples, or the rest outside the band too.
     """
 
-    def __init__(self, bank: Bank) -> None:
-        values = bank.samples * CHANNELS
+    def __init__(self, bank: Bank, taken: int) -> None:
+        values = taken * CHANNELS
+        self._values = values
         self._bank = bank
         self._grid = bank.grid
         four = np.empty(4 * values, np.int16)
@@ -44,7 +47,7 @@ class Interpolation:
         ----------
         x_m, y_m : float
             Points beyond the outermost cells take the nearest place among the cells.
-        out : (samples * 32,) int16 array
+        out : (taken * 32,) int16 array
             Filled, in drive order.
 
         Raises
@@ -55,7 +58,7 @@ class Interpolation:
             If the point is not finite.
         """
         cell, columns, rows, right, up = self._grid.patch(x_m, y_m)
-        levels = self._bank.response_patch(cell, columns, rows)
+        levels = self._bank.response_patch(cell, columns, rows)[:, :, : self._values]
         cells, each = self._by_shape[rows, columns]
         if rows == columns == 1:
             np.copyto(out, levels[0, 0])

@@ -166,8 +166,8 @@ class Bank:
         """
         entry = self._checked_response(cell)
         start = entry * self._response_stride
-        view = self._response[start : start + self._response_bytes]
-        return np.frombuffer(view, np.int8).reshape(self.samples, CHANNELS), self._scale_of[entry]
+        levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
+        return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
     def scale(self, cell: int) -> float:
         """Scale of a cell that `response_patch` gave, in m per V of one level."""
@@ -185,8 +185,8 @@ class Bank:
 
         Returns
         -------
-        (rows, columns, samples * 32) int8 array
-            In drive order; a read-only view of the file.
+        (rows, columns, (samples + rest_rows) * 32) int8 array
+            In drive order, then the rest outside the band; a read-only view of the file.
 
         Raises
         ------

@@ -85,14 +85,17 @@ class BankWriter:
             A cell of `cells` that has no entry yet.
         words : (samples,) uint32 array
             Drive words.
-        response : (samples, 32) int8 array
-            Response in drive order, in steps of `scale_m_per_v`.
+        response : (samples + rest_rows, 32) int8 array
+            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`.
         scale_m_per_v : float
             m per V of one step.
         """
         samples = self._header.samples
-        if words.shape != (samples,) or words.dtype != WORD or response.shape != (samples, CHANNELS) or response.dtype != np.int8:
-            raise ValueError(f"entry of {words.shape} {words.dtype} and {response.shape} {response.dtype}, not {samples} samples")
+        rows = samples + self._header.rest_rows
+        if words.shape != (samples,) or words.dtype != WORD or response.shape != (rows, CHANNELS) or response.dtype != np.int8:
+            raise ValueError(
+                f"entry of {words.shape} {words.dtype} and {response.shape} {response.dtype}, not {samples} samples and {rows} rows"
+            )
         entry = int(self._index[cell])
         if entry < 0 or self._written[entry]:
             raise ValueError(f"cell {cell} {'was not asked for' if entry < 0 else 'has its entry already'}")

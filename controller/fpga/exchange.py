@@ -70,11 +70,6 @@ class Exchange:
         self._link = link
         self._now_s = now_s
         self._beat_s = beat_s
-        self._timestamp_ticks = 0  # of the last status
-
-    def forget_time(self) -> None:
-        """Take the FPGA's time as it comes: it may have been reset."""
-        self._timestamp_ticks = 0
 
     def message(self, lengths: list[int], *, faults_matter: bool = True) -> Status:
         """Send frames and check every answer; the last status, which is that of the frame before the last.
@@ -85,8 +80,6 @@ class Exchange:
             If a fault is latched.
         Refused
             With the first result that is not OK.
-        FpgaReset
-            If the FPGA's time went back.
         Damaged
             If an answer is no status, with what may be wrong with the wires.
         LinkError
@@ -107,7 +100,6 @@ class Exchange:
         except Damaged as error:
             why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
             raise Damaged(why) from error
-        self._keep_time(status)
         if status.faults:
             self._explain(status, faults_matter)
         return status
@@ -122,7 +114,7 @@ class Exchange:
             try:
                 return send(again)
             except LinkError as error:
-                if isinstance(error, FpgaReset) or (isinstance(error, Refused) and error.result not in DAMAGED):
+                if isinstance(error, Refused) and error.result not in DAMAGED:
                     raise
         try:
             return send(True)
@@ -136,6 +128,8 @@ class Exchange:
             try:
                 self.control(Control.STOP)
                 return
+            except FaultError:
+                return  # its outputs are off
             except LinkError:
                 continue
 
@@ -176,21 +170,8 @@ class Exchange:
             start += length
         return damaged
 
-    def _keep_time(self, status: Status) -> None:
-        """Take note of the FPGA's time.
-
-        Raises
-        ------
-        FpgaReset
-            If it went back.
-        """
-        before_ticks, self._timestamp_ticks = self._timestamp_ticks, status.timestamp_ticks
-        if status.timestamp_ticks < before_ticks:
-            raise FpgaReset
-
     def _explain(self, status: Status, faults_matter: bool) -> None:
         """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""
-        self._keep_time(status)
         if status.faults and faults_matter:
             kind = HostSilent if status.faults == Fault.HOST_SILENT else FaultError
             raise kind(f"outputs off: {status.faults.sentence}", status.faults)

@@ -5,6 +5,7 @@ A play that was damaged on its way is sent again behind a STOP, so that nothing 
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Callable
 
@@ -19,6 +20,8 @@ from controller.fpga.registers import Control, Register, Result, Start, State
 
 BEATS_PER_TIMEOUT = 3
 CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
+CLOCK_TOLERANCE = 0.005  # more than crystals and a slewed clock of the host can differ
+FRESH_S = 0.25  # after a heartbeat, for which settings are taken to be those of `bring_up`
 FORGOTTEN = frozenset({Result.NOT_ARMED, Result.EMPTY_SLOT})  # answers of an FPGA that was reset
 
 
@@ -65,6 +68,8 @@ class Session:
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
         self._ours = False  # if anything is on, this host has armed it
         self._on = False  # it has to be, since it was armed and until it is disarmed
+        self._beat_s = math.inf  # after the last heartbeat
+        self._beat_ticks = 0  # the FPGA's time at that heartbeat
         self.clock_relation: ClockRelation | None = None
         self.bit_period = board.bit_period
         self.bring_up()
@@ -81,7 +86,7 @@ class Session:
             call again when its ramp has passed.
         """
         self._on = False
-        self.exchange.forget_time()
+        self._beat_s = math.inf  # its clock may have begun anew
         self.exchange.insist(lambda _: self._commanded(Control.CLEAR, faults_matter=False))  # it answers no question before
         configuration.verify(self.exchange.read, self._board, self._build_hash)
         self._configure()
@@ -117,9 +122,15 @@ class Session:
         ------
         Refused
             If the FPGA will not, such as without its permits.
+        FpgaReset
+            If it was reset since the last heartbeat or bring-up, and would arm with other limits than the board's.
         LinkError
             If the link damages whatever is tried.
         """
+        fresh = self._now_s() - self._beat_s < FRESH_S
+        self.heartbeat()
+        if not fresh:  # a reset soon after the one before could have been missed
+            self.bring_up()
 
         def send(again: bool) -> Status:
             if again:  # the ARM may have arrived, and only its answer not
@@ -172,16 +183,19 @@ class Session:
         HostSilent, FaultError
             If the FPGA has switched off.
         FpgaReset
-            If it was reset: it is off without a fault, or its time went back.
+            If it was reset: it is off without a fault, or its clock has not gone on as this host's.
         LinkError
             If its answers are damaged again and again.
         """
         before_s = self._now_s()
         status = self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
-        if self._on and State.HV_ENABLE not in status.state:
+        after_s = max(self._now_s(), self._link.free_s())
+        least_ticks = (before_s - self._beat_s) * self._board.link.clock_hz * (1 - CLOCK_TOLERANCE)
+        if (self._on and State.HV_ENABLE not in status.state) or status.timestamp_ticks - self._beat_ticks < least_ticks:
             raise FpgaReset
+        self._beat_s, self._beat_ticks = after_s, status.timestamp_ticks
         if self.clock_relation is not None:
-            self.clock_relation.add(before_s, max(self._now_s(), self._link.free_s()), status.timestamp_ticks)
+            self.clock_relation.add(before_s, after_s, status.timestamp_ticks)
         return status
 
     def play(

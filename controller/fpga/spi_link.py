@@ -29,7 +29,7 @@ RD_MAX_SPEED_HZ: Final = 0x80046B04
 RD_MODE32: Final = 0x80046B05
 MODE: Final = 0  # clock idle low, sampled on its rise; most significant bit first, chip select active low
 BITS_PER_WORD: Final = 8
-GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.EBADF})  # the device is not there any more
+GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device is not there any more
 
 
 def read_bufsiz() -> int:
@@ -110,7 +110,7 @@ class SpiLink:
         if messages is None or messages.sent is not sent or messages.received is not received:
             messages = self._messages = Messages(sent, received, self.bufsiz)
         if self._spi is None:
-            self._spi = self._opened()
+            self._spi = self._opened_again()
         fd = self._spi.fileno()
         pieces = messages.of(lengths)
         started_ns = time.perf_counter_ns()
@@ -150,7 +150,7 @@ class SpiLink:
         if not 0 < sck_hz <= self._settings.sck_hz:
             raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")
         if self._spi is None:
-            self._spi = self._opened()
+            self._spi = self._opened_again()
         self._asked_hz = sck_hz
         try:
             self._set_speed(self._spi)
@@ -196,6 +196,20 @@ class SpiLink:
             raise
         return spi
 
+    def _opened_again(self) -> spidev.SpiDev:
+        """The device, after it had gone."""
+        try:
+            return self._opened()
+        except LinkError as error:
+            if isinstance(error.__cause__, OSError) and error.__cause__.errno in GONE:
+                raise LinkError(self._gone) from error
+            raise
+
+    @property
+    def _gone(self) -> str:
+        device = self._settings.device
+        return f"{device} has gone: was its driver unbound, or its adapter unplugged? It is opened again when it is back"
+
     def _set_speed(self, spi: spidev.SpiDev) -> None:
         spi.max_speed_hz = self._asked_hz
         said_hz = _read(spi, RD_MAX_SPEED_HZ, "=I")
@@ -210,9 +224,7 @@ class SpiLink:
                 with contextlib.suppress(OSError):
                     self._spi.close()
             self._spi = None
-            return LinkError(
-                f"{device} has gone: was its driver unbound, or its adapter unplugged? It is opened again when it is back"
-            )
+            return LinkError(self._gone)
         if error.errno == errno.ETIMEDOUT:
             return LinkError(
                 f"{device}: the SPI controller did not finish a transfer: its bus is stuck; restart the machine if it stays"

@@ -130,20 +130,25 @@ def build_bank(
     ):
         model = ResponseModel(board, highest_hz)
         model_seconds = time.perf_counter() - started
-        block = np.empty((min(CELLS_PER_BLOCK, len(numbers)), header.samples, CHANNELS), np.float32)
+        cells_at_once = min(CELLS_PER_BLOCK, len(numbers))
+        block = np.empty((cells_at_once, header.samples, CHANNELS), np.float32)
+        rest_block = np.empty((cells_at_once, header.rest_rows, CHANNELS), np.float32)
+        entry = np.empty((header.samples + header.rest_rows, CHANNELS), np.float32)
         for first in range(0, len(numbers), CELLS_PER_BLOCK):
             some = slice(first, first + CELLS_PER_BLOCK)
             responses = block[: len(numbers[some])]
             before = time.perf_counter()
             model.drive_order_responses(points_m[some], out=responses)
+            rests = model.rest_responses(points_m[some], out=rest_block[: len(responses)])
             response_seconds += time.perf_counter() - before
-            for cell, response in zip(numbers[some].tolist(), responses, strict=True):
+            for cell, response, rest in zip(numbers[some].tolist(), responses, rests, strict=True):
                 words = drive_words(response, board.idle_word)
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, words, cell))
                 counts = edges(np.concatenate([idle, words, idle]))
                 parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
                 parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                writer.add(cell, words, *quantise(response))
+                np.concatenate([response, rest], out=entry)
+                writer.add(cell, words, *quantise(entry))
             bar.update(len(responses))
     seconds = time.perf_counter() - started
     flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS

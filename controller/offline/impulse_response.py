@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.bank.file_format import REST_SAMPLES
 from controller.board import CHANNELS, Board
 from controller.offline.driver import DriverResponse
 from controller.offline.plate import PlateModes
@@ -67,7 +68,7 @@ class ResponseModel:
             (waveform.band_low_hz, waveform.band_high_hz),
             board.plate.decay_time_s,
         )
-        self._kernels: dict[tuple[bool, bool, str], NDArray[np.floating[Any]]] = {}
+        self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
         self._workspaces: dict[str, tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
     @property
@@ -115,9 +116,29 @@ class ResponseModel:
         """
         return self._responses(points_m, self._kernel(True, True, np.dtype(dtype)), out)
 
+    def rest_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """What `drive_order_responses` leave out: responses outside the band, as means over 8 samples in drive order.
+
+        With these, what bits do at a point is known to 1 % of the displacement, not only in the band.
+
+        Parameters, result and errors as in `responses`, with a row for each 8 samples in place of each sample; what the
+        last row has beyond the last sample is zero.
+        """
+        kind = np.dtype(dtype)
+        key = ("rest", kind.str)
+        if key not in self._kernels:
+            rows = -(-self.samples // REST_SAMPLES)
+            outside = np.zeros((self.modes, rows * REST_SAMPLES))
+            outside[:, : self.samples] = (self.modal - self.modal_band)[:, ::-1]
+            means = outside.reshape(self.modes, rows, REST_SAMPLES).mean(axis=2)
+            self._kernels[key] = np.ascontiguousarray(means.T, kind)
+        return self._responses(points_m, self._kernels[key], out)
+
     def _kernel(self, band_limited: bool, reverse: bool, dtype: np.dtype[Any]) -> NDArray[np.floating[Any]]:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""
-        key = (band_limited, reverse, dtype.str)
+        key = (f"{band_limited} {reverse}", dtype.str)
         if key not in self._kernels:
             modal = self.modal_band if band_limited else self.modal
             self._kernels[key] = np.ascontiguousarray((modal[:, ::-1] if reverse else modal).T, dtype)
@@ -127,7 +148,7 @@ class ResponseModel:
         self, points_m: ArrayLike, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]] | None
     ) -> NDArray[np.floating[Any]]:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        shape = (len(points), self.samples, CHANNELS)
+        shape = (len(points), len(kernel), CHANNELS)
         if out is None:
             out = np.empty(shape, kernel.dtype)
         if out.shape != shape or out.dtype != kernel.dtype:
@@ -145,9 +166,9 @@ class ResponseModel:
             some = points[first : first + POINTS_PER_GEMM]
             columns = len(some) * CHANNELS
             np.multiply(self.plate_modes.mode_shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
-            result = product[: self.samples * columns].reshape(self.samples, columns)
+            result = product[: len(kernel) * columns].reshape(len(kernel), columns)
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
-            out[first : first + len(some)] = result.reshape(self.samples, len(some), CHANNELS).swapaxes(0, 1)
+            out[first : first + len(some)] = result.reshape(len(kernel), len(some), CHANNELS).swapaxes(0, 1)
 
     def _workspace(self, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""

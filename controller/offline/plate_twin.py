@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,9 @@ from controller.offline.plate import PlateModes
 from controller.offline.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
+Reals = NDArray[np.floating[Any]]
 Complex = NDArray[np.complex128]
+Point = tuple[float, float]
 
 GAP_BITS = 16
 LONGEST_GROUP_BITS = 1024
@@ -79,7 +81,7 @@ class PlateTwin:
         self._remembered = remembered
         self._wakes: OrderedDict[bytes, Wake] = OrderedDict()
         self._table: NDArray[np.float64] | None = None
-        self._references: dict[tuple[float, float], float] = {}
+        self._exact: dict[tuple[Point, ...], Floats] = {}
         self._responses: ResponseModel | None = None
         self._pole_forces = np.ascontiguousarray(self.forces[self.step.mode_of_pole])
 
@@ -133,16 +135,34 @@ class PlateTwin:
 
     def reference_amplitude(self, x_m: float, y_m: float) -> float:
         """A_ref in m: all modes, float64, the sign of this very point's band-limited response, once, from the idle word."""
-        key = (x_m, y_m)
-        if key not in self._references:
+        return float(self.exact_amplitudes(((x_m, y_m),))[0])
+
+    def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
+        """Amplitude of each point in m when all are composed exactly: (point,).
+
+        As `reference_amplitude`, with the sign of the sum of all points' responses, each divided by the sum of its
+        absolute values: what each can have beside the others if all are played at full amplitude.
+        """
+        if points_m not in self._exact:
             if self._responses is None:
                 self._responses = ResponseModel(self.board, self._highest_hz)
-            drive_order = self._responses.drive_order_responses(np.array([key]), dtype=np.float64)
-            words = focus(drive_order, [1.0], self.board.idle_word)
-            response = self._responses.responses(np.array([key]))[0, ::-1]
-            above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
-            self._references[key] = float(np.vdot(above_idle, response))
-        return self._references[key]
+            places = np.array(points_m)
+            in_band = self._responses.drive_order_responses(places, dtype=np.float64)
+            whole = self._responses.responses(places)[:, ::-1]
+            sizes = np.abs(in_band).sum(axis=(1, 2))
+            weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # on the plate's very rim nothing can move
+            self._exact[points_m] = self._reached(in_band, weights, whole)
+            for index, point in enumerate(points_m):  # the responses are what takes time: each alone comes with them
+                alone = slice(index, index + 1)
+                self._exact.setdefault((point,), self._reached(in_band[alone], np.ones(1), whole[alone]))
+        return self._exact[points_m]
+
+    def _reached(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
+        """Displacement at each point by the words that weighted responses give, from rest at the idle word."""
+        words = focus(in_band, weights.tolist(), self.board.idle_word)
+        above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
+        reached = whole.reshape(len(whole), -1) @ above_idle.ravel()
+        return reached.astype(np.float64, copy=False)
 
     def _wake(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> Wake:
         """What a group leaves; `words` has one more than `ticks`, the one before the first step."""

@@ -11,7 +11,7 @@ import contextlib
 import time
 import zlib
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -49,7 +49,8 @@ class Focus:
     emission: Emission
     x_m: float  # the finger at T; an untracked spot itself
     y_m: float
-    relative_amplitude: float
+    relative_amplitude: float  # over what this point could have alone
+    exact_share: float  # over what was asked for: its amplitude of what exact composition at the fingers' places gives it
     metrics: FocusMetrics
     distance_m: float  # from there to the crest of the spot
 
@@ -178,14 +179,16 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
 def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
     """All foci of one emission, each where its finger was."""
     places = [_place(run.tracks, emission, time_s) for emission in emissions]
+    exact_m = twin.exact_amplitudes(tuple(places))
     together = []
-    for emission, (x_m, y_m) in zip(emissions, places, strict=True):
+    for emission, (x_m, y_m), asked_m in zip(emissions, places, exact_m.tolist(), strict=True):
         metrics = field.focus_metrics(x_m, y_m, places)
         crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
         reference_m = twin.reference_amplitude(x_m, y_m)
         relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
+        exact_share = metrics.amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
         distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
-        together.append(Focus(time_s, emission, x_m, y_m, relative, metrics, distance_m))
+        together.append(Focus(time_s, emission, x_m, y_m, relative, exact_share, metrics, distance_m))
     return together
 
 
@@ -252,6 +255,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
         "focus": _figures(tracked),
+        "together": _together(tracked),
         "untracked_spots": _figures([focus for focus in foci if focus.emission.finger is None]),
     }
 
@@ -260,18 +264,38 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
     """Median and worst of every figure; None without any focus."""
     columns: dict[str, tuple[list[float], Callable[[list[float]], float]]] = {
         "relative_amplitude": ([f.relative_amplitude for f in foci], min),
+        "exact_share": ([f.exact_share for f in foci], min),
         "amplitude_um": ([f.metrics.amplitude_m * 1e6 for f in foci], min),
         "contrast": ([f.metrics.contrast for f in foci], min),
         "contrast_all": ([f.metrics.contrast_all for f in foci], min),
         "spot_mm": ([f.metrics.spot_m * 1e3 for f in foci], max),
         "distance_mm": ([f.distance_m * 1e3 for f in foci], max),
     }
-    figures: dict[str, Any] = {"count": len(foci)}
-    for name, (all_values, worst) in columns.items():
-        values = [value for value in all_values if np.isfinite(value)]  # on the plate's very rim nothing can move
-        known = bool(values)
-        figures[name] = {
-            "median": round(float(np.median(values)), 4) if known else None,
-            "worst": round(worst(values), 4) if known else None,
-        }
-    return figures
+    return {"count": len(foci)} | {name: _median_and(worst, values) for name, (values, worst) in columns.items()}
+
+
+def _together(tracked: list[Focus]) -> list[dict[str, Any]]:
+    """Emissions by how many fingers they served: the finger that fell shortest of exact composition, and all distances."""
+    moments: dict[float, list[Focus]] = {}
+    for focus in tracked:
+        moments.setdefault(focus.time_s, []).append(focus)
+    rows = []
+    for fingers in sorted({len(foci) for foci in moments.values()}):
+        served = [foci for foci in moments.values() if len(foci) == fingers]
+        weakest = [min(_known(focus.exact_share for focus in foci), default=np.nan) for foci in served]
+        distances_mm = [focus.distance_m * 1e3 for foci in served for focus in foci]
+        row = {"fingers": fingers, "emissions": len(served)}
+        rows.append(row | {"worst_finger_exact_share": _median_and(min, weakest), "distance_mm": _median_and(max, distances_mm)})
+    return rows
+
+
+def _median_and(worst: Callable[[list[float]], float], all_values: list[float]) -> dict[str, float | None]:
+    values = _known(all_values)
+    if not values:
+        return {"median": None, "worst": None}
+    return {"median": round(float(np.median(values)), 4), "worst": round(worst(values), 4)}
+
+
+def _known(values: Iterable[float]) -> list[float]:
+    """Those that are numbers: on the plate's very rim nothing can move."""
+    return [value for value in values if np.isfinite(value)]

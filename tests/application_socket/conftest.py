@@ -78,10 +78,18 @@ class Panel:
         self.clients.append(client)
         return client
 
+    def send(self, client, text):
+        """Send all of it; the loop turns where the kernel takes no more."""
+        while text:
+            try:
+                text = text[client.send(text) :]
+            except BlockingIOError:
+                assert self.turn()
+
     def ask(self, client, *lines):
         """Send lines (objects, or bytes as they are), let the loop run, and read the answers."""
         for line in lines:
-            client.sendall(line if isinstance(line, bytes) else json.dumps(line).encode() + b"\n")
+            self.send(client, line if isinstance(line, bytes) else json.dumps(line).encode() + b"\n")
         self.settle()
         return read(client)
 

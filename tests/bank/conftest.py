@@ -21,9 +21,9 @@ def board() -> Board:
 
 @pytest.fixture(scope="session")
 def make_bank(board: Board) -> MakeBank:
-    """Write a bank of random responses, or of those given; returns the responses by cell."""
+    """Write a bank of random responses, or of those given, with nothing outside the band; returns the responses by cell."""
 
-    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, digest=None, **told):
+    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, rests=None, digest=None, **told):
         grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
         cells = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
         if responses is None:
@@ -33,7 +33,8 @@ def make_bank(board: Board) -> MakeBank:
         header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told)
         with BankWriter(path, header, cells) as writer:
             for cell, response in responses.items():
-                writer.add(cell, drive_words(response, IDLE_WORD), *quantise(response))
+                rest = np.zeros((header.rest_rows, CHANNELS)) if rests is None else rests[cell]
+                writer.add(cell, drive_words(response, IDLE_WORD), *quantise(np.concatenate([response, rest])))
         return responses
 
     return make

@@ -91,7 +91,7 @@ def test_refuses_an_amplitude_that_cannot_be(selection, amplitude):
 def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serves(bank, selection):
     x_m, y_m = bank.grid.points()[50]
     cell = selection.key([(x_m, y_m, 1.0)])
-    x_m, y_m = x_m + 1.5e-3, y_m  # off the cell
+    x_m += 1.5e-3  # off the cell
     here = selection.key([(x_m, y_m, 1.0)])
     near, far = (selection.key([(x_m + off_m, y_m, 1.0)]) for off_m in (0.25e-3, 0.75e-3))
     assert selection.reusable(near, here)

@@ -8,8 +8,8 @@ import msgspec
 import numpy as np
 import pytest
 
+from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
-from controller.event_loop import VirtualClock
 from controller.fpga import frames
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES

@@ -15,12 +15,7 @@ if [ ! -e "$done" ]; then
   log=$cache/build.log
   trap 'rm -rf "$work"' EXIT
   trap 'echo "build_guest.sh: failed; the end of $log:" >&2; tail -n 15 "$log" >&2' ERR
-  needed=(qemu-system-x86 kmod cpio gcc make xz-utils)
-  as_root=(env DEBIAN_FRONTEND=noninteractive)
-  [ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")
-  "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 update -q >"$log" 2>&1
-  dpkg -s "${needed[@]}" >/dev/null 2>&1 ||
-    "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 install -y -q --no-install-recommends "${needed[@]}" >>"$log" 2>&1
+  "$here/install_packages.sh" qemu-system-x86 kmod cpio gcc make xz-utils >"$log" 2>&1
   # such as 6.1.0-56-amd64, 6.1.0-56 and 6.1
   version=$(apt-cache depends linux-image-amd64 | sed -n 's/.*Depends: linux-image-//p' | head -n 1)
   base=${version%-amd64}

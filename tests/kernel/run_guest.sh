@@ -1,33 +1,53 @@
 #!/bin/bash
-# Boots a virtual machine with real evdev/uinput, gpio-sim, spidev and i2c-dev, and runs the tests of guest files in it as root.
+# Boots a virtual machine with real evdev/uinput, gpio-sim, spidev and i2c-dev, and runs the tests of files in it as root.
 # Its / is this machine's own, read-only, so it has the same Python, packages and checkout; /run and /mnt are its own.
-# usage: run_guest.sh PYTHON guest_FILE.py...     exit code: of run_tests.py, or 99 where the guest came to no end
-# Variables whose names begin with GUEST_ are handed on; LIMIT_S ends a guest that hangs.
+# With --systemd its / is the tree of make_tree.sh, and systemd and udev run in it.
+# usage: run_guest.sh [--systemd] PYTHON FILE.py...     exit code: of run_tests.py, or 99 where the guest came to no end
+# Variables whose names begin with GUEST_ are handed on (not with --systemd); LIMIT_S ends a guest that hangs.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+systemd=
+[ "$1" != --systemd ] || { systemd=1 && shift; }
 python=$1
 shift
-files=()
-for file in "$@"; do files+=("$(realpath "$file")"); done
 guest=$("$here/build_guest.sh")
 run=$(mktemp -d)
 trap 'rm -rf "$run"' EXIT
 {
   echo '#!/bin/sh'
   echo 'exec >/dev/ttyS0 2>&1'
+  echo 'export PATH=/usr/sbin:/usr/bin:/sbin:/bin'
   echo 'mount -t proc proc /proc; mount -t sysfs sys /sys; mkdir -p /dev/pts /dev/shm; mount -t devpts devpts /dev/pts'
   echo 'for folder in /dev/shm /run /mnt; do mount -t tmpfs tmpfs $folder; done; mount -t configfs configfs /sys/kernel/config'
-  echo 'export PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/run TMPDIR=/run PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1'
-  printf 'export PYTHONPATH=%q HOST_CACHE=%q\n' "$(realpath "$here/../..")" "${XDG_CACHE_HOME:-$HOME/.cache}"
-  for name in $(compgen -e GUEST_ || true); do printf 'export %s=%q\n' "$name" "${!name}"; done
-  printf '%q ' "$python" "$here/run_tests.py" "${files[@]}"
-  printf '\necho "GUEST ENDS WITH $?"\n%q poweroff -f\n' "$guest/busybox"
 } >"$run/init"
+if [ "$systemd" ]; then
+  "$here/install_packages.sh" systemd systemd-sysv udev procps >/dev/null
+  mkdir "$run/tree"
+  "$here/make_tree.sh" "$python" "$run/tree" "$@"
+  {
+    printf 'mount -t tmpfs -o mode=755 tmpfs /mnt; cp -a %q/. /mnt\n' "$run/tree"
+    while read -r from to; do printf 'mount --bind %q /mnt%q\n' "$from" "$to"; done <"$run/tree/binds"
+    echo 'for folder in /dev /proc /sys; do mount --move $folder /mnt$folder; done'
+    printf 'cd /mnt; mkdir host; %q pivot_root . host\n' "$guest/busybox"
+    echo 'exec chroot . /usr/lib/systemd/systemd </dev/console >/dev/console 2>&1'
+  } >>"$run/init"
+else
+  files=()
+  for file in "$@"; do files+=("$(realpath "$file")"); done
+  {
+    echo 'export HOME=/run TMPDIR=/run PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1'
+    printf 'export PYTHONPATH=%q HOST_CACHE=%q\n' "$(realpath "$here/../..")" "${XDG_CACHE_HOME:-$HOME/.cache}"
+    for name in $(compgen -e GUEST_ || true); do printf 'export %s=%q\n' "$name" "${!name}"; done
+    printf '%q ' "$python" "$here/run_tests.py" "${files[@]}"
+    printf '\necho "ENDS WITH $?"\n%q poweroff -f\n' "$guest/busybox"
+  } >>"$run/init"
+fi
 chmod -R a+rX "$run"
 chmod +x "$run/init"
 timeout -s KILL "${LIMIT_S:-300}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -smp 2 -m 1024 -nodefaults -no-user-config \
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
-  -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 guest_init=$run/init" \
+  -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 \
+    systemd.show_status=false guest_init=$run/init" \
   </dev/null 2>&1 | tr -d '\r' | tee "$run/log" || true
-exit "$(sed -n 's/^GUEST ENDS WITH \([0-9]*\)$/\1/p' "$run/log" | tail -n 1 | grep . || echo 99)"
+exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$run/log" | tail -n 1 | grep . || echo 99)"

@@ -1,6 +1,6 @@
-"""The guest files, each run in a virtual machine of its own: one test here for each test there.
+"""Files that run elsewhere, each in a virtual machine or a container of its own: one test here for each test there.
 
-A guest that does not boot fails them all; nothing is skipped.
+A machine that does not boot fails them all; nothing is skipped.
 """
 
 import ast
@@ -15,6 +15,12 @@ import pytest
 
 HERE = Path(__file__).parent
 ENDED = re.compile(r"^(PASSED|FAILED) \S+?(?:::(\w+))?(?: [\d.]+ s)?$", re.MULTILINE)
+
+RUNNERS = {  # by how a file's name begins
+    "guest": ["run_guest.sh"],
+    "system": ["run_guest.sh", "--systemd"],
+    "container": ["run_container.sh"],
+}
 
 pytestmark = pytest.mark.kernel
 
@@ -39,9 +45,10 @@ def results_of(output):
 
 @cache
 def run(file):
-    """Whether the guest came to its end, what each test printed, and all that was printed."""
+    """The exit code of a file, what each of its tests printed, and all that was printed."""
+    runner, *options = RUNNERS[file.split("_")[0]]
     done = subprocess.run(
-        [HERE / "run_guest.sh", sys.executable, HERE / file],
+        [HERE / runner, *options, sys.executable, HERE / file],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
@@ -51,18 +58,19 @@ def run(file):
     return done.returncode, results_of(done.stdout), done.stdout
 
 
-CASES = [(path.name, name) for path in sorted(HERE.glob("guest_*.py")) for name in names_of(path)]
+FILES = sorted(path.name for kind in RUNNERS for path in HERE.glob(f"{kind}_*.py"))
+CASES = [(file, name) for file in FILES for name in names_of(HERE / file)]
 
 
 @pytest.mark.parametrize(("file", "name"), CASES)
-def test_in_the_guest(file, name):
+def test_elsewhere(file, name):
     _, results, output = run(file)
-    passed, printed = results.get(name, (False, f"{name} did not end; the guest printed:\n{output[-6000:]}"))
+    passed, printed = results.get(name, (False, f"{name} did not end; printed was:\n{output[-6000:]}"))
     assert passed, printed
 
 
-@pytest.mark.parametrize("file", sorted({file for file, _ in CASES}))
-def test_every_guest_ends_as_its_tests_did(file):
+@pytest.mark.parametrize("file", FILES)
+def test_every_machine_ends_as_its_tests_did(file):
     code, results, output = run(file)
     assert code == (0 if all(passed for passed, _ in results.values()) else 1), output[-6000:]
     assert set(results) == set(names_of(HERE / file)), output[-6000:]

@@ -194,6 +194,18 @@ def test_a_focus_is_where_it_was_aimed_at_and_judged_as_defined():
     assert (pushed.spot_m, pushed.contrast) == pytest.approx((judged.spot_m, judged.contrast), rel=0.1)
 
 
+def test_what_points_can_have_together_is_what_they_have_when_composed_exactly(model, twin):
+    """Against the twin's own way from pins to displacement."""
+    responses = model.drive_order_responses(POINTS, dtype=np.float64)
+    words = focus(responses, [1 / np.abs(response).sum() for response in responses], IDLE)
+    field = next(twin.fields(capture_of_words(words, BIT, IDLE, LONG_AGO), CLOCK_HZ))
+    together = twin.exact_amplitudes(tuple(POINTS))
+    assert field.at(POINTS) == pytest.approx(together, rel=1e-9)
+    alone = [float(PlateTwin(BOARD, HIGHEST_HZ).exact_amplitudes((point,))[0]) for point in POINTS]
+    assert [twin.reference_amplitude(*point) for point in POINTS] == pytest.approx(alone, rel=1e-12)
+    assert together != pytest.approx(alone, rel=0.1)
+
+
 @pytest.mark.parametrize("width_mm", [4.0, 5.2])
 def test_half_width_of_a_bell_is_its_own(width_mm):
     bell = np.exp(-4 * np.log(2) * (LINE_M / (width_mm * 1e-3)) ** 2)

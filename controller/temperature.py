@@ -1,0 +1,222 @@
+"""The plate's temperature and the bit clock that follows from it.
+
+Warm glass is softer and its waves slower: what was computed at one temperature is played at another by scaling its
+time. The glass follows the room within minutes, so a sensor is asked every few seconds and may be away for a while.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import errno
+import fcntl
+import math
+import os
+from pathlib import Path
+from typing import Final, Protocol
+
+from smbus2 import SMBus
+
+from controller.device_settings import Temperature
+
+HWMON: Final = Path("/sys/class/hwmon")
+HOLD_S: Final = 600.0  # the last good reading is kept so long, then the reference temperature is assumed
+JUMP_C: Final = 5.0  # between two readings; a larger one is believed when the next one says the same
+RETRY_S: Final = 10.0  # after a failure: a stuck bus may hold each attempt up for BUS_TIMEOUT_MS
+TEMPERATURE_REGISTER: Final = 0  # of the LM75 family
+STEP_C: Final = 1 / 256  # of its 16 bits, of which a chip leaves those that it does not resolve 0
+I2C_RETRIES: Final = 0x0701  # linux/i2c-dev.h
+I2C_TIMEOUT: Final = 0x0702
+BUS_TIMEOUT_MS: Final = 20
+
+
+class Sensor(Protocol):
+    """What gives a temperature; each call takes less than a millisecond unless a bus is stuck."""
+
+    def read_c(self) -> float:
+        """Temperature in °C.
+
+        Raises
+        ------
+        OSError
+            If the sensor cannot be read; it is opened again at the next call.
+        """
+
+    def close(self) -> None:
+        """Let go of it."""
+
+
+class Hwmon:
+    """A sensor with a driver in the kernel: sysfs gives thousandths of a degree (Documentation/hwmon/sysfs-interface).
+
+    Parameters
+    ----------
+    device : str
+        Path of a temp*_input, or the name of a chip, whose temp1_input is meant.
+    """
+
+    def __init__(self, device: str) -> None:
+        self._device = device
+        self._fd = -1
+
+    def read_c(self) -> float:
+        """Temperature in °C."""
+        try:
+            if self._fd < 0:
+                self._fd = os.open(self._path(), os.O_RDONLY | os.O_CLOEXEC)
+            return int(os.pread(self._fd, 32, 0)) * 1e-3
+        except ValueError:
+            self.close()
+            raise OSError(errno.EIO, "what it says is no number") from None
+        except OSError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Let go of the file."""
+        if self._fd >= 0:
+            os.close(self._fd)
+            self._fd = -1
+
+    def _path(self) -> str:
+        if "/" in self._device:
+            return self._device
+        names = []
+        for chip in sorted(HWMON.glob("hwmon*")):
+            name = (chip / "name").read_text().strip()
+            if name == self._device:
+                return str(chip / "temp1_input")
+            names.append(name)
+        raise OSError(errno.ENODEV, f"no hwmon chip has this name; there are: {', '.join(names) or 'none'}")
+
+
+class Lm75:
+    """LM75, TMP75, TMP102 and their like: register 0 is the temperature, two's complement, most significant byte first.
+
+    9 to 16 bits, as the chip resolves them, the rest 0 (LM75B datasheet 7.4.3; TMP75 7.5.1.2; TMP102 normal mode).
+
+    Parameters
+    ----------
+    bus : str
+        Such as /dev/i2c-1.
+    address : int
+        0x48 to 0x4F, by the chip's pins.
+    """
+
+    def __init__(self, bus: str, address: int) -> None:
+        self._bus_name = bus
+        self._address = address
+        self._bus: SMBus | None = None
+
+    def read_c(self) -> float:
+        """Temperature in °C: one word, 0.4 ms at 100 kHz."""
+        try:
+            if self._bus is None:
+                self._bus = SMBus(self._bus_name)
+                if self._bus.fd is not None:
+                    fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, BUS_TIMEOUT_MS // 10)
+                    fcntl.ioctl(self._bus.fd, I2C_RETRIES, 0)
+            return lm75_c(self._bus.read_word_data(self._address, TEMPERATURE_REGISTER))
+        except OSError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Let go of the bus."""
+        if self._bus is not None:
+            with contextlib.suppress(OSError):
+                self._bus.close()
+            self._bus = None
+
+
+def lm75_c(word: int) -> float:
+    """Temperature in °C of an SMBus word, whose low byte came first and is the chip's high one."""
+    return ctypes.c_int16((word & 0xFF) << 8 | word >> 8 & 0xFF).value * STEP_C
+
+
+def bit_clock_scale(settings: Temperature, temperature_c: float) -> float:
+    """By how much faster than at the reference temperature to play."""
+    return 1 + settings.coefficient_per_k * (temperature_c - settings.reference_c)
+
+
+class Thermometer:
+    """A sensor whose nonsense is refused and whose absence is borne for a while.
+
+    Parameters
+    ----------
+    settings : Temperature
+    sensor : Sensor or None
+        None: the one that the settings name; it may be absent, and come later.
+
+    Attributes
+    ----------
+    temperature_c : float
+        The last good reading; NaN before the first and when it has become too old.
+    refused : int
+        Readings out of range, or apart from the ones around them.
+    failed : int
+        Attempts at which the sensor could not be read.
+    cause : str
+        Why the last attempt gave nothing; empty if it did.
+    """
+
+    def __init__(self, settings: Temperature, sensor: Sensor | None = None) -> None:
+        self.temperature_c = math.nan
+        self.refused = 0
+        self.failed = 0
+        self.cause = ""
+        self._settings = settings
+        self._sensor = sensor or _sensor(settings)
+        self._good_s = -math.inf
+        self._doubtful_c = math.nan  # the reading before, if it was a jump
+        self._retry_s = -math.inf
+
+    def scale(self, now_s: float) -> float:
+        """Ask the sensor; what the bit clock is to be scaled by, 1 as long as no temperature is known."""
+        if now_s >= self._retry_s:
+            self._read(now_s)
+        if now_s - self._good_s > HOLD_S:
+            self.temperature_c = math.nan
+        return 1.0 if math.isnan(self.temperature_c) else bit_clock_scale(self._settings, self.temperature_c)
+
+    def close(self) -> None:
+        """Let go of the sensor."""
+        self._sensor.close()
+
+    def _read(self, now_s: float) -> None:
+        settings = self._settings
+        try:
+            reading_c = self._sensor.read_c()
+        except OSError as error:
+            self.failed += 1
+            self._retry_s = now_s + RETRY_S
+            self.cause = _why_not(settings, error)
+            return
+        if not settings.lowest_c <= reading_c <= settings.highest_c:
+            self.refused += 1
+            self.cause = f"the temperature sensor says {reading_c:g} °C, outside {settings.lowest_c:g} to {settings.highest_c:g}"
+            return
+        doubtful_c, self._doubtful_c = self._doubtful_c, math.nan
+        if abs(reading_c - self.temperature_c) > JUMP_C and not abs(reading_c - doubtful_c) <= JUMP_C:  # NaN is no jump
+            self._doubtful_c = reading_c
+            self.refused += 1
+            self.cause = f"the temperature sensor jumped from {self.temperature_c:g} to {reading_c:g} °C"
+            return
+        self.temperature_c = reading_c
+        self._good_s = now_s
+        self.cause = ""
+
+
+def _sensor(settings: Temperature) -> Sensor:
+    return Hwmon(settings.device) if settings.kind == "hwmon" else Lm75(settings.device, settings.address)
+
+
+def _why_not(settings: Temperature, error: OSError) -> str:
+    where = settings.device if settings.kind == "hwmon" else f"{settings.device}, address 0x{settings.address:02X}"
+    if error.errno == errno.EBUSY:
+        return f"the temperature sensor at {where} belongs to a driver of the kernel: set temperature.kind to 'hwmon'"
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return f"the temperature sensor at {where} may not be read by this user: add it to the group that owns it (on Debian: i2c)"
+    if error.errno in (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.ENOENT):
+        return f"no temperature sensor answers at {where} ({error.strerror}): check temperature.device and the wiring"
+    return f"the temperature sensor at {where} cannot be read: {error.strerror}"

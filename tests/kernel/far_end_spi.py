@@ -1,0 +1,222 @@
+"""What stands at the far end of the guest's SPI and GPIO wires: gateware, computed, in a process of its own.
+
+Each transfer that labdev hands over is one chip-select assertion of the gateware; its trigger and permit pins follow
+the lines of a gpio-sim chip, by the kernel's own trace of each level that a line is given.
+"""
+
+import contextlib
+import multiprocessing
+import os
+import re
+import selectors
+import struct
+import time
+from pathlib import Path
+
+import numpy as np
+
+from controller.board import data_folder
+from controller.fpga.build_hash import build_hash
+from controller.fpga.gateware import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, Parameters, Permit, frame_ticks
+from controller.fpga.model import GatewareModel
+from controller.fpga.restarting import RestartingGateware
+
+HEADER = struct.Struct("<IIII")  # of labdev: speed in Hz, bytes, mode, whether chip select rises behind it
+REQUEST_BYTES = 1 << 16
+TRACES = Path("/sys/kernel/tracing")
+TRACED = re.compile(r" (\d+\.\d+): gpio_value: (\d+) set (\d)")
+LEAD_TICKS = 10  # of chip select around a frame's bits
+NOISE = np.random.default_rng(1)
+
+
+def inverted(answer, _):
+    return bytes(byte ^ 0xFF for byte in answer)
+
+
+def late(answer, _):
+    return (int.from_bytes(answer, "big") >> 1).to_bytes(len(answer), "big")
+
+
+WIRES = {  # what becomes of an answer on its way
+    "good": lambda answer, _: answer,
+    "zeros": lambda answer, _: bytes(len(answer)),
+    "ones": lambda answer, _: b"\xff" * len(answer),
+    "joined": lambda _, sent: sent,
+    "noise": lambda answer, _: NOISE.bytes(len(answer)),
+    "inverted": inverted,
+    "late": late,
+}
+
+
+class GpioTrace:
+    """Levels given to the lines of a chip, as the kernel traces them: (time on CLOCK_MONOTONIC in s, name, level)."""
+
+    def __init__(self, label, names):
+        if not (TRACES / "instances").is_dir():
+            os.system(f"mount -t tracefs tracefs {TRACES}")
+        self._folder = TRACES / "instances" / label
+        self._folder.mkdir()
+        base = next(int((chip / "base").read_text()) for chip in _chips() if (chip / "label").read_text().strip() == label)
+        self._names = {base + offset: name for offset, name in enumerate(names)}
+        (self._folder / "trace_clock").write_text("mono")
+        (self._folder / "buffer_percent").write_text("0")  # whoever waits is woken by the first line
+        (self._folder / "events/gpio/gpio_value/enable").write_text("1")
+        self.fd = os.open(self._folder / "trace_pipe", os.O_RDONLY | os.O_NONBLOCK)
+
+    def read(self):
+        """What has come since the last call."""
+        text = b""
+        with contextlib.suppress(BlockingIOError):
+            while piece := os.read(self.fd, 1 << 16):
+                text += piece
+        found = [(float(at), self._names.get(int(number)), int(level)) for at, number, level in TRACED.findall(text.decode())]
+        return [entry for entry in found if entry[1] is not None]
+
+    def close(self):
+        os.close(self.fd)
+        self._folder.rmdir()
+
+
+def _chips():
+    return Path("/sys/class/gpio").glob("gpiochip*")
+
+
+class _Gateware:
+    """The gateware, its pins driven as time goes on."""
+
+    def __init__(self, parameters, factory, roles):
+        self._gateware = RestartingGateware(factory, parameters)
+        self._clock_hz = parameters.clock_hz
+        self._start_s = time.monotonic()
+        self._free_tick = 10
+        self._roles = roles
+        self._hv = 0
+        self._word = 0
+        self._focus = 0
+        self.wire = "good"
+        self.modes = set()
+        self._gateware.permit(0, True, Permit.TEMPERATURE)
+        if "permit" not in roles.values():
+            self._gateware.permit(0, True, Permit.RUN)
+
+    def _tick(self, at_s):
+        return max(round((at_s - self._start_s) * self._clock_hz), self._free_tick)
+
+    def line(self, at_s, name, level):
+        """A line of the host has been given a level."""
+        role, tick = self._roles.get(name), self._tick(at_s)
+        if role == "trigger" and level:
+            self._gateware.trigger(tick + TRIGGER_PERIOD_TICKS)
+            self._free_tick = tick + 2 * TRIGGER_PERIOD_TICKS
+        elif role == "permit":
+            self._gateware.permit(tick, bool(level), Permit.RUN)
+
+    def transfer(self, request):
+        """One chip-select assertion; what comes back, or None if nothing ever does."""
+        speed_hz, size, mode, last = HEADER.unpack_from(request)
+        assert last, "a frame is one transfer"
+        if self.wire == "stuck":
+            return None
+        self.modes.add(mode)
+        sent = request[HEADER.size : HEADER.size + size]
+        answer = bytearray(size)
+        ticks = max(round(8 * size * self._clock_hz / speed_hz), frame_ticks(size)) + 2 * LEAD_TICKS
+        select_tick = max(self._tick(time.monotonic()) - ticks, self._free_tick)  # its time on the wire has passed already
+        self._free_tick = select_tick + ticks + SELECT_HIGH_TICKS
+        self._gateware.exchange(select_tick, select_tick + ticks, sent, memoryview(answer))
+        return WIRES[self.wire](bytes(answer), sent)
+
+    def reset(self, dark_s):
+        """The FPGA loses its supply now, and is configured again so much later."""
+        self._gateware.restart(self._tick(time.monotonic()), round(dark_s * self._clock_hz))
+
+    def pins(self):
+        """What the pins have come to, and the emissions that ran to their end so far."""
+        self._gateware.advance(self._tick(time.monotonic()))
+        capture = self._gateware.take_capture()
+        if capture.ticks.size:
+            self._hv, self._word = int(capture.hv[-1]), int(capture.words[-1])
+        self._focus += capture.focus_ticks.size
+        return {"hv": self._hv, "word": self._word, "focus": self._focus, "modes": self.modes}
+
+
+class FarEnd:
+    """Gateware behind /dev/labspi and the lines of a chip, until `close`.
+
+    Parameters
+    ----------
+    settings : LinkSettings
+        Clock, slots and line names that the host uses.
+    names : sequence of str
+        Of all lines of the chip, in their order.
+    factory : GatewareFactory
+        The model, or the Verilog compiled.
+    """
+
+    def __init__(self, settings, names, factory=GatewareModel):
+        self.settings, self._names, self._factory = settings, names, factory
+        context = multiprocessing.get_context("fork")
+        self._pipe, theirs = context.Pipe()
+        self._process = context.Process(target=self._serve, args=(theirs,), daemon=True)
+        self._process.start()
+        theirs.close()
+        assert self._pipe.recv() == "ready"
+
+    def ask(self, what, *arguments):
+        """Have something done by the process, and its answer."""
+        self._pipe.send((what, arguments))
+        return self._pipe.recv()
+
+    def wire(self, kind):
+        """Damage answers from now on, as `WIRES` has it; "stuck": no transfer ever ends."""
+        self.ask("wire", kind)
+
+    def reset(self, dark_s=0.0):
+        """Take the FPGA's supply away for so long."""
+        self.ask("reset", dark_s)
+
+    def pins(self):
+        """Levels and emissions so far: hv, word, focus."""
+        return self.ask("pins")
+
+    def close(self):
+        """Nobody is at the far end any more: MISO is MOSI."""
+        self._pipe.send(("close", ()))
+        self._process.join()
+        self._pipe.close()
+
+    def _serve(self, pipe):
+        settings = self.settings
+        parameters = Parameters.of(settings.clock_hz, settings.slots, build_hash(data_folder("fpga_rtl")))
+        roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
+        roles.pop("", None)
+        trace = GpioTrace(settings.gpio_chip, self._names)
+        gateware = _Gateware(parameters, self._factory, roles)
+        wires = os.open("/dev/labspi", os.O_RDWR)
+        with selectors.DefaultSelector() as selector:
+            for file in (wires, trace.fd, pipe):
+                selector.register(file, selectors.EVENT_READ)
+            pipe.send("ready")
+            while True:
+                ready = {key.fileobj for key, _ in selector.select()}
+                request = os.read(wires, REQUEST_BYTES) if wires in ready else None
+                for event in trace.read():  # what happened before that transfer
+                    gateware.line(*event)
+                if request is not None:
+                    answer = gateware.transfer(request)
+                    if answer is not None:
+                        os.write(wires, answer)
+                if pipe in ready:
+                    what, arguments = pipe.recv()
+                    if what == "close":
+                        break
+                    pipe.send(self._do(gateware, what, arguments))
+        os.close(wires)
+        trace.close()
+
+    @staticmethod
+    def _do(gateware, what, arguments):
+        if what == "wire":
+            (gateware.wire,) = arguments
+            return None
+        return getattr(gateware, what)(*arguments)

@@ -1,0 +1,339 @@
+"""Runs in the guest: the device's link on the kernel's own spidev and GPIO lines, with the gateware's model at the far end."""
+
+import contextlib
+import os
+import struct
+import threading
+import time
+import tracemalloc
+from pathlib import Path
+
+import gpiod
+import msgspec
+import numpy as np
+from far_end_spi import FarEnd, GpioTrace
+from gpio_lines import GpioLines
+
+from controller.board import data_folder, find_board, load_board
+from controller.clocks import MonotonicClock
+from controller.device_settings import LinkSettings
+from controller.errors import ControllerError, FaultError, LinkError
+from controller.fpga.build_hash import build_hash
+from controller.fpga.exchange import FpgaReset
+from controller.fpga.registers import Register
+from controller.fpga.session import Session
+from controller.fpga.spi_link import SpiLink, read_bufsiz
+from controller.fpga.time_base import TimeBase
+from controller.latency import Counters
+from controller.outputs import Outputs
+
+LABEL = "panel"
+NAMES = ["TRIGGER", "READY", "PERMIT"]
+SETTINGS = LinkSettings(
+    kind="spi",
+    clock_hz=80_000_000,
+    sck_hz=25_000_000,
+    slots=4,
+    device="/dev/spidev0.0",
+    gpio_chip=LABEL,
+    trigger_line="TRIGGER",
+    ready_line="READY",
+    permit_line="PERMIT",
+)
+SIMULATED = load_board(find_board("simulated"))
+BOARD = msgspec.structs.replace(
+    SIMULATED, link=SETTINGS, limits=msgspec.structs.replace(SIMULATED.limits, heartbeat_timeout_ms=250.0)
+)
+WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
+CLOCK = MonotonicClock()
+LINES = GpioLines(LABEL, NAMES)
+LINES.pull("READY", 1)
+BIND = Path("/sys/bus/spi/drivers/spidev")
+Path("/sys/module/labdev/parameters/timeout_ms").write_text("200")  # until a controller gives up a transfer
+
+
+def with_settings(**changes):
+    return msgspec.structs.replace(SETTINGS, **changes)
+
+
+def refusal(action):
+    """What an action that must not work says."""
+    try:
+        action()
+    except ControllerError as error:
+        return str(error)
+    raise AssertionError("nothing was refused")
+
+
+@contextlib.contextmanager
+def opened(settings=SETTINGS):
+    link = SpiLink(settings, time.monotonic)
+    try:
+        yield link
+    finally:
+        link.close()
+
+
+class Panel:
+    """Far end, link and session, armed."""
+
+    def __init__(self):
+        self.far_end = FarEnd(SETTINGS, NAMES)
+        self.link = SpiLink(SETTINGS, time.monotonic)
+        self.session = Session(self.link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
+        self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
+        self.come_on()
+
+    def come_on(self):
+        """As the loop does it, without waiting in between."""
+        while not self.outputs.on:
+            try:
+                self.outputs.advance(time.monotonic())
+            except (LinkError, FaultError) as error:
+                self.outputs.failed(error, time.monotonic())
+
+    def rest(self, until_s):
+        while time.monotonic() < until_s:
+            self.session.heartbeat()
+
+    def emissions(self, until):
+        """Heartbeats until the FPGA has counted so many emissions."""
+        while self.session.heartbeat().emissions < until:
+            pass
+
+    def recover(self, error):
+        self.outputs.failed(error, time.monotonic())
+        self.come_on()
+
+    def lost(self):
+        """The error by which heartbeats find that something is wrong."""
+        while True:
+            try:
+                self.session.heartbeat()
+            except ControllerError as error:
+                return error
+
+    def close(self):
+        self.link.close()
+        self.far_end.close()
+
+
+@contextlib.contextmanager
+def panel():
+    opened_panel = Panel()
+    try:
+        yield opened_panel
+    finally:
+        opened_panel.close()
+
+
+def test_each_frame_is_a_transfer_of_its_own_chip_select_and_comes_back_in_its_place():
+    lengths = [512] * 8 + [36] * 4
+    seen = []
+    wires = os.open("/dev/labspi", os.O_RDWR)
+
+    def answer():
+        for number in range(len(lengths)):
+            request = os.read(wires, 1 << 16)
+            speed_hz, size, mode, last = struct.unpack_from("<IIII", request)
+            seen.append((speed_hz, size, mode, last, request[16:]))
+            os.write(wires, bytes([number]) * size)
+
+    thread = threading.Thread(target=answer)
+    thread.start()
+    sent, received = memoryview(bytearray(os.urandom(5000))), memoryview(bytearray(5000))
+    with opened() as link:
+        link.exchange(sent, lengths, received)
+        assert link.bytes_sent == sum(lengths)
+        assert 0 < link.effective_hz < link.sck_hz == 25e6
+        assert link.free_s() <= time.monotonic()
+    thread.join()
+    os.close(wires)
+    start = 0
+    for number, (length, entry) in enumerate(zip(lengths, seen, strict=True)):
+        assert entry == (25_000_000, length, 0, 1, bytes(sent[start : start + length]))
+        assert bytes(received[start : start + length]) == bytes([number]) * length
+        start += length
+    assert not any(received[start:])
+
+
+def test_a_message_allocates_nothing_to_speak_of():
+    lengths = [512] * 8 + [36] * 4
+    sent, received = memoryview(bytearray(5000)), memoryview(bytearray(5000))
+    with opened() as link:  # nobody is at the far end: what is sent comes back
+        link.exchange(sent, lengths, received)
+        tracemalloc.start()
+        before, _ = tracemalloc.get_traced_memory()
+        tracemalloc.reset_peak()
+        link.exchange(sent, lengths, received)
+        after, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert peak - before < 1024, f"{peak - before} bytes at a time"
+    assert after - before < 256
+
+
+def test_a_buffer_that_the_kernel_does_not_have_is_told():
+    assert read_bufsiz() == 4096
+    sent, received = memoryview(bytearray(5000)), memoryview(bytearray(5000))
+    with opened() as link:
+        link.bufsiz = 8192
+        assert "does not fit spidev's buffer" in refusal(lambda: link.exchange(sent, [512] * 9, received))
+    with opened() as link:
+        link.exchange(sent, [512] * 9, received)
+
+
+def test_a_trigger_is_a_pulse_and_its_time_is_between_its_edges():
+    trace = GpioTrace(LABEL, NAMES)
+    with opened() as link:
+        trace.read()
+        edge_s = link.trigger()
+        (rise_s, name, up), (fall_s, _, down) = trace.read()
+    trace.close()
+    assert (name, up, down) == ("TRIGGER", 1, 0)
+    assert rise_s - 1e-6 <= edge_s <= fall_s + 1e-6  # the trace has whole microseconds
+
+
+def test_the_permit_is_given_while_the_link_is_open():
+    with opened():
+        assert LINES.value("PERMIT") == 1
+    assert LINES.value("PERMIT") == 0
+
+
+def test_an_fpga_that_is_not_configured_is_told_and_gets_no_permit():
+    LINES.pull("READY", 0)
+    try:
+        assert "is not configured: its line 'READY' is low" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+    finally:
+        LINES.pull("READY", 1)
+    assert LINES.value("PERMIT") == 0
+    with opened() as link:
+        assert link.lines.ready()
+
+
+def test_chips_and_lines_that_are_not_there_are_named_with_those_that_are():
+    assert "no GPIO chip has the label 'pinctrl-bcm2711'; there are: panel" in refusal(
+        lambda: SpiLink(with_settings(gpio_chip="pinctrl-bcm2711"), time.monotonic)
+    )
+    assert "no line named 'TRIGER'; names like it: TRIGGER" in refusal(
+        lambda: SpiLink(with_settings(trigger_line="TRIGER"), time.monotonic)
+    )
+
+
+def test_a_line_that_somebody_holds_is_told_with_its_holder():
+    with gpiod.request_lines(f"/dev/{LINES.chip}", consumer="oscilloscope", config={"TRIGGER": None}):
+        assert "'TRIGGER' of GPIO chip 'panel' is in use by oscilloscope" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+    with opened():
+        pass
+
+
+def test_two_programs_never_share_the_device():
+    with opened():
+        assert "in use by another haptic-panel" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+
+
+def test_a_device_that_is_not_there_is_told_with_those_that_are():
+    message = refusal(lambda: SpiLink(with_settings(device="/dev/spidev7.1"), time.monotonic))
+    assert "there is no /dev/spidev7.1 (there are: /dev/spidev0.0)" in message
+
+
+def test_the_speed_is_read_back_and_divided_as_the_controller_does():
+    with opened(with_settings(spi_source_hz=500_000_000, sck_hz=30_000_000)) as link:
+        assert link.sck_hz == 500e6 / 18
+        assert link.set_sck_hz(10_000_000) == 10e6
+        assert link.set_sck_hz(9_999_999) == 500e6 / 52
+
+
+def test_it_arms_uploads_and_plays_by_its_trigger_line():
+    with panel() as there:
+        there.session.upload_and_play(1, WORDS, 1, 0.0, stop=False)
+        there.session.trigger()
+        there.emissions(1)
+        there.session.play(1, 2, 3e-3, stop=False)
+        assert there.session.heartbeat().trigger_count == 1
+        there.session.trigger()
+        there.emissions(3)
+        pins = there.far_end.pins()
+        assert (pins["hv"], pins["word"], pins["focus"], pins["modes"]) == (1, BOARD.idle_word, 3, {0})
+        there.rest(there.session.disarm())
+        there.session.off()
+        assert there.far_end.pins()["hv"] == 0
+
+
+def test_what_is_wrong_with_the_wires_is_said():
+    far_end = FarEnd(SETTINGS, NAMES)
+    try:
+        with opened() as link:
+            for kind, said in [
+                ("zeros", "only zeros came back"),
+                ("ones", "only ones came back"),
+                ("joined", "our own bytes came back: MOSI and MISO are joined"),
+                ("inverted", "every bit came back inverted"),
+                ("late", "came 1 bit late"),
+                ("noise", "it is no status"),
+            ]:
+                far_end.wire(kind)
+                message = refusal(lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic))
+                assert said in message, (kind, message)
+            far_end.wire("good")
+            Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
+    finally:
+        far_end.close()
+
+
+def test_a_loopback_is_told_by_the_kernels_own():
+    with opened() as link:  # nobody at the far end
+        message = refusal(lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic))
+    assert "our own bytes came back" in message
+
+
+def test_a_reset_fpga_is_noticed_and_brought_back():
+    with panel() as there:
+        there.session.upload(2, WORDS)
+        there.far_end.reset()
+        error = there.lost()
+        assert isinstance(error, FpgaReset), error
+        assert there.far_end.pins()["hv"] == 0
+        there.recover(error)
+        assert there.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
+        there.session.upload_and_play(2, WORDS, 1, 0.0, stop=False)
+        there.session.trigger()
+        there.emissions(1)
+        assert there.far_end.pins()["focus"] == 1
+
+
+def test_an_fpga_without_supply_for_a_while_is_brought_back():
+    with panel() as there:
+        there.far_end.reset(dark_s=1.0)
+        error = there.lost()
+        assert "only ones came back" in str(error), error
+        there.recover(error)
+        assert there.far_end.pins()["hv"] == 1
+
+
+def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
+    with panel() as there:
+        (BIND / "unbind").write_text("spi0.0")
+        try:
+            error = there.lost()
+            assert "/dev/spidev0.0 has gone" in str(error), error
+            assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+        finally:
+            (BIND / "bind").write_text("spi0.0")
+        while there.far_end.pins()["hv"]:  # the FPGA switches off by itself
+            pass
+        there.recover(error)
+        there.session.upload_and_play(0, WORDS, 1, 0.0, stop=False)
+        there.session.trigger()
+        there.emissions(1)
+
+
+def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
+    with panel() as there:
+        there.far_end.wire("stuck")
+        error = there.lost()
+        assert isinstance(error, LinkError)
+        assert "did not finish a transfer: its bus is stuck" in str(error), error
+        there.far_end.wire("good")
+        assert there.far_end.pins()["hv"] == 0
+        there.recover(error)
+        assert there.far_end.pins()["hv"] == 1

@@ -1,0 +1,63 @@
+#!/bin/bash
+# Makes the file tree in which systemd runs the service, in a container or in the guest: /usr is to be this machine's own,
+# read-only; /etc is empty but for what is needed to boot; this checkout is at /checkout and is installed at /opt/haptic-panel.
+# usage: make_tree.sh PYTHON TREE FILE.py...     the files are run by run_tests.py; TREE/binds lists what is to be bound where
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+checkout=$(realpath "$here/../..")
+python=$1 tree=$2
+shift 2
+chmod 755 "$tree"
+mkdir -p "$tree"/{usr,checkout,dev,proc,sys,run,tmp,home,root,mnt,var/lib/haptic-panel,var/tmp,etc/systemd/system,opt/python,opt/packages}
+mkdir -p "$tree"/{opt/haptic-panel/bin,etc/haptic-panel/boards}
+chmod 1777 "$tree/tmp" "$tree/var/tmp"
+ln -s usr/bin usr/sbin usr/lib usr/lib64 "$tree/"
+echo 00000000000000000000000000000001 >"$tree/etc/machine-id" # a known machine: not every unit of /usr is enabled
+echo 'root:x:0:0:root:/root:/bin/sh' >"$tree/etc/passwd"
+echo 'root:x:0:' >"$tree/etc/group"
+echo /opt/python/lib >"$tree/etc/ld.so.conf"
+cp /etc/os-release "$tree/etc/"
+
+# the package as `pip install` leaves it in a virtual environment; its dependencies from the one that runs the tests
+base=$("$python" -c 'import sys; print(sys.base_prefix)')
+version=$("$python" -c 'import sys; print(f"python3.{sys.version_info[1]}")')
+packages=$("$python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
+printf '%s %s\n' /usr /usr "$checkout" /checkout "$packages" /opt/packages >"$tree/binds"
+interpreter=/usr/bin
+case $base in
+  /usr) ;;
+  *) interpreter=/opt/python/bin && echo "$base /opt/python" >>"$tree/binds" ;;
+esac
+"$python" -m pip install -q --root-user-action ignore --disable-pip-version-check --no-deps --no-build-isolation --no-index \
+  --ignore-installed --no-compile --no-warn-script-location --prefix "$tree/opt/haptic-panel" "$checkout"
+ln -s "$interpreter/$version" "$tree/opt/haptic-panel/bin/python"
+printf 'home = %s\n' "$interpreter" >"$tree/opt/haptic-panel/pyvenv.cfg"
+echo /opt/packages >"$tree/opt/haptic-panel/lib/$version/site-packages/packages.pth"
+sed -i '1s#.*#\#!/opt/haptic-panel/bin/python#' "$tree/opt/haptic-panel/bin/haptic-panel"
+
+# the simulated board with a coarse bank; the test files write what else their board has
+board=$tree/etc/haptic-panel/boards/panel
+cp -r "$checkout/boards/simulated" "$board"
+sed -i 's/^pitch_mm = .*/pitch_mm = 10.0/; s/^snap_mm = .*/snap_mm = 5.0/' "$board/board.toml"
+PYTHONPATH=$checkout STATE_DIRECTORY=$tree/var/lib/haptic-panel OPENBLAS_NUM_THREADS=1 "$python" -c \
+  'import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))' bank build --board "$board" --scene scene --json >/dev/null
+
+files=()
+for file in "$@"; do files+=("/checkout/$(realpath --relative-to="$checkout" "$file")"); done
+cat >"$tree/etc/systemd/system/tests.service" <<U
+[Unit]
+Requires=basic.target
+After=basic.target
+[Service]
+Type=oneshot
+TimeoutStartSec=infinity
+Environment=PATH=/usr/sbin:/usr/bin PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1
+ExecStartPre=/sbin/ldconfig
+ExecStart=/bin/sh -c 'exec >/dev/console 2>&1; "\$@"; echo "ENDS WITH \$\$?"; sync; systemctl poweroff -ff' sh \\
+  /opt/haptic-panel/bin/python /checkout/tests/kernel/run_tests.py ${files[*]}
+U
+printf '[Unit]\nRequires=tests.service\nAllowIsolate=yes\n' >"$tree/etc/systemd/system/tests.target"
+ln -s tests.target "$tree/etc/systemd/system/default.target"
+for unit in systemd-hwdb-update.service ldconfig.service console-getty.service getty.target; do
+  ln -s /dev/null "$tree/etc/systemd/system/$unit"
+done

@@ -1,0 +1,18 @@
+#!/bin/bash
+# Boots systemd in a container (as root, or by sudo) on the tree of make_tree.sh and runs the tests of files in it as root.
+# usage: run_container.sh PYTHON container_FILE.py...     exit code: of run_tests.py, or 99 where the container came to no end
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+"$here/install_packages.sh" systemd systemd-sysv systemd-container procps udev >/dev/null
+as_root=()
+[ "$(id -u)" = 0 ] || as_root=(sudo)
+tree=$(mktemp -d)
+name=haptic-panel-$$
+trap '"${as_root[@]}" rm -rf --one-file-system "$tree" "/run/systemd/nspawn/propagate/$name"' EXIT
+"$here/make_tree.sh" "$1" "$tree" "${@:2}"
+binds=()
+while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
+"${as_root[@]}" env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 timeout -s TERM -k 20 "${LIMIT_S:-300}" \
+  systemd-nspawn -q -b -D "$tree" -M "$name" --register=no --keep-unit --console=interactive --private-network "${binds[@]}" \
+  systemd.show_status=false </dev/null 2>&1 | tr -d '\r' | tee "$tree/log" || true
+exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$tree/log" | tail -n 1 | grep . || echo 99)"

@@ -1,0 +1,76 @@
+"""What container and guest files ask systemd about the service, and how they wait for it."""
+
+import re
+import subprocess
+import time
+from pathlib import Path
+
+CHECKOUT = Path(__file__).parents[2]
+UNIT = "haptic-panel"
+PATIENCE_S = 60.0
+
+
+def run(*command, cwd=CHECKOUT):
+    """Output of a command that must succeed."""
+    done = subprocess.run(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    assert done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stdout}\n{journal()}"
+    return done.stdout
+
+
+def install(*skipped):
+    """The steps of systemd/README.md that follow the package, but for those that name what is not here."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", (CHECKOUT / "systemd/README.md").read_text(), re.MULTILINE | re.DOTALL)
+    (steps,) = [block for block in blocks if "systemd-sysusers" in block]
+    for step in steps.splitlines():
+        if not any(name in step for name in skipped):
+            run("sh", "-c", step)
+
+
+def shown(name):
+    """A property of the unit."""
+    return run("systemctl", "show", "--value", "-p", name, UNIT).strip()
+
+
+def main_pid():
+    """Its process; 0: none."""
+    return int(shown("MainPID"))
+
+
+def status_of(pid, name):
+    """A field of /proc/PID/status."""
+    return re.search(rf"^{name}:\s*(.*)$", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)[1]
+
+
+def journal():
+    """All that the unit and systemd about it have said so far."""
+    subprocess.run(["journalctl", "--sync"], check=False)
+    done = subprocess.run(["journalctl", "--no-pager", "-o", "cat", "-u", UNIT], capture_output=True, text=True, check=False)
+    return done.stdout
+
+
+def said():
+    """What the process that runs now has said."""
+    subprocess.run(["journalctl", "--sync"], check=False)
+    return run("journalctl", "--no-pager", "-o", "cat", f"_SYSTEMD_INVOCATION_ID={shown('InvocationID')}")
+
+
+def wait_for(what, condition):
+    """Until a condition holds; its value."""
+    until_s = time.monotonic() + PATIENCE_S
+    while not (value := condition()):
+        assert time.monotonic() < until_s, f"waited {PATIENCE_S} s for {what}\n{journal()[-4000:]}"
+        time.sleep(0.05)
+    return value
+
+
+def restarted(old_pid):
+    """Whether another process of the unit is ready."""
+    return main_pid() not in (0, old_pid) and shown("SubState") == "running" and shown("ActiveState") == "active"
+
+
+def fresh_start():
+    """The service started from rest, with its count of failed starts forgotten; its process."""
+    run("systemctl", "stop", UNIT)
+    subprocess.run(["systemctl", "reset-failed", UNIT], check=False, capture_output=True)
+    run("systemctl", "start", UNIT)
+    return main_pid()

@@ -1,0 +1,162 @@
+"""What is under way between two moments: what waits, what replaces what, and what commands are told."""
+
+import pytest
+
+from controller.command_source import Outcome
+from controller.errors import ConfigError
+from controller.latency import Counters
+from controller.performance import MOST_WAITING, Performance
+from controller.scene import load_scene
+from controller.touch.samples import TouchSample
+
+SCENE = """
+[effects.tap]
+when = "command"
+
+[effects.roll]
+when = "command"
+rate_hz = 100.0
+count = 5
+
+[[regions]]
+name = "all"
+shape = "plate"
+effects = ["click"]
+"""
+T_S = 2e-3
+
+
+@pytest.fixture
+def scene(board, tmp_path):
+    file = tmp_path / "performed.toml"
+    file.write_text(SCENE)
+    return load_scene(file, board)
+
+
+@pytest.fixture
+def told():
+    return []
+
+
+@pytest.fixture
+def performance(scene, told):
+    return performing(scene, told)
+
+
+def performing(scene, told, confirmed=lambda _: True, most=1):
+    return Performance(scene, Counters(), confirmed, most, lambda ticket, outcome, age_s: told.append((ticket, outcome, age_s)))
+
+
+def command(performance, ticket, x_m=0.1, y_m=0.07, effect="tap", finger=None, now_s=0.0):
+    performance.play(ticket, effect, x_m, y_m, finger, 1.0, now_s)
+
+
+def played(performance, now_s):
+    emissions = performance.take(T_S)
+    performance.started(emissions, now_s)
+    return emissions
+
+
+def test_a_command_that_is_started_was_played_and_its_age_is_told(performance, told):
+    command(performance, 1, now_s=1.0)
+    (emission,) = played(performance, 1.004)
+    assert (emission.x_m, emission.y_m, emission.finger) == (0.1, 0.07, None)
+    assert told == [(1, Outcome.PLAYED, pytest.approx(0.004))]
+    assert not performance.due
+
+
+def test_a_newer_command_for_the_same_place_takes_the_olders(performance, told):
+    command(performance, 1)
+    command(performance, 2, x_m=0.1004, now_s=0.001)
+    assert told == [(1, Outcome.MERGED, pytest.approx(0.001))]
+    assert len(played(performance, 0.002)) == 1
+    assert told[1][:2] == (2, Outcome.PLAYED)
+
+
+def test_commands_for_places_that_are_apart_are_played_together(performance, told):
+    for ticket in (1, 2, 3):
+        command(performance, ticket, x_m=0.03 * ticket)
+    assert len(played(performance, 0.001)) == 3
+    assert [(ticket, outcome) for ticket, outcome, _ in told] == [(ticket, Outcome.PLAYED) for ticket in (1, 2, 3)]
+
+
+def test_of_too_many_commands_the_oldest_is_skipped_and_each_is_told_once(performance, told):
+    tickets = range(1, MOST_WAITING + 6)
+    for ticket in tickets:
+        command(performance, ticket, x_m=0.01 + 0.004 * (ticket % 45), y_m=0.01 + 0.02 * (ticket // 45), now_s=ticket * 1e-6)
+    assert [ticket for ticket, outcome, _ in told if outcome is Outcome.SKIPPED] == [1, 2, 3, 4, 5]
+    while performance.due:
+        played(performance, 0.01)
+    assert sorted(ticket for ticket, _, _ in told) == list(tickets)
+
+
+def test_the_other_beats_of_a_command_are_told_nobody(performance, told):
+    command(performance, 1, effect="roll")
+    times_s = [played(performance, 0.0)[0].time_s]
+    while performance.next_s() < 1.0:
+        performance.advance(performance.next_s())
+        times_s.append(played(performance, 0.0)[0].time_s)
+    assert times_s == pytest.approx([0.0, 0.01, 0.02, 0.03, 0.04])
+    assert [outcome for _, outcome, _ in told] == [Outcome.PLAYED]
+
+
+def test_a_train_keeps_its_distance_to_when_its_first_beat_really_began(performance):
+    command(performance, 1, effect="roll")
+    played(performance, 0.0031)
+    assert performance.next_s() == pytest.approx(0.0131)
+
+
+def test_an_unknown_effect_or_finger_is_refused_and_nothing_waits(performance, told):
+    with pytest.raises(ConfigError, match="no effect 'boom'"):
+        command(performance, 1, effect="boom")
+    with pytest.raises(ConfigError, match="finger 4 is not on the panel"):
+        command(performance, 2, finger=4)
+    assert not performance.due
+    assert told == []
+
+
+def test_a_command_for_a_finger_follows_it_and_ends_with_it(performance, told):
+    performance.touch(TouchSample(3, 0.05, 0.05, 0.0, True))
+    played(performance, 0.0)
+    command(performance, 1, effect="roll", finger=3)
+    assert played(performance, 0.0)[0].finger == 3
+    performance.touch(TouchSample(3, 0.09, 0.05, 0.005, True))
+    performance.advance(0.01)
+    assert performance.take(T_S)[0].x_m == 0.09
+    performance.touch(TouchSample(3, 0.09, 0.05, 0.012, False))
+    performance.advance(0.1)
+    assert not performance.due
+
+
+def test_what_waits_when_the_outputs_go_off_is_refused_and_not_played_later(performance, told):
+    performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    command(performance, 1, effect="roll")
+    performance.interrupted(0.5)
+    assert told == [(1, Outcome.REFUSED, pytest.approx(0.5))]
+    performance.advance(1.0)
+    assert not performance.due
+
+
+def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, told):
+    sure = set()
+    performance = performing(scene, told, confirmed=lambda finger: finger in sure)
+    performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    assert len(played(performance, 0.0)) == 1
+    for ticket in (1, 2):
+        command(performance, ticket, finger=0)
+    assert not performance.due
+    assert [outcome for _, outcome, _ in told] == [Outcome.SKIPPED, Outcome.SKIPPED]
+    sure.add(0)
+    command(performance, 3, finger=0)
+    assert performance.due
+
+
+def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp_path, told):
+    performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    command(performance, 1)
+    file = tmp_path / "other.toml"
+    file.write_text('[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n')
+    performance.swap(load_scene(file, board), 1.0)
+    assert told == [(1, Outcome.SKIPPED, pytest.approx(1.0))]
+    performance.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
+    assert performance.due

@@ -1,0 +1,88 @@
+"""Slots of the FPGA: what gives way, what stays, what serves for another."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.slot_cache import FEWEST_FREE, SlotCache
+
+
+def same(key, resident):
+    return key == resident
+
+
+def put(cache, key):
+    """Play a waveform as the playback does; whether it had to be uploaded."""
+    resident = cache.find(key)
+    if resident is not None:
+        cache.use(resident)
+        return False
+    cache.keep(key, cache.take())
+    return True
+
+
+def test_the_waveform_played_longest_ago_gives_way():
+    cache = SlotCache(3, same)
+    uploads = [put(cache, key) for key in (1, 2, 3, 1, 4, 1, 2)]
+    assert uploads == [True, True, True, False, True, False, True]
+
+
+def test_what_is_pinned_stays_whatever_else_is_played():
+    cache = SlotCache(4, same)
+    cache.pin([7])
+    assert put(cache, 7)
+    for key in range(100, 150):
+        put(cache, key)
+    assert not put(cache, 7)
+
+
+def test_enough_slots_are_left_to_play_from():
+    cache = SlotCache(4, same)
+    cache.pin(range(10))
+    for key in range(10):
+        put(cache, key)
+    assert [key for key in range(10) if cache.find(key) is not None][: 4 - FEWEST_FREE] == [0, 1]
+    assert put(cache, 99)
+
+
+def test_all_pinned_of_too_few_slots_still_plays():
+    cache = SlotCache(1, same)
+    cache.pin([1])
+    assert [put(cache, key) for key in (1, 2, 1)] == [True, True, True]
+
+
+def test_what_is_near_serves():
+    cache = SlotCache(4, lambda key, resident: abs(key - resident) <= 2)
+    put(cache, 10)
+    assert cache.find(12) == 10
+    assert cache.find(13) is None
+
+
+def test_a_slot_whose_upload_was_refused_is_the_next_to_be_taken():
+    cache = SlotCache(3, same)
+    put(cache, 1)
+    slot = cache.take()
+    cache.empty(slot)
+    assert cache.take() == slot
+
+
+def test_nothing_is_taken_for_resident_after_a_fault():
+    cache = SlotCache(3, same)
+    put(cache, 1)
+    cache.forget()
+    assert put(cache, 1)
+
+
+@given(st.integers(1, 16), st.lists(st.integers(0, 30), max_size=200), st.sets(st.integers(0, 30), max_size=5))
+def test_every_slot_is_used_by_one_waveform_at_most(slots, keys, pinned):
+    cache = SlotCache(slots, same)
+    cache.pin(sorted(pinned))
+    holds = {}
+    for key in keys:
+        resident = cache.find(key)
+        if resident is not None:
+            assert holds[cache.use(resident)] == key
+        else:
+            slot = cache.take()
+            assert 0 <= slot < slots
+            holds[slot] = key
+            cache.keep(key, slot)
