@@ -316,7 +316,8 @@ class EventLoop:
         if start_s is not None:
             if self._report_ns >= 0:
                 self._counters.report_latency.record(self._report_ns)
-            self._source.emitted(self._time_base.host_s(start_s), self._time_base.host_s(start_s) + self._playback.duration_s)
+            sounds_s = self._time_base.host_s(start_s)
+            self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
             self._performance.started(emissions, start_s)
             return
         outcome = Outcome.SKIPPED if self._counters.skipped.bad_entries > bad else Outcome.REFUSED
