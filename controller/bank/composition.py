@@ -196,7 +196,8 @@ class Composer:
         """Sum of the points' responses, each of size one, with these shares; of one point its response as it is."""
         count = len(shares)
         if count == 1:
-            return self._points[0]
+            alone: NDArray[np.float32] = self._points[0]
+            return alone
         for row, (share, size) in enumerate(zip(shares, sizes, strict=True)):
             self._weights[row] = share / size
         np.dot(self._weights[:count], self._points[:count], out=self._sum)
