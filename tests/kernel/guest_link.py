@@ -16,7 +16,8 @@ from gpio_lines import GpioLines
 
 from controller.board import data_folder, find_board, load_board
 from controller.clocks import MonotonicClock
-from controller.device_settings import LinkSettings
+from controller.device_settings import LinkSettings, Temperature
+from controller.doctor import examine_link, look
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.exchange import FpgaReset
@@ -26,6 +27,7 @@ from controller.fpga.spi_link import SpiLink, read_bufsiz
 from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
 from controller.outputs import Outputs
+from controller.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"
 NAMES = ["TRIGGER", "READY", "PERMIT"]
@@ -337,3 +339,89 @@ def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
         assert there.far_end.pins()["hv"] == 0
         there.recover(error)
         assert there.far_end.pins()["hv"] == 1
+
+
+def test_the_doctor_finds_the_devices_and_examines_the_link():
+    far_end = FarEnd(SETTINGS, NAMES)
+    findings = {finding.about: finding for finding in look(BOARD, time.monotonic)}
+    for about in ("SPI device", "spidev buffer", "GPIO lines", "priority", "locked memory"):
+        assert findings[about].good, findings[about]
+    assert "an upload is two messages" in findings["spidev buffer"].said
+    with opened() as link:
+        assert {finding.about: finding for finding in look(BOARD, time.monotonic)}["GPIO lines"].good, "our own lines are no fault"
+        found = examine_link(
+            BOARD, link, lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic), CLOCK, 3e4, [5]
+        )
+        assert all(finding.good for finding in found.findings), found.findings
+        assert found.figures["proposed_sck_hz"] == SETTINGS.sck_hz
+        assert found.figures["bit_errors"]["bits"] >= 3e4 * 0.9
+        print({name: found.figures[name] for name in ("sck_measured_hz", "effective_hz")})
+        far_end.wire("noise")
+        found = examine_link(
+            BOARD, link, lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic), CLOCK, 3e4, []
+        )
+        assert [finding.good for finding in found.findings] == [False]
+    assert far_end.pins()["hv"] == 0
+    far_end.close()
+
+
+def bus_name():
+    """The I2C bus whose far end is a program."""
+    return next(
+        f"/dev/{bus.name}" for bus in Path("/sys/bus/i2c/devices").glob("i2c-*") if (bus / "name").read_text() == "labdev i2c\n"
+    )
+
+
+class Lm75Chip:
+    """TMP75 by its datasheet (SBOS288): a write sets the pointer, a read gives the register it points at, high byte first."""
+
+    def __init__(self):
+        self.words = {0: 0x1900, 1: 0x6000, 2: 0x4B00, 3: 0x5000}  # temperature 25 °C, configuration, limits
+        self.awake = True
+        self._pointer = 0
+        self._far_end = os.open("/dev/labi2c", os.O_RDWR)
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def _serve(self):
+        while True:
+            request = os.read(self._far_end, 1 << 12)
+            (count,) = struct.unpack_from("<I", request)
+            at, answer, result = 4, b"", count
+            for _ in range(count):
+                address, flags, length = struct.unpack_from("<HHH", request, at)
+                at += 6
+                if address != 0x4A or not self.awake:
+                    result = -6  # ENXIO: nobody acknowledges
+                if flags & 1:
+                    answer += struct.pack(">H", self.words[self._pointer & 3])[:length].ljust(length, b"\xff")
+                else:
+                    self._pointer = request[at]
+                    at += length
+            os.write(self._far_end, struct.pack("<i", result) + (answer if result > 0 else b""))
+            if self._pointer == 0x7F:
+                os.close(self._far_end)
+                return
+
+
+def test_the_bit_clock_follows_an_lm75_that_comes_and_goes():
+    chip = Lm75Chip()
+    settings = Temperature(kind="lm75", device=bus_name(), address=0x4A, reference_c=23.0, coefficient_per_k=-100e-6)
+    thermometer = Thermometer(settings)
+    assert abs(thermometer.scale(0.0) - (1 - 200e-6)) < 1e-12
+    chip.words[0] = 0xFFF0
+    assert thermometer.scale(2.0) == 1 - 200e-6, "a jump to -0.06 °C is not believed at once"
+    thermometer.scale(4.0)
+    assert thermometer.temperature_c == -0.0625
+    chip.awake = False
+    scale = thermometer.scale(6.0)
+    assert "no temperature sensor answers" in thermometer.cause
+    assert scale == thermometer.scale(7.0)
+    chip.awake = True
+    chip.words[0] = 0x0100
+    thermometer.scale(6.0 + RETRY_S)
+    assert (thermometer.temperature_c, thermometer.cause) == (1.0, "")
+    thermometer.close()
+    other = Thermometer(msgspec.structs.replace(settings, address=0x48))
+    assert other.scale(0.0) == 1
+    assert "address 0x48" in other.cause
