@@ -114,8 +114,8 @@ def _figures(board: Board, targets: Sequence[Point], found: Calibration, written
     return {
         "board": board.name,
         "targets_mm": [list(target) for target in targets],
-        "x_mm_from_axes": [round(value, 3) for value in found.x_mm_from_axes],
-        "y_mm_from_axes": [round(value, 3) for value in found.y_mm_from_axes],
+        "x_mm_from_axes": [round(value, 3) + 0.0 for value in found.x_mm_from_axes],
+        "y_mm_from_axes": [round(value, 3) + 0.0 for value in found.y_mm_from_axes],
         "lines": list(board_lines(found)),
         "residual_mm": {"rms": found.rms_mm, "worst": found.worst_mm} if found.residuals_mm else None,
         "written": None if written is None else str(written),

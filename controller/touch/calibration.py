@@ -71,7 +71,7 @@ def check_targets(targets: Sequence[Point], plate: Plate) -> None:
         If there are not three to five, one is not on the plate, or they lie at one place or on one line.
     """
     if not FEWEST <= len(targets) <= MOST:
-        raise CalibrationError(f"{len(targets)} targets: give {FEWEST} to {MOST}")
+        raise CalibrationError(f"give {FEWEST} to {MOST} targets, not {len(targets)}")
     for x_mm, y_mm in targets:
         if not (0 <= x_mm <= plate.length_mm and 0 <= y_mm <= plate.width_mm):  # NaN too
             raise CalibrationError(

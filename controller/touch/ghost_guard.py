@@ -29,25 +29,34 @@ class GhostGuard:
         G of the rule; 0: nobody is a suspect.
     """
 
-    __slots__ = ("_before", "_end_s", "_ghost_s", "_start_s")
+    __slots__ = ("_before", "_end_s", "_ghost_s", "_period_s", "_shadow_s", "_start_s")
 
     def __init__(self, ghost_s: float) -> None:
         self._ghost_s = ghost_s
-        self._start_s = self._end_s = -inf  # of the newest shadow
-        self._before = (-inf, -inf)  # the one before: reports are read later than they were made
+        self._before = (-inf, -inf)  # the shadow before the newest: reports are read later than they were made
+        self._start_s = self._end_s = -inf  # of the newest emission's own shadow
+        self._shadow_s = -inf  # when the shadow began that it is part of
+        self._period_s = inf
 
-    def emitted(self, start_s: float, end_s: float) -> None:
-        """An emission sounds, and what sounded before ends; `end_s` may be inf, until the next one is told."""
-        if start_s > self._end_s:
-            self._before = (self._start_s, self._end_s)
-            self._start_s = start_s
-        self._end_s = end_s + self._ghost_s
+    def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
+        """An emission sounds, and what sounded before ends; see `TrackedTouch.emitted`."""
+        last = self._shadow(start_s)
+        if start_s > last[1]:
+            self._before = last
+            self._shadow_s = start_s
+        else:
+            self._shadow_s = last[0]
+        self._start_s, self._end_s = start_s, end_s + self._ghost_s
+        self._period_s = period_s if period_s > 0 else inf
+        if self._period_s <= self._end_s - start_s:  # each repetition's shadow touches that of the next
+            self._end_s = inf
 
     def suspects(self, first_s: float) -> bool:
         """Whether a contact first reported at a time may be a ghost."""
         if self._ghost_s == 0:
             return False
-        return self._start_s <= first_s < self._end_s or self._before[0] <= first_s < self._before[1]
+        begin_s, end_s = self._shadow(first_s)
+        return begin_s <= first_s < end_s or self._before[0] <= first_s < self._before[1]
 
     def cleared_s(self, first_s: float, stayed_since_s: float) -> float:
         """When a suspect is a finger, if it is still down then.
@@ -59,5 +68,12 @@ class GhostGuard:
         stayed_since_s : float
             The first report since which it has not jumped.
         """
-        shadow_end_s = self._before[1] if first_s < self._before[1] else self._end_s
+        shadow_end_s = self._before[1] if first_s < self._before[1] else self._shadow(first_s)[1]
         return min(shadow_end_s, stayed_since_s + PERSISTENCE * self._ghost_s)
+
+    def _shadow(self, at_s: float) -> tuple[float, float]:
+        """Begin and end of the newest shadow, or of that of its last repetition by a time."""
+        if inf in (self._period_s, self._end_s) or at_s < self._start_s + self._period_s:
+            return self._shadow_s, self._end_s
+        since_s = (at_s - self._start_s) // self._period_s * self._period_s
+        return self._start_s + since_s, self._end_s + since_s

@@ -55,9 +55,15 @@ class TrackedTouch(TouchSource, Protocol):
     def confirmed(self, finger: int) -> bool:
         """Whether the panel has confirmed the contact; the emissions of one that is not are capped."""
 
-    def emitted(self, start_s: float, end_s: float) -> None:
+    def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
         """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost.
 
-        To be told in the order of `start_s`, at the latest when it starts. A repetition that the FPGA keeps up may be
-        told emission by emission, or once with `end_s` inf; then the next call ends it, `emitted(now_s, now_s)` too.
+        To be told in the order of `start_s`, at the latest when it starts; it ends what was told before.
+
+        Parameters
+        ----------
+        start_s, end_s : float
+            In the loop's clock.
+        period_s : float
+            Above 0 it is repeated so, until the next call; `emitted(now_s, now_s)` where nothing follows.
         """

@@ -152,16 +152,16 @@ class Tracker:
         return min(max(x_m, 0.0), self._length_m), min(max(y_m, 0.0), self._width_m)
 
     def confirmed(self, finger: int) -> bool:
-        """Whether a second report, or silence for as long, or the ghost guard's wait has shown that the contact stays."""
+        """Whether a second report, or silence for as long, has shown that the contact stays."""
         contact = self._fingers.get(finger)
         if contact is None:
             return False
         stayed_s = self._now_s - contact.first_s
-        return contact.suspect or contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
+        return contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
 
-    def emitted(self, start_s: float, end_s: float) -> None:
-        """An emission sounds, or a repetition (`end_s` inf) until the next call; see `TrackedTouch.emitted`."""
-        self._guard.emitted(start_s, end_s)
+    def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
+        """An emission sounds, or is repeated until the next call; see `TrackedTouch.emitted`."""
+        self._guard.emitted(start_s, end_s, period_s)
 
     def _take(self, sample: TouchSample, given: list[TouchSample]) -> None:
         contact = self._contacts.get(sample.finger)

@@ -86,8 +86,8 @@ def shares(points):
 @pytest.mark.parametrize(
     ("targets", "touches", "what"),
     [
-        (GOOD[:2], shares(GOOD[:2]), "2 targets: give 3 to 5"),
-        ([*GOOD, (50, 50)], shares([*GOOD, (50, 50)]), "6 targets"),
+        (GOOD[:2], shares(GOOD[:2]), "give 3 to 5 targets, not 2"),
+        ([*GOOD, (50, 50)], shares([*GOOD, (50, 50)]), "not 6"),
         (GOOD, shares(GOOD[:4]), "4 touches for 5 targets"),
         ([*GOOD[:2], (211, 20)], shares(GOOD[:3]), "not on the plate"),
         ([*GOOD[:2], (math.nan, 20)], shares(GOOD[:3]), "not on the plate"),
@@ -312,7 +312,7 @@ def test_what_goes_wrong_is_refused_and_the_board_stays_as_it_was(board_folder, 
     for arguments, error, what in (
         (["--replay", missed, "--write"], CalibrationError, "mm off what the others say"),
         (["--replay", str(tmp_path / "absent.evemu"), "--write"], TouchError, "cannot be read"),
-        (["--at", "500", "20", "--write"], CalibrationError, "give 3 to 5"),
+        (["--at", "500", "20", "--write"], CalibrationError, "give 3 to 5 targets, not 1"),
     ):
         with pytest.raises(error, match=what):
             command("--board", str(board_folder), *arguments)

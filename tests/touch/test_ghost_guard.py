@@ -128,8 +128,8 @@ def test_under_an_endless_spot_full_of_ghosts_real_fingers_are_played_and_ghosts
 
 def held_until(first_s, *emissions, ghost_s=GHOST_S, stayed_since_s=None):
     guard = GhostGuard(ghost_s)
-    for start_s, end_s in emissions:
-        guard.emitted(start_s, end_s)
+    for emission in emissions:
+        guard.emitted(*emission)
     return guard.cleared_s(first_s, first_s if stayed_since_s is None else stayed_since_s) if guard.suspects(first_s) else None
 
 
@@ -154,10 +154,25 @@ def test_a_report_read_late_is_judged_by_the_shadow_it_was_made_in():
     assert held_until(1.11, *two) == pytest.approx(1.132)
 
 
-def test_a_repetition_without_end_is_ended_by_the_next_emission():
-    assert held_until(5.0, (1.0, float("inf"))) == pytest.approx(5.0 + PERSISTENCE * GHOST_S)
-    assert held_until(5.0, (1.0, float("inf")), (5.001, 5.001)) == pytest.approx(5.031)
-    assert held_until(5.04, (1.0, float("inf")), (5.001, 5.001)) is None
+def test_each_repetition_casts_its_shadow_until_something_else_is_played():
+    spot = (1.0, 1.002, 0.1)
+    for k in (0, 1, 50):
+        assert held_until(1.0 + 0.1 * k + 1e-6, spot) == pytest.approx(1.032 + 0.1 * k)
+        assert held_until(1.031 + 0.1 * k, spot) == pytest.approx(1.032 + 0.1 * k)
+        assert held_until(1.033 + 0.1 * k, spot) is None
+        assert held_until(1.099 + 0.1 * k, spot) is None
+    assert held_until(1.505, spot, (1.55, 1.552)) == pytest.approx(1.532)  # read late
+    assert held_until(1.56, spot, (1.55, 1.552)) == pytest.approx(1.582)
+    assert held_until(1.605, spot, (1.55, 1.552)) is None
+    assert held_until(1.505, spot, (1.52, 1.522)) == pytest.approx(1.552)  # shadows that touch
+    assert held_until(0.9, spot) is None
+
+
+def test_repetitions_whose_shadows_touch_have_one_that_ends_with_what_follows():
+    spot = (1.0, 1.002, 0.03)
+    assert held_until(5.0, spot) == pytest.approx(5.0 + PERSISTENCE * GHOST_S)
+    assert held_until(5.0, spot, (5.001, 5.001)) == pytest.approx(5.031)
+    assert held_until(5.04, spot, (5.001, 5.001)) is None
 
 
 def test_a_panel_without_ghosts_holds_nobody_back():
@@ -184,6 +199,14 @@ def test_a_suspect_that_stays_is_played_when_the_shadow_ends_and_one_that_goes_n
     assert goes.tracking.longest_ghost_s == pytest.approx(0.022)
 
 
+def test_a_suspect_is_not_played_while_a_report_that_may_end_it_waits_to_be_read():
+    """The loop was late: all three reports are there, and the shadow is over."""
+    t = Tracker(ScriptedSource((1.01, [touch(0, 100)]), (1.02, [touch(0, 101)]), (1.03, [])), TOUCH, 0.210, 0.148)
+    t.emitted(1.0, 1.002)
+    assert [t.read(1.05) for _ in range(4)] == [()] * 4
+    assert t.tracking.ghosts == 1
+
+
 def test_a_ghost_that_goes_is_not_bridged_to_another_at_its_place():
     t = Tracker(ScriptedSource((1.01, [touch(0, 100)]), (1.02, []), (1.025, [touch(1, 100)]), (1.03, [])), TOUCH, 0.210, 0.148)
     t.emitted(1.0, 1.002)
@@ -194,11 +217,11 @@ def test_a_ghost_that_goes_is_not_bridged_to_another_at_its_place():
 def test_a_suspect_that_jumps_has_not_stayed():
     steps = [(1.01 + 0.008 * k, [touch(0, 100 + 6 * (k >= 5))]) for k in range(40)]
     t = Tracker(ScriptedSource(*steps), TOUCH, 0.210, 0.148)
-    t.emitted(1.0, float("inf"))
+    t.emitted(1.0, 1.002, 10e-3)
     assert played(t)[0].time_s == pytest.approx(1.05 + PERSISTENCE * GHOST_S, abs=0.009)
     slow = [(1.01 + 0.008 * k, [touch(0, 100 + 4 * k)]) for k in range(25)]
     t = Tracker(ScriptedSource(*slow), TOUCH, 0.210, 0.148)
-    t.emitted(1.0, float("inf"))
+    t.emitted(1.0, 1.002, 10e-3)
     assert played(t)[0].time_s == pytest.approx(1.01 + PERSISTENCE * GHOST_S, abs=0.009)
 
 

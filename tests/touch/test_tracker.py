@@ -53,6 +53,13 @@ def test_a_finger_lost_for_one_report_stays_the_same():
     assert t.tracking.bridged == 1
 
 
+def test_a_finger_found_again_is_predicted_again():
+    steps = [(1 + k * PERIOD_S, [touch(k > 20, 50 + k)] if k != 20 else []) for k in range(60)]
+    t = tracker(*steps, lag_ms=10.0)
+    played(t, 1.585)
+    assert t.place(0, 1.59)[0] * 1e3 == pytest.approx(110, abs=0.01)
+
+
 @pytest.mark.parametrize(("where_mm", "back_s"), [(106, 1.02), (101, 1.0251)])
 def test_who_comes_back_too_far_off_or_too_late_is_another_finger(where_mm, back_s):
     found = in_short(played(tracker((1.0, [touch(0, 100)]), (1.01, []), (back_s, [touch(1, where_mm)]), (back_s + 0.01, []))))
@@ -111,7 +118,7 @@ def test_a_palm_is_never_given_and_a_finger_that_becomes_one_is_released_for_goo
         (1.04, [touch(2, 52, size_mm=5.0)]),
     )
     assert in_short(played(t)) == [(1, 50, 1.0, True), (1, 50, 1.01, False), (2, 52, 1.04, True)]
-    assert t.tracking.palms == 2
+    assert (t.tracking.palms, t.tracking.flickers, t.tracking.ghosts) == (2, 0, 0)
 
 
 def test_a_contact_of_unknown_size_is_a_finger():
