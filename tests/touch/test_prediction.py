@@ -56,6 +56,13 @@ def test_a_finger_at_rest_has_one_place_whatever_noise_its_reports_have(noise):
     assert math.dist(places.pop(), (0.1, 0.05)) < REST_M
 
 
+def test_the_place_of_rest_is_that_of_the_reports_not_of_the_first_alone():
+    motion = Motion(0.1 + 0.3e-3, 0.05, 0.0)
+    for k in range(1, 20):
+        motion.report(0.1, 0.05, k * PERIOD_S)
+    assert motion.place(20 * PERIOD_S, 0.0, PERIOD_S) == pytest.approx((0.1, 0.05), abs=0.05e-3)
+
+
 def test_a_finger_leaves_its_rest_with_the_first_report_beyond_the_dead_band():
     motion = moved(lambda _: (0.1, 0.05))
     motion.report(0.1 + REST_M + 1e-6, 0.05, 100 * PERIOD_S)
