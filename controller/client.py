@@ -104,8 +104,11 @@ class PanelClient:
         return self._answer(number)
 
     def touches(self) -> Iterator[Touch]:
-        """Every finger that begins, moves or is released from now on; until the iterator is closed."""
+        """Every finger that begins, moves or is released from this call on; until the iterator is closed."""
         self._done(messages.Subscribe(id=self._new_id()))
+        return self._subscribed()
+
+    def _subscribed(self) -> Iterator[Touch]:
         try:
             while True:
                 while self._touches:

@@ -22,7 +22,7 @@ class PanelControl(Protocol):
     """What a command may ask of the loop."""
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
-        """Play an effect at a point, or for a finger wherever it goes; exactly one `outcome` follows.
+        """Play an effect at a point, or for a finger wherever it goes; exactly one `outcome` follows. A ticket is above 0.
 
         Raises
         ------

@@ -17,6 +17,7 @@ from controller.prepare_scene import populate
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
 from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.warnings import in_words
 
@@ -51,8 +52,9 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         stack.callback(link.close)
         session = open_session(link, board, clock.now_s)
         start_s = clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S
-        source = tracked(open_touch(board, replay, start_s), board)
-        stack.callback(source.close)
+        touch = open_touch(board, replay, start_s)
+        stack.callback(touch.close)
+        source = tracked(touch, board)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
         if commands is not None:
             stack.callback(commands.close)
@@ -70,7 +72,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             change=change,
             progress=housekeeping.progress,
         )
-        housekeeping.watch(assembly.loop, assembly.counters)
+        housekeeping.watch(assembly.loop, assembly.counters, touch if isinstance(touch, LiveSource) else None)
         for warning in enter_realtime(board.realtime):
             tell(warning)
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")

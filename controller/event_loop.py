@@ -178,8 +178,8 @@ class EventLoop:
         self._change.begin(name, ticket)
 
     def figures(self) -> dict[str, Any]:
-        """Counters and latencies so far, ready for JSON."""
-        return self._counters.export() | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
+        """Counters and latencies so far, ready for JSON; without histograms, which would keep the loop for too long."""
+        return self._counters.export(histograms=False) | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
 
     def effects(self) -> tuple[str, ...]:
         """Names of the effects that `play` knows."""
@@ -304,7 +304,7 @@ class EventLoop:
             next_s = playback.next_repetition_s(now_s)
             panel_s = self._time_base.fpga_s(next_s)
             if next_s < now_s + playback.duration_s and period_s is not None:
-                emissions += performance.all_spots(panel_s + period_s)
+                emissions = performance.with_spots(emissions, panel_s + period_s)
             else:
                 performance.spots_from(panel_s)
         beats = [emission.time_s for emission in emissions if emission.period_s]

@@ -106,6 +106,11 @@ class FingerState:
                 running.first_s = start_s
         self._keep(self._running)
 
+    @property
+    def unfelt(self) -> tuple[tuple[int, float], ...]:
+        """Commands of which nothing was felt yet: ticket, and when it was given."""
+        return tuple([(running.ticket, running.first_s - running.train.first_s) for running in self._running if running.ticket])
+
     def end_all(self) -> None:
         """All trains end; ways and lines stay as they are."""
         self._keep([])

@@ -19,6 +19,14 @@ class Thermometer(Protocol):
         """What the bit clock is to be multiplied by."""
 
 
+class Panel(Protocol):
+    """A touch panel, as far as it can be lost."""
+
+    @property
+    def present(self) -> bool:
+        """Whether it is there."""
+
+
 class Watched(Protocol):
     """What is told about: the loop."""
 
@@ -62,14 +70,17 @@ class Housekeeping:
         self._read_s = math.inf if thermometer is None else -math.inf
         self._period_s = board.temperature.period_s if board.temperature else math.inf
         self._loop: Watched | None = None
+        self._panel: Panel | None = None
         self._state = ""
+        self._present = True
         self._counters: Counters | None = None
-        self._refused = 0
+        self._loaded = self._refused = 0
 
-    def watch(self, loop: Watched, counters: Counters) -> None:
-        """The loop and the counters that are told about."""
+    def watch(self, loop: Watched, counters: Counters, panel: Panel | None) -> None:
+        """The loop, the counters and the panel that are told about; no panel where a recording is replayed."""
         self._loop = loop
         self._counters = counters
+        self._panel = panel
 
     def progress(self, now_s: float) -> None:
         """One turn of the loop."""
@@ -80,6 +91,12 @@ class Housekeeping:
         if loop.state != self._state:
             self._state = loop.state
             self._say(f"outputs off: {self._state}" if self._state else "the outputs are on")
+        if self._panel is not None and self._panel.present != self._present:
+            self._present = self._panel.present
+            self._say("the touch panel is back" if self._present else "the touch panel is lost; it is looked for twice a second")
+        if counters.scenes_loaded != self._loaded:
+            self._loaded = counters.scenes_loaded
+            self._say("another scene is played, or the same read again")
         if counters.scenes_refused != self._refused:
             self._refused = counters.scenes_refused
             self._say(f"the scene stays as it was: {counters.scene_refused}")

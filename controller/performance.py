@@ -13,7 +13,7 @@ from controller.clocks import NEVER
 from controller.command_source import Outcome
 from controller.errors import ConfigError
 from controller.latency import Counters
-from controller.policy import together
+from controller.policy import common_period_s, together
 from controller.scene import (
     OUTSIDE,
     ROUNDING_S,
@@ -77,8 +77,10 @@ class Performance:
     def touch(self, sample: TouchSample) -> None:
         """A finger began, moved or was released."""
         finger = sample.finger
-        state, emissions = on_touch(self.scene, self._states.get(finger), sample)
+        before = self._states.get(finger)
+        state, emissions = on_touch(self.scene, before, sample)
         if state is None:
+            self._unfelt(before, Outcome.SKIPPED, sample.time_s)
             self._states.pop(finger, None)
             self._given.pop(finger, None)
         else:
@@ -129,10 +131,11 @@ class Performance:
                 missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
                 self._spot_beats[spot] = beat + missed + 1
 
-    def all_spots(self, next_s: float) -> list[Emission]:
-        """Every spot, to take part in an emission; their beat goes on at `next_s`."""
+    def with_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
+        """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
         self.spots_from(next_s)
-        return [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
+        spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
+        return list(together([*emissions, *spots], NEVER)[0])
 
     def spots_from(self, start_s: float) -> None:
         """The spots' beat begins anew."""
@@ -206,12 +209,20 @@ class Performance:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
+    def _unfelt(self, state: FingerState | None, outcome: Outcome, now_s: float) -> None:
+        """Commands that end before their first emission."""
+        if state is not None:
+            for ticket, given_s in state.unfelt:
+                self._outcomes(ticket, outcome, now_s - given_s)
+
     def interrupted(self, now_s: float) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
         waiting = list(self._due.values())
         self._due.clear()
         self._counters.skipped.outputs_off += len(waiting)
         self.left_out(waiting, Outcome.REFUSED, now_s)
+        for state in self._states.values():
+            self._unfelt(state, Outcome.REFUSED, now_s)
         self._states = {owner: stopped(state) for owner, state in self._states.items() if state.finger is not None}
         self.spots_from(now_s)
 
@@ -225,9 +236,7 @@ class Performance:
         self._set_spots(now_s)
 
     def _set_spots(self, now_s: float) -> None:
-        kinds = {(spot.rate_hz, spot.phase, spot.alternate) for spot in self.scene.spots}
-        alike = len(kinds) == 1 and (len(self.scene.spots) == 1 or not self.scene.spots[0].alternate)
-        self.common_period_s = 1 / self.scene.spots[0].rate_hz if alike else None
+        self.common_period_s = common_period_s(self.scene.spots)
         self._spots_start_s = now_s
         self._spot_beats = dict.fromkeys(self.scene.spots, 0)
 

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from controller.bank.composition import Point
 from controller.bank.selection import Key, Selection
 from controller.clocks import NEVER
 from controller.errors import BankError
@@ -51,6 +52,7 @@ class _Prepared:
     """An accepted play command, and what it took."""
 
     emissions: Sequence[Emission]
+    points: Sequence[Point]
     count: int
     period_s: float
     resident: bool
@@ -114,7 +116,7 @@ class Playback:
         self._busy_s = duration_s / max_duty
         self._counters = counters
         self._played = played
-        self._slots = SlotCache(slots, selection.reusable)
+        self._slots = SlotCache(slots, selection.lone)
         self._prepared: _Prepared | None = None
         self._running: Played | None = None  # an endless repetition
 
@@ -166,11 +168,13 @@ class Playback:
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
         running = self._running
         start_s = self._start_s(self._command_s, not_before_s, at_s)
-        aimed, key = self._aim(emissions, start_s)
+        points = self._aim(emissions, start_s)
+        key = self._selection.key(points)
         resident = self._slots.find(key)
         if resident is None:
             start_s = self._start_s(self.upload_s, not_before_s, at_s)
-            aimed, key = self._aim(emissions, start_s)
+            points = self._aim(emissions, start_s)
+            key = self._selection.key(points)
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
         try:
@@ -196,7 +200,8 @@ class Playback:
             self._running = None
         away_ns = session.away_ns - away_before_ns
         prepared = _Prepared(
-            aimed,
+            emissions,
+            points,
             count,
             period_s,
             resident is not None,
@@ -246,7 +251,7 @@ class Playback:
     def reselect(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
-        self._slots = SlotCache(self._slots.slots, selection.reusable)
+        self._slots = SlotCache(self._slots.slots, selection.lone)
 
     def trigger(self) -> None:
         """Play what is prepared, now."""
@@ -272,15 +277,15 @@ class Playback:
             return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S, not_before_s))
         return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
 
-    def _aim(self, emissions: Sequence[Emission], start_s: float) -> tuple[tuple[Emission, ...], Key]:
-        """Move each emission to where its finger will be at T, and name the waveform that serves them."""
+    def _aim(self, emissions: Sequence[Emission], start_s: float) -> list[Point]:
+        """Where each emission meets its finger at T, and how strong it is."""
         focus_s = self._time_base.host_s(start_s) + self.duration_s
-        aimed = tuple([self._moved(emission, focus_s) for emission in emissions])
-        return aimed, self._selection.key([(e.x_m, e.y_m, e.amplitude) for e in aimed])
-
-    def _moved(self, emission: Emission, focus_s: float) -> Emission:
-        place = None if emission.finger is None else self._where(emission.finger, focus_s)
-        return emission if place is None else emission._replace(x_m=place[0], y_m=place[1])
+        points = []
+        for emission in emissions:
+            place = None if emission.finger is None else self._where(emission.finger, focus_s)
+            x_m, y_m = (emission.x_m, emission.y_m) if place is None else place
+            points.append((x_m, y_m, emission.amplitude))
+        return points
 
     def _upload(self, key: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
@@ -309,8 +314,12 @@ class Playback:
             counters.skipped.uploads += 1
         else:
             counters.uploads += 1
-        played = Played(start_s, tuple(prepared.emissions), prepared.count, prepared.period_s, prepared.resident)
-        if prepared.count == ENDLESS:
-            self._running = played
-        if self._played is not None:
-            self._played(played)
+        if prepared.count == ENDLESS or self._played is not None:
+            aimed = tuple(
+                [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]
+            )
+            played = Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident)
+            if prepared.count == ENDLESS:
+                self._running = played
+            if self._played is not None:
+                self._played(played)

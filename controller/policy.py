@@ -1,7 +1,7 @@
 """Which of the emissions that wait are played together, and which wait for the plate's next turn. Pure.
 
 The plate plays one waveform at a time. Foci that are apart share one: their responses are summed, and each gets
-less than it would get alone (two 0.72, four 0.54, ten 0.36). It depends on how far apart two are, here the
+less than it would get alone (of two about 0.72, of four 0.5, of ten 0.35). It depends on how far apart two are, here the
 worse of both (simulated panel, median of 16 random pairs; tests/offline/test_policy.py):
 
     mm      0.5   1.5   2.5   4     5     6     7     8     9     10    12    20
@@ -15,7 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from controller.finger_state import Emission
+from controller.finger_state import Emission, spot_emission
+from controller.scene_map import Spot
 
 MOST = 10  # foci of one waveform
 SAME_M = 2.5e-3
@@ -56,6 +57,14 @@ def together(due: Sequence[Emission], duration_s: float, most: int = MOST) -> tu
         else:
             chosen.append(emission)
     return tuple(chosen), tuple(rest)
+
+
+def common_period_s(spots: Sequence[Spot]) -> float | None:
+    """Period in which the FPGA can repeat all spots as one waveform, without the host; None if they need turns."""
+    if not spots or len({(spot.rate_hz, spot.phase) for spot in spots}) > 1:
+        return None
+    _, rest = together([spot_emission(spot, 0.0, 0) for spot in spots], 0.0)
+    return None if rest else 1 / spots[0].rate_hz
 
 
 def _in_the_way(emission: Emission, chosen: Sequence[Emission]) -> bool:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 
-from controller.bank.selection import Key
+from controller.bank.selection import NEAR_M, Key
+
+Lone = tuple[float, float, int]  # x and y in m, amplitude in steps below full
 
 FEWEST_FREE = 2  # slots that are never pinned: one sounds, one is being filled
 
@@ -17,18 +19,22 @@ class SlotCache:
     ----------
     slots : int
         Of the FPGA.
-    serves : callable
-        Whether what is resident under the second key may be played for the first.
+    lone : callable
+        Place of the one focus of a key, x and y in m, and its amplitude; None where there are several.
+    near_m : float
+        What is resident for a place at most this far away serves as well, if it is as strong.
 
     Attributes
     ----------
     slots : int
     """
 
-    def __init__(self, slots: int, serves: Callable[[Key, Key], bool]) -> None:
+    def __init__(self, slots: int, lone: Callable[[Key], Lone | None], near_m: float = NEAR_M) -> None:
         self.slots = slots
-        self._serves = serves
+        self._lone = lone
+        self._near_m2 = near_m**2
         self._slot_of: OrderedDict[Key | str, int] = OrderedDict()
+        self._lone_of: dict[int, tuple[Key, Lone]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
         self.forget()
 
@@ -36,8 +42,12 @@ class SlotCache:
         """Key under which a waveform that serves is resident; None: it has to be uploaded."""
         if key in self._slot_of:
             return key
-        for resident in reversed(self._slot_of):
-            if not isinstance(resident, str) and self._serves(key, resident):
+        wanted = self._lone(key)
+        if wanted is None:
+            return None
+        x_m, y_m, step = wanted
+        for resident, (there_x_m, there_y_m, there_step) in self._lone_of.values():
+            if (x_m - there_x_m) ** 2 + (y_m - there_y_m) ** 2 <= self._near_m2 and step == there_step:
                 return resident
         return None
 
@@ -50,12 +60,19 @@ class SlotCache:
         """Free the slot that was used longest ago; it holds nothing until `keep` or `empty` is called."""
         for key in self._slot_of:
             if key not in self._pinned:
-                return self._slot_of.pop(key)
-        return self._slot_of.popitem(last=False)[1]
+                slot = self._slot_of.pop(key)
+                break
+        else:
+            slot = self._slot_of.popitem(last=False)[1]
+        self._lone_of.pop(slot, None)
+        return slot
 
     def keep(self, key: Key, slot: int) -> None:
         """The slot that was taken holds this waveform now."""
         self._slot_of[key] = slot
+        lone = self._lone(key)
+        if lone is not None:
+            self._lone_of[slot] = key, lone
 
     def empty(self, slot: int) -> None:
         """The slot that was taken holds nothing; it is the next to be taken."""
@@ -69,6 +86,7 @@ class SlotCache:
     def forget(self) -> None:
         """Take it that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
+        self._lone_of.clear()
         self._slot_of.update((_empty(slot), slot) for slot in range(self.slots))
 
 

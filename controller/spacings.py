@@ -94,9 +94,11 @@ class Lines:
         towards, at_m = (y, y_m) if self._axis else (x, x_m)
         if towards == 0.0:
             return math.inf
-        at = (at_m - self._origin_m) / self._spacing_m
-        to_go = math.floor(at) + 1 - at if towards > 0 else at - math.ceil(at) + 1
-        return to_go * self._spacing_m / abs(towards)
+        at = (at_m - self._origin_m + ROUNDING_M) / self._spacing_m
+        line, step = (math.floor(at) + 1, 1) if towards > 0 else (math.floor(at), -1)
+        if line == self._felt:
+            line += step
+        return abs(line - at) * self._spacing_m / abs(towards)
 
 
 def spacing_of(effect: EffectTable, shape: Rectangle | Circle | Polygon, amplitude: float) -> Spacing:

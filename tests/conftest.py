@@ -1,6 +1,7 @@
 """What the tests share: the simulated board, and one small bank of it."""
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from controller.bank.reader import Bank
 from controller.board import find_board, load_board
@@ -8,6 +9,10 @@ from controller.offline.bank_builder import build_bank
 from controller.offline.simulated_run import play
 from controller.scene import load_scene
 from controller.touch.recording import Recording
+
+# How long an example takes says how busy the machine is, not whether the code is right.
+settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("untimed")
 
 PITCH_M = 10e-3  # 20 x 13 cells: built in a second
 

@@ -18,6 +18,12 @@ when = "command"
 rate_hz = 100.0
 count = 5
 
+[effects.late]
+when = "command"
+rate_hz = 100.0
+count = 2
+phase = 0.5
+
 [[regions]]
 name = "all"
 shape = "plate"
@@ -160,3 +166,42 @@ def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp
     assert told == [(1, Outcome.SKIPPED, pytest.approx(1.0))]
     performance.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
     assert performance.due
+
+
+@pytest.mark.parametrize("how", ["lifted", "outputs off"])
+def test_a_command_that_ends_before_its_first_emission_is_told_so_once(performance, told, how):
+    performance.touch(TouchSample(3, 0.1, 0.05, 0.0, True))
+    played(performance, 0.0)
+    command(performance, 1, effect="late", finger=3, now_s=1.0)
+    assert not performance.due
+    if how == "lifted":
+        performance.touch(TouchSample(3, 0.1, 0.05, 1.003, False))
+    else:
+        performance.interrupted(1.003)
+    performance.advance(2.0)
+    outcome = {"lifted": Outcome.SKIPPED, "outputs off": Outcome.REFUSED}[how]
+    assert told == [(1, outcome, pytest.approx(0.003))]
+
+
+def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(board, tmp_path, told):
+    spots = "".join(
+        f'[[regions]]\nname = "{x_mm}"\nshape = "circle"\nx_mm = {x_mm}\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+        for x_mm in (60, 66)
+    )
+    (tmp_path / "spots.toml").write_text(spots)
+    assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s is None
+    (tmp_path / "spots.toml").write_text(spots.replace("66", "80"))
+    assert performing(load_scene(tmp_path / "spots.toml", board), told).common_period_s == 0.04
+
+
+@pytest.mark.parametrize(("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 1), (100, "alternate", 1)])
+def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board, tmp_path, told, finger_mm, policy, together):
+    spot = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+    (tmp_path / "spot.toml").write_text(
+        f'{spot}[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
+    )
+    performance = performing(load_scene(tmp_path / "spot.toml", board), told)
+    performance.touch(TouchSample(3, finger_mm * 1e-3, 0.07, 1.0, True))
+    emissions = performance.with_spots(performance.take(T_S), 1.05)
+    assert [e.finger for e in emissions] == [3, None][:together]
+    assert performance.next_spot_s() == 1.05

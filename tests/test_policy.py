@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.finger_state import Emission
-from controller.policy import APART_M, MOST, SAME_M, together
+from controller.policy import APART_M, MOST, SAME_M, common_period_s, together
+from controller.scene_map import Spot
 
 T_S = 2e-3
 
@@ -101,3 +102,12 @@ def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
         for other in chosen[:k]:
             apart_m = math.dist((one.x_m, one.y_m), (other.x_m, other.y_m))
             assert apart_m <= SAME_M * 1.0001 or apart_m >= APART_M * 0.9999
+
+
+def test_spots_that_one_waveform_serves_have_a_common_period_and_others_none():
+    spot = Spot(0.06, 0.07, 20.0, "a")
+    far = spot._replace(x_m=0.1, region="b")
+    assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05
+    assert common_period_s([]) is None
+    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.065}):
+        assert common_period_s([spot, far._replace(**changed)]) is None, changed

@@ -1,5 +1,7 @@
 import math
 import pickle
+import random
+import tracemalloc
 
 import msgspec
 import numpy as np
@@ -253,6 +255,27 @@ def test_from_one_region_to_the_next_the_stronger_of_leaving_and_entering_is_fel
         assert (emission.region, emission.amplitude, emission.x_m) == (region, amplitude, 0.060)
 
 
+def test_of_what_two_regions_want_at_once_one_that_is_to_be_played_alone_is(scene_of):
+    for policies in (("alternate", "compose"), ("compose", "alternate")):
+        scene = scene_of(
+            square(f"{LEAVE}, {ENTER}", "left", 20, 30) + f'\npolicy = "{policies[0]}"',
+            square(f"{LEAVE}, {ENTER}", "right", 50) + f'\namplitude = 0.5\npolicy = "{policies[1]}"',
+        )
+        state, _ = on_touch(scene, None, at(40))
+        _, (emission,) = on_touch(scene, state, at(60))
+        assert emission.alternate
+
+
+def test_the_strongest_of_the_lines_crossed_at_once_is_felt(scene_of):
+    lines = [
+        f'{{ when = "move", along = "x", spacing_mm = {spacing}, amplitude = {a} }}'
+        for spacing, a in ((5, 0.3), (10, 0.9), (4, 0.5))
+    ]
+    state, _ = on_touch(scene_of(square(", ".join(lines))), None, at(51))
+    _, (emission,) = on_touch(scene_of(square(", ".join(lines))), state, at(61))
+    assert emission.amplitude == 0.9
+
+
 def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes_on_until_the_finger_is_lifted(scene_of):
     entered = scene_of(square(PRESSED.replace("press", "enter")))
     state, _ = on_touch(entered, None, at(40))
@@ -260,7 +283,7 @@ def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes
     assert (first.beat, first.period_s, next_time_s(state)) == (0, 0.01, pytest.approx(1.01))
     state, _ = on_touch(entered, state, at(40, time_s=1.005))
     assert next_time_s(state) is None
-    left = scene_of(square(PRESSED.replace("press", "leave")))
+    left = scene_of(square(PRESSED.replace("press", "leave")), square(CLICK, "other", 10, 25))
     state, _ = on_touch(left, None, at(60))
     state, (first,) = on_touch(left, state, at(40, time_s=1.0))
     state, _ = on_touch(left, state, at(30, time_s=1.005))
@@ -409,9 +432,11 @@ def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
     scene = load_scene(file, BOARD)
     state, none = command(scene, name="late")
     assert none == ()
+    assert state.unfelt == ((17, 5.0),)
     assert not ended(state)
     state, emissions = on_time(scene, state, 5.021)
     assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
+    assert state.unfelt == ()
 
 
 @pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])
@@ -431,6 +456,10 @@ def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_
     assert [e.region for e in emissions] == ["buzz"]
     state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
     assert edge.region == "new"
+    leaving = scene_of(square(PRESSED.replace("press", "leave")))
+    state, _ = on_touch(leaving, None, at(60))
+    state, _ = on_touch(leaving, state, at(20))
+    assert ended(taken_over(new, state))
     point, _ = command(old)
     assert on_time(new, taken_over(new, point), 5.0084)[1][0].region == "buzz"
 
@@ -465,6 +494,38 @@ def test_whatever_a_finger_does_time_moves_on_and_every_emission_can_be_played(t
             assert now_s - wait_s - 1e-9 <= e.time_s <= now_s
             assert e.owner == e.finger == 3
         assert [e.time_s for e in felt] == sorted(e.time_s for e in felt)
+
+
+def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
+    walk, places, samples = random.Random(1), [(0.1, 0.07)] * 4, []
+    for k in range(3000):
+        x_m, y_m = (
+            min(max(at_m + walk.uniform(-3e-3, 3e-3), 0), far) for at_m, far in zip(places[k % 4], (0.21, 0.148), strict=True)
+        )
+        places[k % 4] = x_m, y_m
+        samples.append(TouchSample(k % 4, x_m, y_m, k * 1e-3, walk.random() > 0.01))
+
+    def play():
+        states, emissions = {}, 0
+        for sample in samples:
+            for state in states.values():
+                emissions += len(on_time(LIBRARY_SCENE, state, sample.time_s)[1])
+            state, more = on_touch(LIBRARY_SCENE, states.pop(sample.finger, None), sample)
+            emissions += len(more)
+            if state is not None:
+                states[sample.finger] = state
+        return emissions
+
+    assert play() > 500
+    tracemalloc.start()
+    try:
+        before, _ = tracemalloc.get_traced_memory()
+        play()
+        after, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert after - before < 512
+    assert peak - before < 8192
 
 
 @given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))

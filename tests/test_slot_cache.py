@@ -6,8 +6,9 @@ from hypothesis import strategies as st
 from controller.slot_cache import FEWEST_FREE, SlotCache
 
 
-def same(key, resident):
-    return key == resident
+def same(_key):
+    """No key is for one focus: none serves for another."""
+    return
 
 
 def put(cache, key):
@@ -51,10 +52,14 @@ def test_all_pinned_of_too_few_slots_still_plays():
 
 
 def test_what_is_near_serves():
-    cache = SlotCache(4, lambda key, resident: abs(key - resident) <= 2)
-    put(cache, 10)
-    assert cache.find(12) == 10
-    assert cache.find(13) is None
+    cache = SlotCache(4, lambda key: (key // 10 * 1e-3, 0.0, key % 10), near_m=2e-3)  # tens: place in mm, ones: amplitude
+    put(cache, 100)
+    assert cache.find(120) == 100
+    assert cache.find(130) is None, "too far"
+    assert cache.find(121) is None, "weaker"
+    for key in (500, 600, 700, 800):
+        put(cache, key)
+    assert cache.find(120) is None, "its slot was given away"
 
 
 def test_a_slot_whose_upload_was_refused_is_the_next_to_be_taken():

@@ -44,6 +44,11 @@ def test_a_line_is_felt_again_on_the_way_back():
     assert hits(grating, along(0, way)) == [1, 3, 5]
 
 
+def test_a_jump_back_over_the_line_just_felt_and_others_is_felt():
+    assert hits(Spacing(10e-3, 0, 0.0, 1.0), along(0, [0.015, 0.0201, -0.005, 0.0001])) == [1, 2, 3]
+    assert hits(Spacing(10e-3, 0, 0.0, 1.0), along(0, [0.025, 0.0199, 0.045])) == [1, 2]
+
+
 def test_lines_belong_to_their_axis_only():
     points = [(0.001, 0.001 + k * 1e-3) for k in range(50)]
     assert hits(Spacing(3e-3, 0, 0.0, 1.0), points) == []
@@ -77,6 +82,48 @@ def test_a_finger_that_trembles_at_rest_goes_no_way(spacing_m, noise):
     rest_m = 0.49 * min(REST_M, spacing_m / 4)
     points = [(0.05 + r * rest_m * math.cos(angle), 0.05 + r * rest_m * math.sin(angle)) for r, angle in noise]
     assert hits(Spacing(spacing_m, None, 0.0, 1.0), points) == []
+
+
+def test_not_even_a_long_tremble_adds_up_to_a_way():
+    for radius_m in (0.12e-3, 0.07e-3):
+        points = [(0.05 + radius_m * math.cos(2.4 * k), 0.05 + radius_m * math.sin(2.4 * k)) for k in range(5000)]
+        assert hits(Spacing(1e-3, None, 0.0, 1.0), points) == []
+
+
+@given(
+    st.sampled_from([0, 1, None]),
+    st.floats(1e-3, 0.03),
+    st.floats(0, 0.2),
+    st.floats(0, 0.14),
+    st.floats(0, 2 * math.pi),
+    st.floats(0, 0.9),
+)
+def test_the_way_to_go_is_the_way_after_which_something_is_felt(axis, spacing_m, x_m, y_m, angle, gone):
+    """For a finger that has gone a part of a spacing in one direction and goes on in it."""
+    x, y = math.cos(angle), math.sin(angle)
+    assume(axis is None or abs((x, y)[axis]) > 1e-3)
+    here = x_m + gone * spacing_m * x, y_m + gone * spacing_m * y
+    for part, felt in ((0.999, False), (1.001, True)):
+        progress = Spacing(spacing_m, axis, 0.01, 1.0).begin(x_m, y_m)
+        assume(not progress.crossed(*here))
+        to_go_m = progress.to_go_m(*here, x, y)
+        across_m = to_go_m * abs((x, y)[axis]) if axis is not None else to_go_m
+        assume(across_m > 1e-5)  # a thousandth of it is more than rounding
+        assert progress.crossed(here[0] + part * to_go_m * x, here[1] + part * to_go_m * y) == felt
+
+
+@pytest.mark.parametrize(
+    ("way", "x", "to_go_m"), [([15, 20.1], 1, 9.9), ([15, 20.1], -1, 10.1), ([15, 20.1, 22], -1, 2), ([25, 19.9], 1, 10.1)]
+)
+def test_the_line_just_felt_is_not_the_next_one_on_the_way_back(way, x, to_go_m):
+    progress = Spacing(10e-3, 0, 0.0, 1.0).begin(way[0] * 1e-3, 0.0)
+    for at_mm in way[1:]:
+        progress.crossed(at_mm * 1e-3, 0.0)
+    assert progress.to_go_m(way[-1] * 1e-3, 0.0, x, 0.0) * 1e3 == pytest.approx(to_go_m, abs=1e-5)
+
+
+def test_a_finger_that_goes_along_the_lines_never_comes_to_one():
+    assert Spacing(0.01, 0, 0.0, 1.0).begin(0.005, 0.005).to_go_m(0.005, 0.005, 0.0, 1.0) == math.inf
 
 
 def test_the_way_round_a_small_circle_is_its_circumference_within_a_percent():

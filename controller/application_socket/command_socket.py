@@ -12,14 +12,14 @@ import errno
 import math
 import select
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import msgspec
 
 from controller import __version__
 from controller.application_socket import messages
-from controller.application_socket.connection import UNWATCHED, Connection, LineTooLong
+from controller.application_socket.connection import UNWATCHED, Connection, LineTooLong, MessageTooLong
 from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, Id, Play
 from controller.application_socket.socket_file import SocketFile
 from controller.application_socket.tickets import FULL, Tickets, Waiting
@@ -276,10 +276,11 @@ class CommandSocket:
             case messages.AskFigures(id=number):
                 if now_s >= self._figures_until_s:
                     self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
-                client.put(messages.Figures(id=number, figures=self._figures))
-                self.counters.done += 1
+                figures = self._figures | {"application_socket": asdict(self.counters)}
+                self._tell(client, messages.Figures(id=number, figures=figures))
             case messages.Hello(id=number):
-                client.put(
+                self._tell(
+                    client,
                     messages.Greeting(
                         id=number,
                         version=__version__,
@@ -288,12 +289,20 @@ class CommandSocket:
                         width_mm=self._board.plate.width_mm,
                         max_amplitude=self._max_amplitude,
                         effects=control.effects(),
-                    )
+                    ),
                 )
-                self.counters.done += 1
             case messages.Subscribe() | messages.Unsubscribe():
                 self._subscribe(client, isinstance(request, messages.Subscribe))
                 self._answer(client, request.id, "done")
+
+    def _tell(self, client: Connection, message: messages.Figures | messages.Greeting) -> None:
+        """Answer by what was asked for."""
+        try:
+            client.put(message)
+        except MessageTooLong as error:
+            self._answer(client, message.id, "refused", str(error))
+        else:
+            self._count("done")
 
     def _subscribe(self, client: Connection, wanted: bool) -> None:
         self._subscribers += wanted - client.subscribed

@@ -20,6 +20,10 @@ class LineTooLong(ValueError):
     """A line that does not fit the buffer; what is left of it will be thrown away."""
 
 
+class MessageTooLong(ValueError):
+    """An answer that no client could be given."""
+
+
 class Connection:
     """A place for one client at a time; the next one gets the same buffers.
 
@@ -143,12 +147,20 @@ class Connection:
         return True
 
     def put(self, message: AnyMessage) -> None:
-        """Queue one message; where there is no room, the client is told to go and gets nothing more."""
+        """Queue one message; where there is no room, the client is told to go and gets nothing more.
+
+        Raises
+        ------
+        MessageTooLong
+            If it would not fit an empty queue: the client is not to blame.
+        """
         if self.deaf or self.leaving_reason:
             return
         line = self._line
         self._encoder.encode_into(message, line)
         line.append(NEWLINE)
+        if len(line) > QUEUE_BYTES:
+            raise MessageTooLong(f"the answer has {len(line)} bytes, more than {QUEUE_BYTES}")
         if self._queued + len(line) > QUEUE_BYTES:
             self._compact()
             if self._queued + len(line) > QUEUE_BYTES:

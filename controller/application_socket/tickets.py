@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-FULL = -1
+FULL = 0  # never a ticket: to the loop it means that nobody waits
+NONE = -1
 
 
 class Waiting(NamedTuple):
@@ -20,7 +21,7 @@ NOBODY = Waiting(-1, None)
 class Tickets:
     """A fixed number of tickets; each is taken, and given back once.
 
-    A ticket is its place plus a multiple of the capacity, another one each time it is taken: an outcome
+    A ticket is its place plus a multiple of the capacity, from 1 on, another one each time it is taken: an outcome
     that comes twice finds nobody. The free places are a list linked through an array, so that nothing is
     ever moved or resized.
 
@@ -33,15 +34,15 @@ class Tickets:
     def __init__(self, capacity: int) -> None:
         self.waiting = 0
         self._capacity = capacity
-        self._ticket = list(range(capacity))
+        self._ticket = list(range(capacity, 2 * capacity))
         self._holder = [NOBODY] * capacity
-        self._next_free = [*range(1, capacity), FULL]
+        self._next_free = [*range(1, capacity), NONE]
         self._free = 0
 
     def take(self, holder: Waiting) -> int:
         """A ticket for a command, or FULL."""
         place = self._free
-        if place == FULL:
+        if place == NONE:
             return FULL
         self._free = self._next_free[place]
         self._holder[place] = holder

@@ -27,7 +27,7 @@ from controller.bank.packing import CHANNELS, WORD, WordPacker
 from controller.bank.reader import Bank
 
 MOST_POINTS = 10
-ROUNDS = 4  # at most, of setting weights and threshold
+ROUNDS = 5  # at most, of looking what the bits do; most need two or three
 CLOSE = 0.01  # near enough: well below a step of amplitude
 NO_SUM = np.array(0, np.float32)
 
@@ -78,6 +78,7 @@ class Composer:
         self._reached = np.empty((2, MOST_POINTS), np.float32)
         idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
         self._flip = np.tile(1 - 2 * idle_high, samples + rest_rows)
+        self._flip_in_band = self._flip[:values]
         self._low_at = np.tile(-idle_high, samples)  # largest whole number that plays low
         self._idle_word = np.array(idle_word, WORD)
         self._bits = self._packer.bits
@@ -129,10 +130,14 @@ class Composer:
         count = len(points)
         sizes = []  # of each response alone
         for row, point in enumerate(points):
-            self._band_and_rest.at(point[0], point[1], self._interpolated)
-            np.multiply(self._interpolated, self._flip, out=self._interpolated)
+            if full:
+                self._band.at(point[0], point[1], self._in_band)
+                np.multiply(self._in_band, self._flip_in_band, out=self._in_band)
+            else:
+                self._band_and_rest.at(point[0], point[1], self._interpolated)
+                np.multiply(self._interpolated, self._flip, out=self._interpolated)
+                np.copyto(self._rests[row], self._outside)
             np.copyto(self._points_of_samples[row], self._in_band)
-            np.copyto(self._rests[row], self._outside)
             np.abs(self._points[row], out=self._deviates)
             sizes.append(float(np.dot(self._deviates, self._ones)) or 1.0)
         shares = [1.0] * count
@@ -140,31 +145,49 @@ class Composer:
         np.greater(self._sum, NO_SUM, out=self._bits)
         if full:
             return
-        shares = [amplitude for _, _, amplitude in points]
-        wanted = [share * reached for share, reached in zip(shares, self._reach(sizes), strict=True)]
-        left = _length(shares) / math.sqrt(count)
-        self._add(shares, sizes)
+        asked = [amplitude for _, _, amplitude in points]
+        wanted = [share * reached for share, reached in zip(asked, self._reach(sizes), strict=True)]
+        self._add(asked, sizes)
         self._holding.measure(self._sum)
         self._holding.normalise(self._sum, self._normalised)
-        for further in range(ROUNDS - 1, -1, -1):
-            self._held[...] = hold_threshold(left)
+        self._settle(asked, wanted, sizes)
+
+    def _settle(self, asked: list[float], wanted: list[float], sizes: list[float]) -> None:
+        """Search the bits that reach what is wanted at each point.
+
+        The shares by which responses are added say two things: how points compare by their ratio, and how
+        much is held by their length, since independent points reach in proportion to their shares. So what
+        is missing is added to the shares; from the second round on with the change that this had brought
+        (Anderson's method of depth one), since points that are near each other are not independent.
+        """
+        shares, length = asked, _length(asked)
+        gain = 0.0
+        shares_before, missing_before = shares, shares
+        for turn in range(ROUNDS):
+            strength = _length(shares)
+            if turn and len(shares) > 1:  # of one point the sum stays
+                self._add([share * length / strength for share in shares], sizes)
+                self._holding.normalise(self._sum, self._normalised)
+            self._held[...] = hold_threshold(strength / math.sqrt(len(shares)))
             np.greater(self._normalised, self._held, out=self._bits)
-            if not further:
+            if turn == ROUNDS - 1:
                 return
             reached = self._reach(sizes)
             if all(abs(want - got) <= CLOSE * want for want, got in zip(wanted, reached, strict=True)):
                 return
-            length = _length(shares)
-            gain = sum(map(mul, reached, shares)) / length**2  # of the plate and of what is held, for all points together
+            gain = gain or sum(map(mul, reached, shares)) / strength**2
             if gain <= 0:
                 return
-            shares = [share + (want - got) / gain for share, want, got in zip(shares, wanted, reached, strict=True)]
-            grown = _length(shares) / length
-            left = min(left * grown, 1.0)
-            shares = [share / grown for share in shares]  # the sum stays as strong as was measured: what grows is held less
-            if count > 1:
-                self._add(shares, sizes)
-                self._holding.normalise(self._sum, self._normalised)
+            missing = [(want - got) / gain for want, got in zip(wanted, reached, strict=True)]
+            further = [share + part for share, part in zip(shares, missing, strict=True)]
+            if turn:
+                change = [new - old for new, old in zip(missing, missing_before, strict=True)]
+                spread = sum(map(mul, change, change))
+                back = sum(map(mul, missing, change)) / spread if spread else 0.0
+                before = [share + part for share, part in zip(shares_before, missing_before, strict=True)]
+                further = [new + back * (old - new) for new, old in zip(further, before, strict=True)]
+            shares_before, missing_before = shares, missing
+            shares = further
 
     def _add(self, shares: list[float], sizes: list[float]) -> None:
         """Sum of the points' responses, each of size one, with these shares."""

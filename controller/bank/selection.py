@@ -61,7 +61,7 @@ class Selection:
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
-            step = amplitude_step(amplitude)
+            step = 0 if amplitude == 1 else amplitude_step(amplitude)
             if step == 0:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
@@ -88,12 +88,12 @@ class Selection:
 
         Only for one point: of the same amplitude, and at most `near_m` away.
         """
-        wanted, there = self._lone(key), self._lone(resident)
+        wanted, there = self.lone(key), self.lone(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False
         return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= near_m
 
-    def _lone(self, key: Key) -> tuple[float, float, int] | None:
+    def lone(self, key: Key) -> tuple[float, float, int] | None:
         """Place and step of amplitude of a key of one point."""
         if isinstance(key, int):
             return (*self._bank.grid.place(key), 0)

@@ -5,7 +5,8 @@ Every frame's result comes with the next one, so each message ends with a NOP th
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import accumulate
 
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
@@ -16,6 +17,7 @@ from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, R
 
 ATTEMPTS = 3
 COMMANDS = 8  # short frames that fit behind an upload
+PATTERNS_MAX = 32  # of lengths of frames; the loop has fewer
 DAMAGED = frozenset({Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC, Result.INCOMPLETE})
 
 
@@ -70,8 +72,9 @@ class Exchange:
         self._link = link
         self._now_s = now_s
         self._beat_s = beat_s
+        self._answers: dict[tuple[int, ...], tuple[tuple[memoryview, int], ...]] = {}
 
-    def message(self, lengths: list[int], *, faults_matter: bool = True) -> Status:
+    def message(self, lengths: Sequence[int], *, faults_matter: bool = True) -> Status:
         """Send frames and check every answer; the last status, which is that of the frame before the last.
 
         Raises
@@ -89,13 +92,12 @@ class Exchange:
         self.sequence = (sequence + len(lengths)) & 0xFF
         self._link.exchange(self.sent, lengths, self.received)
         self.heartbeat_due_s = self._now_s() + self._beat_s
-        start = lengths[0]  # the first answer is about the message before
+        start = 0
         try:
-            for index, length in enumerate(lengths[1:]):
-                if not answered_well(self.received, start, (sequence + index) & 0xFF):
+            for answer, start in self._answers_to(tuple(lengths)):
+                if not answered_well(answer, sequence):
                     self._explain(parse_status(self.received, start), faults_matter)
-                start += length
-            start -= lengths[-1]
+                sequence = (sequence + 1) & 0xFF
             status = parse_status(self.received, start)
         except Damaged as error:
             why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
@@ -169,6 +171,16 @@ class Exchange:
                 damaged += 1
             start += length
         return damaged
+
+    def _answers_to(self, lengths: tuple[int, ...]) -> tuple[tuple[memoryview, int], ...]:
+        """Where the answers to a message of such frames come to lie; the first is about the message before and left out."""
+        known = self._answers.get(lengths)
+        if known is None:
+            if len(self._answers) >= PATTERNS_MAX:
+                self._answers.clear()
+            known = tuple((self.received[start : start + FRAME_BYTES], start) for start in accumulate(lengths[:-1]))
+            self._answers[lengths] = known
+        return known
 
     def _explain(self, status: Status, faults_matter: bool) -> None:
         """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""

@@ -13,10 +13,11 @@ from controller.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
 from controller.fpga.clock_relation import ClockRelation
-from controller.fpga.exchange import Exchange, FpgaReset, Refused
-from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status, upload_slices
+from controller.fpga.exchange import COMMANDS, Exchange, FpgaReset, Refused
+from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status
 from controller.fpga.link import Link
 from controller.fpga.registers import Control, Register, Result, Start, State
+from controller.fpga.upload_image import UploadImage
 
 BEATS_PER_TIMEOUT = 3
 CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
@@ -62,8 +63,8 @@ class Session:
         self._board = board
         self._build_hash = build_hash
         self._now_s = now_s
-        self._upload = upload_slices(board.waveform.samples)
-        self._upload_lengths = [piece.stop - piece.start for piece in self._upload]
+        self._upload = UploadImage(self._sent, board.waveform.samples)
+        self._upload_lengths = [(*self._upload.lengths, *[FRAME_BYTES] * commands) for commands in range(COMMANDS + 1)]
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
         self._ours = False  # if anything is on, this host has armed it
@@ -262,12 +263,13 @@ class Session:
 
         def send(_: bool) -> Status:
             sequence = self.exchange.sequence
-            end = frames.pack_upload(self._sent, 0, sequence, words)
-            end = frames.pack_store(self._sent, end, sequence + len(self._upload), slot, words.nbytes // 4, zlib.crc32(words))
+            end = self._upload.pack(sequence, words)
+            sequence += self._upload.frames
+            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
             fillers = self._check_frames + 1
-            for number in range(fillers):
-                end = frames.pack_nop(self._sent, end, sequence + len(self._upload) + 1 + number)
-            return self.exchange.message([*self._upload_lengths, *[FRAME_BYTES] * (1 + fillers)])
+            for number in range(1, fillers + 1):
+                end = frames.pack_nop(self._sent, end, sequence + number)
+            return self.exchange.message(self._upload_lengths[1 + fillers])
 
         self.exchange.insist(send)
 
@@ -299,9 +301,8 @@ class Session:
 
         def send(again: bool) -> Status:
             sequence = self.exchange.sequence
-            end = frames.pack_upload(self._sent, 0, sequence, words)
-            commands = end
-            sequence += len(self._upload)
+            commands = end = self._upload.pack(sequence, words)
+            sequence += self._upload.frames
             end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
             sequence += 1
             if stop or again:
@@ -315,7 +316,7 @@ class Session:
                 self._sent, end, sequence, slot, count=count, period_ticks=period_ticks, start=start, when_ticks=when_ticks
             )
             end = frames.pack_nop(self._sent, end, sequence + 1)
-            return self.exchange.message([*self._upload_lengths, *[FRAME_BYTES] * ((end - commands) // FRAME_BYTES)])
+            return self.exchange.message(self._upload_lengths[(end - commands) // FRAME_BYTES])
 
         try:
             self.exchange.insist(send)

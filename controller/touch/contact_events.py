@@ -30,7 +30,7 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
     if sized:
         axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, LARGEST_SIZE)
     codes = {
-        ev.EV_SYN: (ev.SYN_REPORT, ev.SYN_DROPPED),
+        ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS),
         ev.EV_KEY: (ev.BTN_TOUCH,),
         ev.EV_ABS: tuple(sorted(axes)),
     }
@@ -40,14 +40,20 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
 class ContactEvents:
     """Compares each report with the one before and says what has changed, in protocol B.
 
-    A slot is the panel's own number; a number that comes anew gets a new tracking id.
+    A slot is the panel's own number; a number that comes anew gets a new tracking id. As the kernel does, it says of a
+    slot only what differs from what it said last; another of these begins with nothing said.
+
+    Parameters
+    ----------
+    sized : bool
+        Whether the panel tells extents.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, sized: bool) -> None:
         self._tracking = [-1] * MAX_CONTACTS
         self._x = [-1] * MAX_CONTACTS
         self._y = [-1] * MAX_CONTACTS
-        self._size = [0] * MAX_CONTACTS
+        self._size = [-1 if sized else 0] * MAX_CONTACTS
         self._seen = [0] * MAX_CONTACTS  # number of the report that listed the contact last
         self._report = 0
         self._slot = -1

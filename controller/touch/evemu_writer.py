@@ -11,11 +11,13 @@ from collections.abc import Iterable
 from io import FileIO
 from typing import Final
 
+from controller.touch import event_codes as ev
 from controller.touch.event_reader import DeviceDescription, Event
 
 # Bytes of the bit mask of each event type that evemu knows: one bit for each code the kernel has room for
 MASK_BYTES: Final = {0x00: 8, 0x01: 96, 0x02: 8, 0x03: 8, 0x04: 8, 0x05: 8, 0x11: 8, 0x12: 8, 0x14: 8, 0x15: 16}
 PROPERTY_BYTES: Final = 8
+LONGEST_PAUSE_US: Final = 50_000_000  # readers take a gap of more than a minute for a damaged time: empty reports bridge it
 LONGEST_NAME: Final = 79  # of the buffer that evemu reads names into
 
 
@@ -25,9 +27,8 @@ def head(description: DeviceDescription) -> str:
     numbers = (description.bus, description.vendor, description.product, description.version)
     lines = ["# EVEMU 1.3", f"N: {name}", "I: " + " ".join([f"{number & 0xFFFF:04x}" for number in numbers])]
     lines += [f"P: {row}" for row in _mask(description.properties, PROPERTY_BYTES)]
-    codes = dict(description.codes) | {0: tuple(description.codes)}  # of type 0: the types themselves
     for kind, size_bytes in MASK_BYTES.items():
-        lines += [f"B: {kind:02x} {row}" for row in _mask(codes.get(kind, ()), size_bytes)]
+        lines += [f"B: {kind:02x} {row}" for row in _mask(description.codes.get(kind, ()), size_bytes)]
     for code, axis in sorted(description.axes.items()):
         lines.append(f"A: {code:02x} {axis.minimum} {axis.maximum} {axis.fuzz} {axis.flat} {axis.resolution}")
     return "\n".join(lines) + "\n"
@@ -58,6 +59,7 @@ class EvemuWriter:
         self._file = file
         self._size_bytes = 0
         self._first_s: float | None = None
+        self._last_us = 0
         self._append(head(description))
 
     def write(self, events: Iterable[Event], time_s: float) -> None:
@@ -71,6 +73,10 @@ class EvemuWriter:
         if self._first_s is None:
             self._first_s = time_s
         microseconds = round((time_s - self._first_s) * 1e6)
+        while microseconds - self._last_us > LONGEST_PAUSE_US:
+            self._last_us += LONGEST_PAUSE_US
+            self._append(event_line(ev.EV_SYN, ev.SYN_REPORT, 0, self._last_us))
+        self._last_us = microseconds
         self._append("".join([event_line(kind, code, value, microseconds) for kind, code, value, _ in events]))
 
     def _append(self, text: str) -> None:

@@ -34,7 +34,7 @@ class DeviceDescription:
     product: int = 0
     version: int = 0
     properties: tuple[int, ...] = ()
-    codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)  # by event type
+    codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)  # by event type; of EV_SYN: the types
     axes: Mapping[int, AxisInfo] = field(default_factory=dict)  # by code of EV_ABS
 
 

@@ -32,7 +32,7 @@ HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # taken when the interrupt line is high,
 
 RESET_S: Final = 0.011  # T2: more than 10 ms
 ADDRESS_S: Final = 0.0005  # T3: more than 100 us
-SELECTED_S: Final = 0.006  # T4: more than 5 ms
+SELECTED_S: Final = 0.01  # T4: more than 5 ms
 SYNC_S: Final = 0.05  # T5: the interrupt line held low
 BOOT_S: Final = 0.05
 

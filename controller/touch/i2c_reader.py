@@ -15,6 +15,7 @@ from gpiod.line import Edge
 
 from controller.device_settings import I2cTouch
 from controller.errors import TouchError
+from controller.touch import event_codes as ev
 from controller.touch.contact_events import Contact, ContactEvents
 from controller.touch.event_reader import DeviceDescription, Event
 from controller.touch.i2c_bus import I2cBus
@@ -86,7 +87,7 @@ class I2cReader:
         self._chip = chip
         self._lines = PanelLines(settings.interrupt_chip, settings.interrupt_line, settings.reset_line)
         self._bus = I2cBus(settings.bus, warnings)
-        self._contacts = ContactEvents()
+        self._contacts = ContactEvents(sized=False)
         self._present = False
         self._starting: Iterator[float] | None = None
         self._next_s = 0.0
@@ -181,6 +182,7 @@ class I2cReader:
         self._lines.rest()
         yield from self._chip.start(self._bus, self._lines)
         self._lines.listen(self._chip.edge)
+        self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)
         self._present = True
 
     def _go_on_starting(self, now_s: float) -> None:

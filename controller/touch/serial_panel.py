@@ -54,20 +54,24 @@ class SmartSetParser:
     def next_packet(self) -> bytes | None:
         """The next whole packet with the right checksum; None if there is none yet."""
         held = self._held
+        self._skip_to(held.find(LEAD))
         while len(held) >= PACKET_BYTES:
-            if held[0] == LEAD and (CHECKSUM_SEED + sum(held[: PACKET_BYTES - 1])) & 0xFF == held[PACKET_BYTES - 1]:
+            if (CHECKSUM_SEED + sum(held[: PACKET_BYTES - 1])) & 0xFF == held[PACKET_BYTES - 1]:
                 packet = bytes(held[:PACKET_BYTES])
                 del held[:PACKET_BYTES]
                 return packet
-            start = held.find(LEAD, 1)  # the packet may begin within what was taken for one
-            start = len(held) if start < 0 else start
-            self.skipped += start
-            del held[:start]
+            self._skip_to(held.find(LEAD, 1))  # the packet may begin within what was taken for one
         return None
 
     def forget(self) -> None:
         """Drop a packet that has begun."""
         self._held.clear()
+
+    def _skip_to(self, start: int) -> None:
+        """Drop what comes before a lead-in; all if there is none."""
+        start = len(self._held) if start < 0 else start
+        self.skipped += start
+        del self._held[:start]
 
 
 class SerialPanel:
@@ -156,7 +160,7 @@ class SerialPanel:
         self._poll.register(self._port.fileno(), select.POLLIN)
         self._parser.forget()
         self._more = False
-        codes = {ev.EV_SYN: (ev.SYN_REPORT,), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
+        codes = {ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
         axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, LARGEST))
         self._description = DeviceDescription(
             "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes

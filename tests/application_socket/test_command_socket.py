@@ -7,6 +7,7 @@ import socket
 import tracemalloc
 from collections import Counter
 from pathlib import Path
+from unittest.mock import ANY
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -77,7 +78,7 @@ def test_answers_go_to_who_asked_whatever_the_order_of_outcomes(panel):
 
 def test_for_a_finger_no_place_is_needed(panel):
     panel.ask(panel.connect(), {"kind": "play", "effect": "buzz", "finger": 17})
-    assert panel.control.plays == [(0, "buzz", 0.0, 0.0, 17, 1.0)]
+    assert panel.control.plays == [(ANY, "buzz", 0.0, 0.0, 17, 1.0)]
 
 
 def test_without_an_amplitude_it_is_the_most_that_the_board_allows(panel_with):
@@ -167,11 +168,22 @@ def test_figures_are_told_and_not_counted_anew_for_each_who_asks(panel):
     client = panel.connect()
     answers = panel.ask(client, *[{"kind": "figures", "id": number} for number in range(20)])
     assert [answer["id"] for answer in answers] == list(range(20))
-    assert answers[0]["figures"] == {"emissions": 7, "nothing": None}
+    assert answers[0]["figures"].items() >= {"emissions": 7, "nothing": None}.items()
+    assert [answer["figures"]["application_socket"]["lines"] for answer in answers] == list(range(1, 21))
     assert panel.control.times_told == 1
     panel.now_s += command_socket.FIGURES_S
     panel.ask(client, {"kind": "figures"})
     assert panel.control.times_told == 2
+
+
+def test_figures_too_long_for_the_queue_are_refused_and_the_client_stays(panel):
+    client = panel.connect()
+    panel.control.figures = lambda: {"histogram": list(range(20_000))}
+    (answer,) = panel.ask(client, {"kind": "figures", "id": 1})
+    assert answer["outcome"] == "refused"
+    assert answer["reason"].endswith("bytes, more than 65536")
+    assert len(panel.ask(client, {"kind": "hello"})) == 1
+    assert balanced(panel)
 
 
 def test_a_scene_is_answered_when_it_is_in_force_or_refused(panel):

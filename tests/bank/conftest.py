@@ -12,6 +12,7 @@ from controller.board import Board, find_board, load_board
 
 IDLE_WORD = 0x69969669
 MakeBank = Callable[..., dict[int, np.ndarray]]
+WAVE_SAMPLES = 200
 
 
 @pytest.fixture(scope="session")
@@ -38,3 +39,24 @@ def make_bank(board: Board) -> MakeBank:
         return responses
 
     return make
+
+
+class Waves:
+    """Plane waves of 10-25 mm in random directions: responses as smooth over the plate as the real ones."""
+
+    def __init__(self, seed: int, modes: int = 60) -> None:
+        random = np.random.default_rng(seed)
+        angle, length_m = random.uniform(0, 2 * np.pi, modes), random.uniform(10e-3, 25e-3, modes)
+        self.wave = 2 * np.pi / length_m * np.array([np.cos(angle), np.sin(angle)])
+        self.phase = random.uniform(0, 2 * np.pi, modes)
+        self.time = np.exp(2j * np.pi * np.outer(random.uniform(0.04, 0.14, modes), np.arange(WAVE_SAMPLES)))
+        self.coupling = 1e-10 * (random.standard_normal((modes, CHANNELS)) + 1j * random.standard_normal((modes, CHANNELS)))
+
+    def at(self, x_m: float, y_m: float) -> np.ndarray:
+        shape = np.cos(np.array([x_m, y_m]) @ self.wave + self.phase)
+        return np.einsum("m,mn,mq->nq", shape, self.time, self.coupling).real
+
+
+@pytest.fixture(scope="session")
+def waves() -> Waves:
+    return Waves(3)

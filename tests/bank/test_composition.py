@@ -8,30 +8,9 @@ from controller.bank.reader import Bank
 from controller.errors import BankError
 
 IDLE_WORD = 0x69969669
-SAMPLES = 200
+SAMPLES = 200  # of the waves
 GRID = Grid(2.5e-3, 7, 6, 5e-3, 6e-3)
 MISSING = 41  # the last cell
-
-
-class Waves:
-    """Plane waves of 10-25 mm in random directions: responses as smooth over the plate as the real ones."""
-
-    def __init__(self, seed: int, modes: int = 60) -> None:
-        random = np.random.default_rng(seed)
-        angle, length_m = random.uniform(0, 2 * np.pi, modes), random.uniform(10e-3, 25e-3, modes)
-        self.wave = 2 * np.pi / length_m * np.array([np.cos(angle), np.sin(angle)])
-        self.phase = random.uniform(0, 2 * np.pi, modes)
-        self.time = np.exp(2j * np.pi * np.outer(random.uniform(0.04, 0.14, modes), np.arange(SAMPLES)))
-        self.coupling = 1e-10 * (random.standard_normal((modes, CHANNELS)) + 1j * random.standard_normal((modes, CHANNELS)))
-
-    def at(self, x_m: float, y_m: float) -> np.ndarray:
-        shape = np.cos(np.array([x_m, y_m]) @ self.wave + self.phase)
-        return np.einsum("m,mn,mq->nq", shape, self.time, self.coupling).real
-
-
-@pytest.fixture(scope="module")
-def waves():
-    return Waves(3)
 
 
 @pytest.fixture(scope="module")

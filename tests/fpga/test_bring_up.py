@@ -10,7 +10,7 @@ import pytest
 from controller.board import data_folder
 from controller.cli import main
 from controller.errors import LinkError
-from controller.event_loop import VirtualClock
+from controller.clocks import VirtualClock
 from controller.fpga import bring_up
 from controller.fpga.build_hash import build_hash
 from controller.fpga.clock_relation import ClockRelation

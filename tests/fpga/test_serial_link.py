@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.errors import LinkError
-from controller.event_loop import VirtualClock
+from controller.clocks import VirtualClock
 from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import Parameters

@@ -7,9 +7,9 @@ import pytest
 
 from controller.board import find_board, load_board
 from controller.errors import FaultError
-from controller.event_loop import VirtualClock
+from controller.clocks import VirtualClock
 from controller.fpga.registers import Fault, Register
-from controller.hardware import open_fpga
+from controller.hardware import open_session, open_simulated
 
 PERIOD_S = 2e-3  # of 500 Hz, and of an emission
 
@@ -18,7 +18,8 @@ def play_endlessly(name, seconds):
     """Emissions of random words, back to back, for so long; the FPGA's session and pins."""
     board = load_board(find_board(name))
     clock = VirtualClock()
-    link, session = open_fpga(board, clock.now_s)
+    link = open_simulated(board, clock.now_s)
+    session = open_session(link, board, clock.now_s)
     # like a real waveform in its edges: 154 of a channel in 1000 words
     drive = np.random.default_rng(1).random((1000, 32)) < 0.154
     bits = np.bitwise_xor.accumulate(drive, axis=0)

@@ -4,10 +4,13 @@ import tracemalloc
 import zlib
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
-from controller.event_loop import VirtualClock
-from controller.fpga import frames, session
-from controller.hardware import open_fpga
+from controller.clocks import VirtualClock
+from controller.fpga import frames, session, upload_image
+from controller.fpga.upload_image import UploadImage
+from controller.hardware import open_session, open_simulated
 
 WORDS = memoryview(np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8))
 BUFFER = memoryview(bytearray(frames.UPLOAD_BYTES))
@@ -51,8 +54,9 @@ def test_packing_an_upload_is_one_crc_pass(monkeypatch):
 
 def test_an_upload_and_its_play_are_two_crc_passes(monkeypatch, board):
     clock = VirtualClock()
-    link, fpga = open_fpga(board, clock.now_s)
-    checked = count_crcs(monkeypatch, frames, session)
+    link = open_simulated(board, clock.now_s)
+    fpga = open_session(link, board, clock.now_s)
+    checked = count_crcs(monkeypatch, frames, session, upload_image)
     fpga.upload(0, WORDS)
     long = [size for size in checked if size > frames.FRAME_BYTES]
     assert long == [*[8 + 500] * 8, 4000]
@@ -63,3 +67,15 @@ def test_every_byte_of_the_payload_arrives_in_its_chunk():
     frames.pack_upload(BUFFER, 0, 0, WORDS)
     payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in frames.upload_slices(1000))
     assert payload == bytes(WORDS)
+
+
+@given(st.integers(1, 1000), st.integers(0, 255), st.binary(min_size=36, max_size=36))
+def test_the_image_of_an_upload_is_what_packing_it_frame_by_frame_gives(samples, sequence, between):
+    words = WORDS[: 4 * samples]
+    plain, kept = (memoryview(bytearray(frames.UPLOAD_BYTES)) for _ in range(2))
+    image = UploadImage(kept, samples)
+    image.pack(sequence ^ 0x55, WORDS[-4 * samples :])
+    kept[: len(between)] = between
+    end = frames.pack_upload(plain, 0, sequence, words)
+    assert image.pack(sequence, words) == end == sum(image.lengths)
+    assert kept[:end] == plain[:end]

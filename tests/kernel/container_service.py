@@ -1,10 +1,14 @@
 """Runs in the container, as root, under a systemd of its own: the unit as it is installed, with the simulated board."""
 
+import contextlib
+import itertools
 import os
 import re
 import shutil
 import signal
+import struct
 import subprocess
+import threading
 from pathlib import Path
 
 import panel_board
@@ -23,6 +27,10 @@ from service_under_test import (
     wait_for,
 )
 
+from controller.client import PanelClient
+from controller.errors import LinkError
+
+FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
 HOST, PANEL = os.openpty()  # a touch panel at a serial port
 
 
@@ -64,6 +72,72 @@ def test_it_is_a_user_without_rights_but_those_of_the_loop():
     assert said().count("not in real time") == (0 if permitted else 1)
 
 
+def touch(x, y, status):
+    """A packet of SmartSet: 'U', 'T', status, x, y, z, checksum."""
+    body = struct.pack("<2sBHHH", b"UT", status, x, y, 255)
+    os.write(HOST, body + bytes([(0xAA + sum(body)) & 0xFF]))
+
+
+@contextlib.contextmanager
+def moving_finger():
+    """A finger to and fro on the plate."""
+    lifted = threading.Event()
+
+    def move():
+        touch(1000, 2000, FIRST)
+        for x in itertools.cycle([*range(1000, 3000, 100), *range(3000, 1000, -100)]):
+            if lifted.wait(0.02):
+                break
+            touch(x, 2000, STREAM)
+        touch(1000, 2000, LAST)
+
+    thread = threading.Thread(target=move)
+    thread.start()
+    try:
+        yield
+    finally:
+        lifted.set()
+        thread.join()
+
+
+def figure(name):
+    """One of the service's counters; asked for over its socket."""
+    with PanelClient() as panel:
+        return panel.figures()[name]
+
+
+def test_a_finger_on_its_panel_is_felt_and_a_user_interface_is_told():
+    fresh_start()
+    path = Path("/run/haptic-panel/panel.sock")
+    assert (path.group(), path.stat().st_mode & 0o777) == (UNIT, 0o660)
+    before = figure("emissions")
+    with moving_finger():
+        wait_for("emissions", lambda: figure("emissions") >= before + 5)
+        with PanelClient() as panel:
+            assert "click" in panel.hello().effects
+            told = next(panel.touches())
+    assert abs(told.y_mm - 148 * 2000 / 4095) < 0.1
+
+
+def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
+    pid = fresh_start()
+    scene = panel_board.BOARD.parent / "scene.toml"
+    good = scene.read_text()
+    try:
+        scene.write_text(good.replace('name = "arrow"', 'name = "spear"'))
+        run("systemctl", "reload", UNIT)
+        wait_for("the scene", lambda: figure("scenes_loaded") == 1)
+        scene.write_text(good.replace('name = "arrow"', "name = 7"))
+        run("systemctl", "reload", UNIT)
+        wait_for("the refusal", lambda: figure("scenes_refused") == 1)
+        assert "the scene stays as it was: " in said()
+        assert "scene.toml" in shown("StatusText")
+        assert figure("scenes_loaded") == 1
+        assert main_pid() == pid
+    finally:
+        scene.write_text(good)
+
+
 def test_killed_it_is_started_again():
     pid = fresh_start()
     os.kill(pid, signal.SIGKILL)
@@ -96,6 +170,24 @@ def test_a_wrong_board_is_said_in_one_line_and_not_tried_again():
         assert "wood" in line
     finally:
         panel_board.BOARD.write_text(good)
+
+
+def test_a_bank_cut_short_under_it_ends_it_and_is_refused():
+    pid = fresh_start()
+    (bank,) = Path("/var/lib/haptic-panel/banks").glob("*.bank")
+    whole = bank.read_bytes()
+    try:
+        os.truncate(bank, 4096)
+        with PanelClient() as panel, contextlib.suppress(LinkError):
+            for x_mm in range(20, 200, 10):
+                panel.start_play("click", at_mm=(x_mm, 33))
+            panel.figures()
+        wait_for("the end", lambda: main_pid() != pid)
+        wait_for("the refusal", lambda: shown("ActiveState") == "failed")
+        assert (shown("ExecMainStatus"), shown("NRestarts")) == ("78", "1")
+        assert "code=killed, status=7/BUS" in journal()
+    finally:
+        bank.write_bytes(whole)
 
 
 def test_ten_starts_in_five_minutes_that_failed_are_the_last():

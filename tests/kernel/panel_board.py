@@ -19,4 +19,6 @@ def write(touch, link="", heartbeat_ms=250.0):
     text = table(text, "link", link) if link else text
     text, count = re.subn(r"^heartbeat_timeout_ms = .*", f"heartbeat_timeout_ms = {heartbeat_ms}", text, flags=re.MULTILINE)
     assert count == 1
+    if "[application_socket]" not in text:
+        text += '\n[application_socket]\npath = "/run/haptic-panel/panel.sock"\n'
     BOARD.write_text(text)

@@ -393,7 +393,7 @@ def test_any_stream_gives_fingers_that_begin_move_and_end(protocol, stream):
     for kind, code, value in stream:
         samples = d.feed(kind, code, value, 0.0)
         assert (samples is None) == ((kind, code) != (SYN, 0))
-        for finger, x_m, y_m, _, contact in samples or ():
+        for finger, x_m, y_m, _, contact, _ in samples or ():
             assert 0 <= x_m <= BOARD.plate.length_m
             assert 0 <= y_m <= BOARD.plate.width_m
             assert finger not in ended

@@ -1,0 +1,71 @@
+"""A waveform of the board's length as LOAD frames, at the beginning of the buffer that every message is sent from.
+
+What `frames.pack_upload` does for any length and place; here the frames are cut once, and an upload makes no views
+of them.
+"""
+
+from __future__ import annotations
+
+import zlib
+from typing import Final
+
+from controller.fpga.frames import CRC, HEADER, upload_slices
+from controller.fpga.registers import CHUNK_WORDS, FRAME_SYNC, LOAD_PAYLOAD_MIN_BYTES, FrameType
+
+LOAD: Final = int(FrameType.LOAD)
+STEP_BYTES: Final = 4 * CHUNK_WORDS
+
+
+class UploadImage:
+    """The LOAD frames of an upload.
+
+    Parameters
+    ----------
+    sent : memoryview of bytes
+        Where the frames are packed, from 0 on. Whatever else is packed there in between does no harm.
+    samples : int
+        Words of a waveform.
+
+    Attributes
+    ----------
+    lengths : tuple of int
+        Bytes of each frame.
+    frames : int
+    """
+
+    def __init__(self, sent: memoryview, samples: int) -> None:
+        pieces = upload_slices(samples)
+        self.lengths = tuple(piece.stop - piece.start for piece in pieces)
+        self.frames = len(pieces)
+        self._sent = sent
+        self._end: int = pieces[-1].stop
+        # each frame: where it begins, where its CRC lies, what that is of, its payload, whose part of the words
+        self._pieces = []
+        for chunk, piece in enumerate(pieces):
+            crc, payload = piece.stop - CRC.size, piece.start + HEADER.size
+            first, last = chunk * STEP_BYTES, min((chunk + 1) * STEP_BYTES, 4 * samples)
+            under_crc, filled = sent[piece.start : crc], sent[payload : payload + last - first]
+            self._pieces.append((piece.start, crc, under_crc, filled, slice(first, last), crc - payload))
+        rest = 4 * samples % STEP_BYTES
+        self._filler = sent[self._pieces[-1][1] - LOAD_PAYLOAD_MIN_BYTES + rest : self._pieces[-1][1]]
+        if not 0 < rest < LOAD_PAYLOAD_MIN_BYTES:
+            self._filler = sent[:0]
+        self._zeros = bytes(len(self._filler))
+
+    def pack(self, sequence: int, words: memoryview) -> int:
+        """Pack the frames; the offset of their end.
+
+        Parameters
+        ----------
+        sequence : int
+            Of the first.
+        words : memoryview of bytes
+            4 for each sample; copied once.
+        """
+        sent = self._sent
+        self._filler[:] = self._zeros
+        for chunk, (start, crc, under_crc, payload, part, size) in enumerate(self._pieces):
+            payload[:] = words[part]
+            HEADER.pack_into(sent, start, FRAME_SYNC, LOAD, (sequence + chunk) & 0xFF, size, chunk)
+            CRC.pack_into(sent, crc, zlib.crc32(under_crc))
+        return self._end

@@ -1,0 +1,259 @@
+"""Load on the application socket: many commands a second for a minute, each answered once, and what it cost.
+
+    python -m controller.offline.socket_load --seconds 60 --rate 2000 [--clients 2] [--places 24] [--json]
+
+The simulated panel (`served_panel`) runs in a process of its own. Each client keeps its own account of every
+command; at the end the sums are compared with the service's. One command in eight is for a finger that is
+down, as told by a subscription; the others are for places on the plate.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import random
+import selectors
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from controller.application_socket import messages
+from controller.client import PanelClient
+from controller.errors import ControllerError, LinkError
+from controller.latency import LatencyHistogram
+
+START_S = 60.0  # for the panel to build its bank
+REST_S = 5.0  # for the last answers
+SETTLED = 0.2  # share of the time after which memory has to be constant
+FOR_FINGERS = 8  # one command in so many
+MARGIN_MM = 15.0
+RECEIVE_BYTES = 1 << 16
+SENT_AT_ONCE = 32  # before answers are read: who falls behind shall not be let go for not reading
+OUTCOMES = ("played", "merged", "skipped", "refused")
+
+
+@dataclass
+class Account:
+    """One client: what it asked, and what became of it."""
+
+    socket: socket.socket
+    received: bytearray = field(default_factory=bytearray)
+    waiting: dict[int, int] = field(default_factory=dict)  # id to when it was sent, ns
+    sent: int = 0
+    answered: Counter[str] = field(default_factory=Counter)
+    reasons: Counter[str] = field(default_factory=Counter)
+    wrong: int = 0  # answers to what was not asked, or was answered already
+
+
+def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, places: int) -> dict[str, Any]:
+    """Send commands evenly, read all answers; figures ready for JSON.
+
+    Parameters
+    ----------
+    pid : int
+        Of the service, for its memory.
+    places : int
+        Different points on the plate; a few stay resident in the FPGA, many have to be uploaded.
+    """
+    chance = random.Random(1)
+    decoder, encoder = messages.message_decoder(), msgspec.json.Encoder()
+    age, round_trip = LatencyHistogram(), LatencyHistogram()
+    fingers: dict[int, bool] = {}
+    with PanelClient(path) as panel:
+        size = panel.hello()
+        before = panel.figures()
+    spots = [
+        (
+            round(chance.uniform(MARGIN_MM, size.length_mm - MARGIN_MM), 1),
+            round(chance.uniform(MARGIN_MM, size.width_mm - MARGIN_MM), 1),
+        )
+        for _ in range(places)
+    ]
+    accounts = [_connect(path) for _ in range(clients)]
+    accounts[0].socket.sendall(encoder.encode(messages.Subscribe(id="touches")) + b"\n")
+    memory: list[tuple[float, int]] = []
+
+    def read(account: Account) -> None:
+        try:
+            more = account.socket.recv(RECEIVE_BYTES)
+        except BlockingIOError:
+            return
+        if not more:
+            raise LinkError(f"{path}: the panel has ended a connection")
+        account.received += more
+        *lines, account.received = account.received.split(b"\n")
+        for line in lines:
+            _account_for(account, decoder.decode(line), fingers, age, round_trip)
+
+    with selectors.DefaultSelector() as selector:
+        for account in accounts:
+            selector.register(account.socket, selectors.EVENT_READ, account)
+        started_s = time.monotonic()
+        total, number, memory_s = round(seconds * rate_hz), 0, started_s
+        while number < total or any(account.waiting for account in accounts):
+            now_s = time.monotonic()
+            if now_s > started_s + seconds + REST_S:
+                break
+            if now_s >= memory_s:
+                memory.append((now_s - started_s, _resident_bytes(pid)))
+                memory_s = now_s + 1.0
+            due = min(int((now_s - started_s) * rate_hz) + 1, total, number + SENT_AT_ONCE)
+            for number_sent in range(number, due):
+                account = accounts[number_sent % clients]
+                request = _request(chance, number_sent, spots, fingers)
+                account.waiting[number_sent] = time.monotonic_ns()
+                account.sent += 1
+                account.socket.setblocking(True)
+                account.socket.sendall(encoder.encode(request) + b"\n")
+                account.socket.setblocking(False)
+            number = max(number, due)
+            next_s = started_s + number / rate_hz if number < total else now_s + 0.1
+            for key, _ in selector.select(max(next_s - time.monotonic(), 0.0)):
+                read(key.data)
+        took_s = time.monotonic() - started_s
+    for account in accounts:
+        account.socket.close()
+    with PanelClient(path) as panel:
+        after = panel.figures()
+    return _report(accounts, before, after, age, round_trip, memory, took_s)
+
+
+def _connect(path: str) -> Account:
+    client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    client.connect(path)
+    client.setblocking(False)
+    return Account(client)
+
+
+def _request(chance: random.Random, number: int, spots: list[tuple[float, float]], fingers: dict[int, bool]) -> messages.Play:
+    if fingers and number % FOR_FINGERS == 0:
+        return messages.Play(id=number, effect="click", finger=chance.choice(list(fingers)))
+    x_mm, y_mm = chance.choice(spots)
+    return messages.Play(id=number, effect="click", x_mm=x_mm, y_mm=y_mm)
+
+
+def _account_for(
+    account: Account, message: messages.AnyMessage, fingers: dict[int, bool], age: LatencyHistogram, round_trip: LatencyHistogram
+) -> None:
+    if isinstance(message, messages.Touch):
+        if message.contact:
+            fingers[message.finger] = True
+        else:
+            fingers.pop(message.finger, None)
+    elif isinstance(message, messages.Farewell):
+        raise LinkError(f"the panel has ended a connection: {message.reason}")
+    elif isinstance(message, messages.Answer) and message.id != "touches":
+        sent_ns = account.waiting.pop(message.id, None) if isinstance(message.id, int) else None
+        if sent_ns is None:
+            account.wrong += 1
+            return
+        account.answered[message.outcome] += 1
+        if message.outcome == "refused":
+            account.reasons[message.reason] += 1
+        if message.outcome == "played" and message.age_ms is not None:
+            age.record(round(message.age_ms * 1e6))
+            round_trip.record(time.monotonic_ns() - sent_ns)
+
+
+def _report(
+    accounts: list[Account],
+    before: dict[str, Any],
+    after: dict[str, Any],
+    age: LatencyHistogram,
+    round_trip: LatencyHistogram,
+    memory: list[tuple[float, int]],
+    took_s: float,
+) -> dict[str, Any]:
+    answered = sum((account.answered for account in accounts), Counter[str]())
+    counted = {name: count - before["application_socket"][name] for name, count in after["application_socket"].items()}
+    settled = [resident for at_s, resident in memory if at_s >= SETTLED * took_s]
+    sent = sum(account.sent for account in accounts)
+    return {
+        "sent": sent,
+        "rate_hz": round(sent / took_s, 1),
+        "answered": dict(sorted(answered.items())),
+        "answered_once": answered.total() == sent and not any(account.wrong or account.waiting for account in accounts),
+        "sums_exact": all(answered[name] == counted[name] for name in OUTCOMES),
+        "unanswered": sum(len(account.waiting) for account in accounts),
+        "answered_twice": sum(account.wrong for account in accounts),
+        "refused_because": dict(sum((account.reasons for account in accounts), Counter[str]())),
+        "emissions": after["emissions"] - before["emissions"],
+        "uploads": after["uploads"] - before["uploads"],
+        "resident": after["resident"] - before["resident"],
+        "age_us": age.summary_us(),
+        "round_trip_us": round_trip.summary_us(),
+        "memory_bytes": {"settled": settled[0], "end": settled[-1], "most": max(settled)} if settled else None,
+        "service": {name: after[name] - before[name] for name in ("host_silent", "outages")},
+    }
+
+
+def _resident_bytes(pid: int) -> int:
+    status = Path(f"/proc/{pid}/status").read_text(encoding="ascii")
+    return int(status.partition("VmRSS:")[2].split()[0]) * 1024
+
+
+def run(options: argparse.Namespace) -> dict[str, Any]:
+    """Start the panel, load it, end it."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "panel.sock")
+        command = [sys.executable, "-m", "controller.offline.served_panel", path, "--commands-per-s", "10000"]
+        with subprocess.Popen([*command, "--touched-s", str(options.seconds + REST_S)]) as panel:
+            try:
+                _wait_for(path, panel)
+                return drive(
+                    path, panel.pid, seconds=options.seconds, rate_hz=options.rate, clients=options.clients, places=options.places
+                )
+            except LinkError:
+                panel.wait(REST_S)  # it ends by itself, and says why
+                raise
+            finally:
+                panel.send_signal(signal.SIGTERM)
+
+
+def _wait_for(path: str, panel: subprocess.Popen[bytes]) -> None:
+    """Until the outputs are on."""
+    give_up_s = time.monotonic() + START_S
+    while time.monotonic() < give_up_s and panel.poll() is None:
+        time.sleep(0.1)
+        try:
+            with PanelClient(path) as client:
+                if client.figures()["outputs"] == "on":
+                    return
+        except LinkError:
+            continue
+    raise ControllerError("the simulated panel did not start")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="python -m controller.offline.socket_load", description="Load on the application socket.")
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--rate", type=float, default=2000.0, metavar="N", help="commands a second, all clients together (2000)")
+    parser.add_argument("--clients", type=int, default=2, metavar="N")
+    parser.add_argument("--places", type=int, default=24, metavar="N", help="different points (24); few of them stay resident")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    options = parser.parse_args(arguments)
+    try:
+        figures = run(options)
+    except ControllerError as error:
+        sys.stderr.write(f"error: {error}\n")
+        return error.exit_code
+    if options.json:
+        sys.stdout.write(json.dumps(figures) + "\n")
+    else:
+        for name, value in figures.items():
+            sys.stdout.write(f"{name:16} {value}\n")
+    return 0 if figures["answered_once"] and figures["sums_exact"] else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

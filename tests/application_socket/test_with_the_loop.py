@@ -1,0 +1,183 @@
+"""Commands over a real socket into the product's own loop, scene, bank and simulated FPGA, in virtual time.
+
+The loop runs in this thread. What clients do at which time is called from the loop's `progress`, so that every run
+is the same.
+"""
+
+import json
+import socket
+from collections import Counter
+
+import pytest
+
+from controller.application_socket.command_socket import CommandSocket
+from controller.assembly import assemble
+from controller.bank.reader import Bank
+from controller.clocks import VirtualClock
+from controller.device_settings import ApplicationSocket
+from controller.hardware import open_session, open_simulated, tracked
+from controller.scene import load_scene
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+
+QUIET = '[[regions]]\nname = "corner"\nshape = "rectangle"\nx_mm = 5\ny_mm = 5\nwidth_mm = 3\nheight_mm = 3\neffects = ["click"]\n'
+CIRCLE = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0\n'
+SPOT = CIRCLE + 'effects = [{ effect = "always", rate_hz = 40.0 }]\n'
+PLACES = [(30.0 + 20 * number % 160, 30.0 + 11 * number % 90) for number in range(40)]
+ON_S = 0.1  # the outputs are on by then
+
+
+@pytest.fixture
+def serve(board, bank_file, folder, tmp_path, evemu_text, read_all):
+    """Run the loop for a while with what clients send when; each client's answers, socket, loop's counters, what was played."""
+
+    def run(script, *, until_s, scene_text=QUIET, reports=((0.0, {}), (0.001, {0: (200.0, 140.0)})), **settings):
+        scene_file = tmp_path / "served.toml"
+        scene_file.write_text(scene_text)
+        scene, clock, played = load_scene(scene_file, board), VirtualClock(), []
+        link = open_simulated(board, clock.now_s)
+        recording = Recording(evemu_text(*reports))
+        source = tracked(RecordingSource(recording, recording.axes(board), ON_S), board)
+        settings = ApplicationSocket(path=str(folder / "loop.sock"), **{"burst": 1000, "commands_per_s": 10_000} | settings)
+        commands = CommandSocket(board, settings)
+        names = sorted({name for _, name, _ in script})
+        clients = {name: socket.socket(socket.AF_UNIX) for name in names}
+        answers = {name: [] for name in names}
+        for client in clients.values():
+            client.connect(settings.path)
+            client.setblocking(False)
+        pending = sorted(script, key=lambda entry: entry[0])
+
+        def progress(now_s):
+            while pending and pending[0][0] <= now_s:
+                _, name, request = pending.pop(0)
+                clients[name].send(json.dumps(request).encode() + b"\n")
+            for name, client in clients.items():
+                answers[name] += read_all(client)
+            if now_s >= until_s:
+                made.loop.stop()
+
+        with Bank.open(bank_file, board) as bank:
+            session = open_session(link, board, clock.now_s)
+            made = assemble(board, scene, bank, clock, session, source, commands=commands, played=played.append, progress=progress)
+            made.loop.run()
+        assert not pending
+        for name, client in clients.items():
+            answers[name] += read_all(client)
+            client.close()
+        commands.close()
+        link.close()
+        return answers, commands, made.counters, played
+
+    return run
+
+
+def click(number, place, **more):
+    return {"kind": "play", "effect": "click", "x_mm": place[0], "y_mm": place[1], "id": number, **more}
+
+
+def by_id(answers):
+    return {answer["id"]: answer for answer in answers}
+
+
+def test_one_command_is_one_emission_at_its_place_and_its_answer_tells_how_old_it_was(serve):
+    answers, _, counters, played = serve([(0.2, "a", click(1, (100.0, 70.0), amplitude=0.5))], until_s=0.3)
+    (answer,) = answers["a"]
+    assert (answer["id"], answer["outcome"]) == (1, "played")
+    (emission,) = played[0].emissions
+    assert (emission.x_m, emission.y_m, emission.amplitude) == pytest.approx((0.1, 0.07, 0.5))
+    assert answer["age_ms"] == pytest.approx(1.36, abs=0.1)  # the upload on the wire, 4,240 bytes at 25 MHz, and nothing else
+    assert counters.emissions == len(played) == 1
+
+
+def test_before_the_outputs_are_on_a_command_is_refused_with_that_reason(serve):
+    answers, _, _, played = serve([(0.0, "a", click(1, (100.0, 70.0)))], until_s=0.2)
+    (answer,) = answers["a"]
+    assert answer["outcome"] == "refused"
+    assert answer["reason"].startswith("the outputs are off")
+    assert not played
+
+
+def test_of_two_thousand_commands_a_second_each_is_answered_once_and_the_sums_are_exact(serve):
+    script = [(0.2 + number / 2000, "ab"[number % 2], click(number, PLACES[number * 7 % 40])) for number in range(600)]
+    answers, commands, counters, played = serve(script, until_s=0.7)
+    assert sorted(answer["id"] for client in answers.values() for answer in client) == list(range(600))
+    outcomes = Counter(answer["outcome"] for client in answers.values() for answer in client)
+    told = commands.counters
+    assert outcomes == {name: count for name in ("played", "merged", "skipped", "refused") if (count := getattr(told, name))}
+    assert outcomes["played"] == sum(bool(emission.ticket) for one in played for emission in one.emissions)
+    assert outcomes["merged"] == counters.skipped.merged
+    assert outcomes["skipped"] == counters.skipped.no_room
+    assert outcomes.total() == told.lines == 600
+    assert commands.waiting == told.stray_outcomes == told.unanswered == 0
+
+
+def test_the_plate_is_never_idle_while_commands_wait(serve):
+    script = [(0.2 + number / 2000, "a", click(number, PLACES[0])) for number in range(1000)]
+    _, _, counters, played = serve(script, until_s=0.8)
+    assert counters.resident == counters.emissions - 1
+    starts_s = [one.trigger_s for one in played]
+    assert len(starts_s) / (starts_s[-1] - starts_s[0]) > 490
+
+
+def test_more_places_at_once_than_one_waveform_has_foci_are_played_while_a_spot_repeats(serve):
+    apart = [(20.0 + 34 * column, 15.0 + 38 * row) for column in range(6) for row in range(4)]
+    script = [(0.2 + 0.011 * (number // 24), "a", click(number, apart[number % 24])) for number in range(144)]
+    answers, _, _, played = serve(script, until_s=0.5, scene_text=SPOT)
+    assert Counter(answer["outcome"] for answer in answers["a"])["played"] >= 24
+    assert len(answers["a"]) == len(script)
+    assert max(len(one.emissions) for one in played) == 10
+    assert any(len(one.emissions) > 1 and any(emission.region == "spot" for emission in one.emissions) for one in played)
+
+
+def test_a_command_for_a_finger_is_played_where_the_finger_is_then(serve):
+    reports = [(0.01 * step, {0: (60.0 + step, 70.0)}) for step in range(40)] + [(0.4, {0: None})]
+    script = [(0.15, "t", {"kind": "subscribe"}), (0.35, "a", {"kind": "play", "effect": "click", "finger": 0, "id": 1})]
+    answers, _, _, played = serve(script, until_s=0.6, reports=reports)
+    assert answers["a"][0]["outcome"] == "played"
+    (emission,) = played[-1].emissions
+    touched = [answer for answer in answers["t"] if answer["kind"] == "touch"]
+    assert {touch["finger"] for touch in touched} == {0}
+    assert not touched[-1]["contact"]
+    at_s = played[-1].trigger_s + 2e-3
+    assert emission.x_m * 1e3 == pytest.approx(60 + (at_s - ON_S) * 100, abs=1.5)
+
+
+def test_a_finger_that_is_not_there_is_refused(serve):
+    answers, *_ = serve([(0.2, "a", {"kind": "play", "effect": "click", "finger": 99, "id": 1})], until_s=0.3)
+    assert answers["a"] == [{"kind": "answer", "id": 1, "outcome": "refused", "reason": "finger 99 is not on the panel"}]
+
+
+def test_every_command_for_a_finger_that_is_lifted_meanwhile_has_its_outcome(serve):
+    reports = [(0.0, {0: (60.0, 70.0)}), (0.15, {0: (60.5, 70.0)}), (0.2, {0: None})]
+    requests = [{"kind": "play", "effect": effect, "finger": 0} for effect in ("click", "buzz", "double_click", "notification")]
+    script = [(0.25 + 0.0005 * number, "a", requests[number % 4] | {"id": number}) for number in range(160)]
+    answers, commands, *_ = serve(script, until_s=0.6, reports=reports)
+    assert sorted(answer["id"] for answer in answers["a"]) == list(range(160))
+    assert {answer["outcome"] for answer in answers["a"]} >= {"played", "merged", "refused"}
+    assert commands.waiting == 0
+
+
+def test_effects_of_every_kind_have_exactly_one_outcome_each(serve):
+    effects = ("click", "double_click", "train", "buzz", "edge", "notification")
+    script = [
+        (0.2 + number / 400, "a", click(number, PLACES[number % 7]) | {"effect": effects[number % 6]}) for number in range(48)
+    ]
+    answers, commands, *_ = serve([*script, (0.1, "b", {"kind": "hello", "id": 1})], until_s=1.05)
+    assert set(effects) <= set(answers["b"][0]["effects"])
+    assert sorted(answer["id"] for answer in answers["a"]) == list(range(48))
+    assert commands.waiting == 0
+
+
+def test_figures_tell_what_the_loop_and_the_socket_counted(serve):
+    script = [
+        (0.2, "a", click(1, (100.0, 70.0))),
+        (0.25, "a", {"kind": "figures", "id": 2}),
+        (0.25, "a", {"kind": "hello", "id": 3}),
+    ]
+    answers, *_ = serve(script, until_s=0.3)
+    figures = by_id(answers["a"])[2]["figures"]
+    assert figures["emissions"] == 1
+    assert figures["application_socket"]["played"] == 1
+    assert figures["outputs"] == "on"
+    assert set(by_id(answers["a"])) == {1, 2, 3}

@@ -1,0 +1,294 @@
+"""The service on bad days: a process of its own with a panel on a pseudo-terminal, the gateware's model and a socket.
+
+What is waited for is what the process says, on its log or its socket, never time.
+"""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tty
+
+import pytest
+
+from controller.client import PanelClient
+from controller.errors import ControllerError
+
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
+TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
+
+
+class Panel:
+    """An Elo SmartSet panel at the end of a pseudo-terminal, which may be unplugged."""
+
+    def __init__(self, path):
+        self.path = path
+        self.plug()
+
+    def plug(self):
+        self._fd, self._far = os.openpty()
+        tty.setraw(self._far)
+        with contextlib.suppress(FileNotFoundError):
+            self.path.unlink()
+        self.path.symlink_to(os.ttyname(self._far))
+
+    def unplug(self):
+        os.close(self._far)
+        os.close(self._fd)
+
+    def send(self, data):
+        os.write(self._fd, data)
+
+    def touch(self, x, y, down=True):
+        """One packet: 'U', 'T', status, x, y, z, checksum (Elo SmartSet manual)."""
+        body = bytes([0x55, ord("T"), 0x01 if down else 0x04, x & 0xFF, x >> 8, y & 0xFF, y >> 8, 0xFF, 0x00])
+        self.send(body + bytes([(0xAA + sum(body)) & 0xFF]))
+
+
+class Service:
+    """`haptic-panel run` on a board of its own."""
+
+    def __init__(self, folder, bank, *more):
+        command = [sys.executable, "-m", "controller.cli", "run", "--board", str(folder), "--bank", str(bank), "--json", *more]
+        program = "import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))"
+        command[1:3] = ["-c", program]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.log = []
+        self.socket = folder / "panel.sock"
+
+    def says(self, words):
+        """Read the log up to a line with these words."""
+        for line in self.process.stderr:
+            self.log.append(line)
+            if words in line:
+                return line
+        pytest.fail(f"ended without saying {words!r}: {self.log}, exit {self.process.wait()}")
+
+    def client(self):
+        return PanelClient(str(self.socket), timeout_s=20.0)
+
+    def end(self, number=signal.SIGTERM):
+        """Figures and exit code."""
+        self.process.send_signal(number)
+        out, err = self.process.communicate(timeout=60)
+        self.log.append(err)
+        return json.loads(out) if out else None, self.process.returncode
+
+
+@pytest.fixture
+def folder(board, tmp_path):
+    """A board with a serial panel and a socket."""
+    text = (board.folder / "board.toml").read_text()
+    head, tail = text.split("[touch]\n")
+    _, link = tail.split("[link]\n")
+    touch = f"""[touch]
+kind = "serial_panel"
+device = "{tmp_path / "tty"}"
+x_mm_from_axes = [210.0, 0.0, 0.0]
+y_mm_from_axes = [0.0, 148.0, 0.0]
+
+[application_socket]
+path = "{tmp_path / "panel.sock"}"
+
+[realtime]
+priority = 0
+lock_memory = false
+
+"""
+    (tmp_path / "board.toml").write_text(head + touch + "[link]\n" + link)
+    (tmp_path / "scene.toml").write_text(CLICK)
+    (tmp_path / "texture.toml").write_text(TEXTURE)
+    return tmp_path
+
+
+@pytest.fixture
+def panel(folder):
+    panel = Panel(folder / "tty")
+    yield panel
+    with contextlib.suppress(OSError):
+        panel.unplug()
+
+
+@pytest.fixture
+def bank(bank_file, tmp_path):
+    return shutil.copy(bank_file, tmp_path / "own.bank")
+
+
+@pytest.fixture
+def service(folder, panel, bank):
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    yield service
+    with contextlib.suppress(ProcessLookupError):
+        service.process.kill()
+    service.process.communicate()
+
+
+def felt(client, panel, x, y):
+    """Touch and let go; wait until the loop has told of both, so that it has played what there was to play."""
+    touches = client.touches()
+    panel.touch(x, y)
+    next(touch for touch in touches if touch.contact)
+    panel.touch(x, y, down=False)
+    next(touch for touch in touches if not touch.contact)
+
+
+def test_touches_are_played_until_it_is_told_to_stop(service, panel):
+    with service.client() as client:
+        touches = client.touches()
+        panel.touch(2048, 2048)
+        touch = next(touches)
+        assert (touch.x_mm, touch.y_mm) == (pytest.approx(105, abs=0.1), pytest.approx(74, abs=0.1))
+        panel.touch(2048, 2048, down=False)
+        assert not next(touch for touch in touches if not touch.contact).contact
+    figures, code = service.end()
+    assert code == 0
+    assert figures["emissions"] == 1
+    assert (figures["outages"], figures["host_silent"]) == (0, 0)
+
+
+def test_a_command_is_played_and_answered(service):
+    with service.client() as client:
+        assert client.play("click", at_mm=(100, 70)).outcome == "played"
+        refused = client.play("boom", at_mm=(100, 70))
+        assert refused.outcome == "refused"
+        assert "no effect 'boom'" in refused.reason
+    figures, code = service.end(signal.SIGINT)
+    assert (figures["emissions"], code) == (1, 0)
+
+
+def test_a_panel_that_is_unplugged_is_taken_again_when_it_is_back(service, panel):
+    with service.client() as client:
+        touches = client.touches()
+        panel.touch(2048, 2048)
+        first = next(touches)
+        panel.unplug()
+        gone = next(touch for touch in touches if not touch.contact)
+        assert gone.finger == first.finger, "the finger on it is released"
+        assert client.play("click", at_mm=(100, 70)).outcome == "played", "commands go on"
+        service.says("the touch panel is lost")
+        panel.plug()
+        service.says("the touch panel is back")
+        panel.touch(1024, 1024)
+        assert next(touch for touch in touches if touch.contact).finger != first.finger
+    figures, code = service.end()
+    assert code == 0
+    assert figures["emissions"] == 3
+    assert any("panel" in warning for warning in figures["warnings"])
+
+
+def test_a_panel_that_talks_nonsense_or_floods_does_not_stop_the_loop(service, panel):
+    with service.client() as client:
+        touches = client.touches()
+        panel.send(bytes(range(256)) * 8)
+        for k in range(300):  # as fast as the port takes them
+            panel.touch(1000 + 5 * k, 2000)
+        seen = [touch for touch, _ in zip(touches, range(50), strict=False)]
+        assert all(touch.contact for touch in seen)
+        panel.touch(2500, 2000, down=False)
+        assert not next(touch for touch in touches if not touch.contact).contact
+        assert client.play("click", at_mm=(30, 30)).outcome == "played"
+    figures, code = service.end()
+    assert (code, figures["outages"]) == (0, 0)
+
+
+def test_sighup_reads_the_scene_again(service, folder, panel):
+    (folder / "scene.toml").write_text(CLICK + '[effects.knock]\nwhen = "command"\n')
+    service.process.send_signal(signal.SIGHUP)
+    service.says("another scene is played")
+    with service.client() as client:
+        assert "knock" in client.hello().effects
+        assert client.play("knock", at_mm=(50, 50)).outcome == "played"
+    figures, _ = service.end()
+    assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 0)
+
+
+def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
+    (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
+    service.process.send_signal(signal.SIGHUP)
+    assert "scene.toml" in service.says("the scene stays as it was")
+    with service.client() as client:
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["scenes_refused"], figures["outages"]) == (0, 0, 1, 0)
+
+
+def test_a_client_may_load_a_scene_by_its_name_and_is_told_why_not(service, panel):
+    with service.client() as client:
+        client.load_scene("texture")
+        with pytest.raises(ControllerError, match="nowhere"):
+            client.load_scene("nowhere")
+        felt(client, panel, 2048, 2048)
+    figures, _ = service.end()
+    assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 1)
+    assert figures["emissions"] == 0, "a texture is not felt by a touch at rest"
+
+
+def test_a_bank_that_is_replaced_is_played_from_the_next_reload_on(service, bank_file, bank, folder):
+    with service.client() as client:
+        damaged = bytearray(bank_file.read_bytes())
+        damaged[len(damaged) // 2] ^= 1
+        (folder / "new.bank").write_bytes(damaged)
+        (folder / "new.bank").replace(bank)
+        assert client.play("click", at_mm=(50, 50)).outcome == "played", "the old mapping is whole"
+        service.process.send_signal(signal.SIGHUP)
+        assert "damaged" in service.says("the scene stays as it was")
+        shutil.copy(bank_file, folder / "newer.bank")
+        (folder / "newer.bank").replace(bank)
+        service.process.send_signal(signal.SIGHUP)
+        service.says("another scene is played")
+        assert client.play("click", at_mm=(90, 50)).outcome == "played"
+    assert service.end()[1] == 0
+
+
+def test_a_bank_truncated_under_the_service_ends_it_and_is_refused_by_the_next(service, bank, folder, panel):
+    os.truncate(bank, 4096)
+    with contextlib.suppress(ControllerError), service.client() as client:
+        client.play("click", at_mm=(50, 50))
+    service.process.communicate(timeout=60)
+    assert service.process.returncode == -signal.SIGBUS
+    again = Service(folder, bank)
+    _, err = again.process.communicate(timeout=60)
+    assert again.process.returncode == 78
+    assert err.count("\n") == 1
+    assert "truncated" in err or "size" in err or "short" in err, err
+
+
+def test_a_process_stopped_for_a_while_finds_its_outputs_off_and_comes_back(service):
+    with service.client() as client:
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+        service.process.send_signal(signal.SIGSTOP)
+        os.waitid(os.P_PID, service.process.pid, os.WSTOPPED | os.WNOWAIT)
+        signal.sigtimedwait([], 0.3)  # three heartbeat timeouts
+        service.process.send_signal(signal.SIGCONT)
+        assert "No good frame came" in service.says("outputs off")
+        service.says("the outputs are on")
+        assert client.play("click", at_mm=(60, 50)).outcome == "played"
+    figures, code = service.end()
+    assert (figures["host_silent"], code) == (1, 0)
+
+
+def test_a_board_without_its_devices_says_which_and_what_to_do(folder, bank):
+    again = Service(folder, bank)
+    out, err = again.process.communicate(timeout=60)
+    assert again.process.returncode == 69
+    assert (out, err.count("\n")) == ("", 1)
+    assert "tty" in err
+
+
+def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, panel, bank):
+    with open("/dev/full", "w") as full:  # noqa: PTH123 - a device
+        command = [sys.executable, "-c", "import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))"]
+        arguments = ["run", "--board", str(folder), "--bank", str(bank), "--json"]
+        process = subprocess.Popen([*command, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+        for line in process.stderr:
+            if "the outputs are on" in line:
+                break
+        process.send_signal(signal.SIGTERM)
+        _, err = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "No space left" in err
+    assert "Traceback" not in err
