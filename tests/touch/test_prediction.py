@@ -28,7 +28,7 @@ def figures():
     return measure(Recording.open(path) for path in sorted(FOLDER.glob("*.ev*")))
 
 
-@given(st.floats(-0.8, 0.8), st.floats(-0.8, 0.8), st.floats(0, 0.015), st.floats(0.004, 0.012))
+@given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(0, 0.015), st.floats(0.004, 0.012))
 def test_a_finger_of_constant_velocity_is_met_exactly(vx, vy, lag_s, period_s):
     end_s = 99 * period_s
     motion = moved(lambda time_s: (vx * time_s, vy * time_s), period_s)
@@ -100,6 +100,11 @@ def test_neither_time_nor_way_ahead_is_without_limit():
     assert motion.place(motion.time_s, 0.2, PERIOD_S)[0] - motion.x_m == pytest.approx(0.3 * LONGEST_AHEAD_S, rel=1e-3)
     fast = moved(lambda time_s: (3.0 * time_s, 4.0 * time_s))
     assert math.dist(fast.place(fast.time_s, 20e-3, PERIOD_S), (fast.x_m, fast.y_m)) == pytest.approx(FARTHEST_AHEAD_M)
+
+
+def test_a_time_before_the_last_report_is_that_of_the_report():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    assert motion.place(motion.time_s - 5e-3, 0.0, PERIOD_S) == (motion.x_m, motion.y_m)
 
 
 def test_after_a_pause_the_velocity_of_before_is_forgotten():
