@@ -189,8 +189,9 @@ class Playback:
                 self._counters.near += resident != key
         except BankError as error:
             if ahead and any(emission.finger is not None for emission in emissions):
-                how = {"count": count, "period_s": period_s, "not_before_s": not_before_s, "at_s": at_s}
-                return self.prepare(emissions, started_ns, **how, ahead=False)
+                return self.prepare(
+                    emissions, started_ns, count=count, period_s=period_s, not_before_s=not_before_s, at_s=at_s, ahead=False
+                )
             self._counters.skipped.bad_entries += 1
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return None
