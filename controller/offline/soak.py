@@ -1,0 +1,205 @@
+"""Hours of recordings through the whole loop, in virtual time: what grows, and what gets slower.
+
+`python -m controller.offline.soak --hours 10 RECORDING...` plays the recordings one behind the other, again and
+again, through tracker, scene, playback, session and the gateware's model, as one run of one loop that never ends
+in between. After each hour of recorded time it notes memory and the latencies of that hour alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from controller.assembly import assemble
+from controller.bank.location import bank_path
+from controller.bank.reader import Bank
+from controller.board import Board, find_board, load_board
+from controller.clocks import VirtualClock
+from controller.errors import BankError, ControllerError
+from controller.hardware import open_session, open_simulated, tracked
+from controller.latency import Counters, Stages
+from controller.scene import Scene, load_scene
+from controller.scene_file import find_scene
+from controller.touch.panel import Counts
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+from controller.touch.samples import TouchSample
+
+PAUSE_S = 0.5  # between recordings
+HOUR_S = 3600.0
+CAPTURE_S = 10.0  # the simulated pins are forgotten this often
+
+
+@dataclass(frozen=True, slots=True)
+class Hour:
+    """What one hour of recordings cost; times in us, memory in bytes."""
+
+    emissions: int
+    uploads_host_p50_us: float | None
+    uploads_host_p99_us: float | None
+    resident_host_p50_us: float | None
+    rss_bytes: int
+    wall_s: float
+
+
+class Playlist:
+    """Recordings one behind the other, again and again; a `TouchSource` whose finger numbers never come twice.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+    board : Board
+        Whose plate they are on.
+    start_s, end_s : float
+        When the first begins, and after when none begins any more.
+    """
+
+    def __init__(self, recordings: Sequence[Recording], board: Board, start_s: float, end_s: float) -> None:
+        self.counts = Counts()
+        self._recordings = recordings
+        self._axes = [recording.axes(board) for recording in recordings]
+        self._end_s = end_s
+        self._number = 0
+        self._fingers = 0  # of the recordings before
+        self._seen = 0
+        self._source: RecordingSource | None = self._opened(start_s)
+
+    @property
+    def warnings(self) -> Counter[str]:
+        """None: the same recordings' again and again."""
+        return Counter()
+
+    def fileno(self) -> None:
+        """Nothing to wait on but time."""
+        return
+
+    def next_time_s(self) -> float | None:
+        """When the next report is due; None after the last."""
+        return None if self._source is None else self._source.next_time_s()
+
+    def read(self, now_s: float) -> tuple[TouchSample, ...]:
+        """Samples of the next report if it is due; see `TouchSource.read`."""
+        source = self._source
+        if source is None:
+            return ()
+        before = source.counts.reports
+        samples = source.read(now_s)
+        self.counts.reports += source.counts.reports - before
+        if samples:
+            self._seen = max(self._seen, *[sample.finger + 1 for sample in samples])
+            samples = tuple([sample._replace(finger=sample.finger + self._fingers) for sample in samples])
+        if source.next_time_s() is None:
+            self._fingers += self._seen
+            self._seen = 0
+            self._source = self._opened(now_s + PAUSE_S) if now_s < self._end_s else None
+        return samples
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+    def _opened(self, start_s: float) -> RecordingSource:
+        number = self._number % len(self._recordings)
+        self._number += 1
+        return RecordingSource(self._recordings[number], self._axes[number], start_s)
+
+
+def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording], hours: float, note: Any) -> list[Hour]:
+    """Run; `note` is told of each `Hour` as it ends.
+
+    Raises
+    ------
+    FaultError, LinkError
+        As the event loop does.
+    """
+    clock = VirtualClock()
+    link = open_simulated(board, clock.now_s)
+    session = open_session(link, board, clock.now_s)
+    start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + PAUSE_S
+    source = tracked(Playlist(recordings, board, start_s, start_s + hours * HOUR_S), board)
+    told: list[Hour] = []
+    state = {"hour_s": start_s + HOUR_S, "capture_s": start_s, "emissions": 0, "wall_s": time.perf_counter()}
+
+    def progress(now_s: float) -> None:
+        if now_s >= state["capture_s"]:
+            state["capture_s"] = now_s + CAPTURE_S
+            link.take_capture()
+        if now_s >= state["hour_s"]:
+            state["hour_s"] += HOUR_S
+            _note(now_s)
+
+    def _note(_: float) -> None:
+        counters, wall_s = assembly.counters, time.perf_counter()
+        hour = _hour(counters, counters.emissions - int(state["emissions"]), wall_s - state["wall_s"])
+        state["emissions"], state["wall_s"] = counters.emissions, wall_s
+        counters.upload_latency, counters.resident_latency = Stages(), Stages()
+        told.append(hour)
+        note(hour)
+
+    assembly = assemble(board, scene, bank, clock, session, source, progress=progress)
+    assembly.loop.run()
+    link.close()
+    if assembly.counters.emissions > state["emissions"]:
+        _note(clock.now_s())
+    return told
+
+
+def _hour(counters: Counters, emissions: int, wall_s: float) -> Hour:
+    uploads, resident = counters.upload_latency.host.summary_us(), counters.resident_latency.host.summary_us()
+    return Hour(emissions, uploads["p50"], uploads["p99"], resident["p50"], _rss_bytes(), round(wall_s, 1))
+
+
+def _rss_bytes() -> int:
+    """Memory of this process that is its own: without the bank's pages, which are the file's (proc(5), status)."""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith("RssAnon:"):
+            return int(line.split()[1]) * 1024
+    return 0
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run from the command line; exit code 1 if memory has grown by more than 1 MB after the first hour."""
+    parser = argparse.ArgumentParser(prog="python -m controller.offline.soak", description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("recordings", nargs="+", metavar="RECORDING", help="evemu files")
+    parser.add_argument("--board", default="simulated", metavar="B")
+    parser.add_argument("--scene", metavar="S", help="default: the board's own")
+    parser.add_argument("--hours", type=float, default=10.0, metavar="H", help="of recorded time (default: 10)")
+    parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    options = parser.parse_args(arguments)
+    try:
+        board = load_board(find_board(options.board))
+        scene_file = find_scene(board, options.scene or board.scene)
+        scene = load_scene(scene_file, board)
+        recordings = [Recording.open(Path(name)) for name in options.recordings]
+        path = bank_path(board.name, scene_file.stem)
+        if not path.exists():
+            build = f"haptic-panel bank build --board {board.called} --scene {scene_file.stem}"
+            raise BankError(f"{path} is not there yet; build it: {build} --out {path}")
+        with Bank.open(path, board) as bank:
+            told = soak(board, scene, bank, recordings, options.hours, _tell)
+    except ControllerError as error:
+        sys.stderr.write(f"haptic-panel: {error}\n")
+        return error.exit_code
+    grown = told[-1].rss_bytes - told[0].rss_bytes if told else 0
+    figures = {"hours": [asdict(hour) for hour in told], "grown_bytes": grown}
+    sentence = f"memory grew by {grown} bytes from the end of the first hour to the end"
+    sys.stdout.write(f"{json.dumps(figures) if options.json else sentence}\n")
+    return 1 if grown > 1 << 20 else 0
+
+
+def _tell(hour: Hour) -> None:
+    sys.stderr.write(
+        f"{hour.emissions} emissions, host time of an upload p50 {hour.uploads_host_p50_us} us, p99 {hour.uploads_host_p99_us} us,"
+        f" resident p50 {hour.resident_host_p50_us} us, memory {hour.rss_bytes / 1e6:.1f} MB, {hour.wall_s} s\n"
+    )
+    sys.stderr.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
