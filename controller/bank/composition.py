@@ -162,7 +162,7 @@ class Composer:
         gain = 0.0
         shares_before, missing_before = shares, shares
         for turn in range(ROUNDS):
-            strength = _length(shares)
+            strength = _length(shares) or length
             if turn and len(shares) > 1:  # of one point the sum stays
                 total = self._total([share * length / strength for share in shares], sizes)
                 self._holding.normalise(total, self._normalised)
