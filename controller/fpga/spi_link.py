@@ -97,6 +97,7 @@ class SpiLink:
                 f"the FPGA is not configured: its line {settings.ready_line!r} is low; load the gateware, or look at its supply"
             )
         self.lines.permit(True)
+        self._permitted = True
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames that lie back to back, each under its own chip select, and store what comes back.
@@ -104,7 +105,8 @@ class SpiLink:
         Raises
         ------
         LinkError
-            If the bus fails, or the device has gone; it is opened again at the next call.
+            If the bus fails, or the device has gone, which is opened again at the next call. The permit is taken away,
+            as the FPGA may not hear anything else, until a message gets through.
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
@@ -118,6 +120,9 @@ class SpiLink:
             for request, transfers, size in pieces:
                 fcntl.ioctl(fd, request, transfers)
                 self.bytes_sent += size
+            if not self._permitted:
+                self.lines.permit(True)
+                self._permitted = True
         except OSError as error:
             raise self._failure(error) from error
         finally:
@@ -219,6 +224,9 @@ class SpiLink:
     def _failure(self, error: OSError) -> LinkError:
         """What a failed system call means, in words; a device that has gone is let go of."""
         device = self._settings.device
+        with contextlib.suppress(LinkError):
+            self.lines.permit(False)
+        self._permitted = False
         if error.errno in GONE:
             if self._spi is not None:
                 with contextlib.suppress(OSError):

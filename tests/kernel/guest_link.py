@@ -335,11 +335,11 @@ def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
         try:
             error = there.lost()
             assert "/dev/spidev0.0 has gone" in str(error), error
+            assert LINES.value("PERMIT") == 0
+            assert there.far_end.pins()["hv"] == 0, "without the permit, at once"
             assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
         finally:
             (BIND / "bind").write_text("spi0.0")
-        while there.far_end.pins()["hv"]:  # the FPGA switches off by itself
-            pass
         there.recover(error)
         there.session.upload_and_play(0, WORDS, 1, 0.0, stop=False)
         there.session.trigger()
@@ -356,10 +356,10 @@ def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
             TIMEOUT_MS.write_text("20000")
         assert isinstance(error, LinkError)
         assert "did not finish a transfer: its bus is stuck" in str(error), error
+        assert there.far_end.pins()["hv"] == 0
         there.far_end.wire("good")
-        while there.far_end.pins()["hv"]:  # the FPGA switches off by itself
-            pass
         there.recover(error)
+        assert LINES.value("PERMIT") == 1
         assert there.far_end.pins()["hv"] == 1
 
 
