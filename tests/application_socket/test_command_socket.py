@@ -520,3 +520,35 @@ def test_all_blocks_that_a_command_allocates_are_together_less_than_a_kilobyte_a
     assert buffer.startswith(b'{"kind":"answer","id":123456,"outcome":"played"')
     assert left - start < 512
     assert peak - start < 1024
+
+
+def test_touches_that_the_kernel_does_not_take_at_once_arrive_when_the_client_reads(panel, read_all):
+    slow = panel.connect()
+    panel.ask(slow, {"kind": "subscribe"})
+    for number in range(700):  # more than the kernel keeps, less than the queue
+        panel.socket.touches([TouchSample(number, 0.1, 0.07, 1.0, True)])
+    assert panel.turn()
+    got = []
+    while more := read_all(slow):
+        got += more
+        panel.settle()
+    assert [touch["finger"] for touch in got] == list(range(700))
+
+
+def test_an_outcome_that_another_clients_command_brings_about_is_sent_even_if_the_kernel_takes_no_more_at_first(
+    panel_with, read_all
+):
+    panel = panel_with(burst=1000)
+    slow, other = panel.connect(), panel.connect()
+    panel.ask(slow, {"kind": "subscribe"}, {**POINT, "id": "slow"})
+    ((ticket, *_),) = panel.control.plays
+    for number in range(600):
+        panel.socket.touches([TouchSample(number, 0.1, 0.07, 1.0, True)])
+    panel.settle()
+    panel.control.play = lambda *_: panel.socket.outcome(ticket, Outcome.MERGED, 0.0)
+    panel.ask(other, POINT)
+    got = []
+    while more := read_all(slow):
+        got += more
+        panel.settle()
+    assert got[-1] == {"kind": "answer", "id": "slow", "outcome": "merged", "age_ms": 0.0}
