@@ -19,11 +19,13 @@ import evdev
 
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
+from controller.touch.event_codes import EV_SYN, SYN_DROPPED, SYN_REPORT
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.touch.panel import Protocol, protocol_of_device
 
 RETRY_S: Final = 0.5  # between attempts to open a panel that is gone
 INPUT_EVENT: Final = struct.Struct("@llHHi")  # struct input_event
+EVENT_BYTES: Final = INPUT_EVENT.size
 BUFFERED_EVENTS: Final = 64
 PART_EVENTS: Final = 40  # a longer report comes in parts: no list is over 512 bytes
 MAX_SLOTS: Final = 256
@@ -98,23 +100,30 @@ class LinuxInput:
             self._state_due = False
             return self._guarded_state(now_s)
         events: list[Event] = []
+        append = events.append
         unpack = INPUT_EVENT.unpack_from
-        while len(events) < PART_EVENTS:
-            if self._begin == self._end and not self._fill():
-                return self._lost(now_s) if self._opened is None else events
-            second, microsecond, kind, code, value = unpack(self._buffer, self._begin)
-            self._begin += INPUT_EVENT.size
-            if kind == ev.EV_SYN and code == ev.SYN_DROPPED:
+        buffer = self._buffer
+        begin = self._begin
+        for _ in range(PART_EVENTS):
+            if begin == self._end:
+                if not self._fill():
+                    self._begin = self._end = 0
+                    return self._lost(now_s) if self._opened is None else events
+                begin = 0
+            second, microsecond, kind, code, value = unpack(buffer, begin)
+            begin += EVENT_BYTES
+            if kind == EV_SYN and code == SYN_DROPPED:
                 self.warnings["dropped"] += 1
                 self._dropping = True
             elif self._dropping:
-                if kind == ev.EV_SYN and code == ev.SYN_REPORT:
+                if kind == EV_SYN and code == SYN_REPORT:
                     self._dropping = False
                     return self._guarded_state(now_s)
             else:
-                events.append((kind, code, value, second + microsecond * 1e-6))
-                if kind == ev.EV_SYN and code == ev.SYN_REPORT:
+                append((kind, code, value, second + microsecond * 1e-6))
+                if kind == EV_SYN and code == SYN_REPORT:
                     break
+        self._begin = begin
         return events
 
     def close(self) -> None:

@@ -55,7 +55,7 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
                 if events and reader.description != description:
                     raise TouchError(f"another panel, {reader.description.name!r}, came in the place of {description.name!r}")
                 if events:
-                    writer.write(events, times.settled(events[-1][3], now_s))
+                    writer.write(events, times.settled(events[-1][3], time.monotonic()))  # it may have come since now_s
                     events_written += len(events)
                     reports += 1
                 else:

@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 
 import pytest
 from peers.elo_panel import INITIAL, UNTOUCH, touch
@@ -37,6 +38,17 @@ def panel(device):
     return SerialPanel(SerialTouch(device=device, x_mm_from_axes=(210.0, 0.0, 0.0), y_mm_from_axes=(0.0, 148.0, 0.0)))
 
 
+def reports_of(path):
+    return path.read_text().count(" 0000 0000 0000\nE: ") + 1 if path.exists() and "\nE: " in path.read_text() else 0
+
+
+def interrupt_when(condition):
+    """Ctrl-C for this process once it has done what is waited for."""
+    while not condition():
+        pass
+    os.kill(os.getpid(), signal.SIGINT)
+
+
 def replayed(path, board):
     recording = Recording.open(path)
     replay = RecordingSource(recording, recording.axes(board), 0.0)
@@ -51,8 +63,11 @@ def test_a_replay_gives_what_the_panel_gave(port, board, tmp_path):
     file = tmp_path / "elo.evemu"
     reader = panel(device)
     os.write(far_end, STREAM)
+    interrupting = threading.Thread(target=interrupt_when, args=(lambda: reports_of(file) == 5,))
+    interrupting.start()
     with open_recording(file) as opened:
-        done = record(reader, opened, 0.05)
+        done = record(reader, opened, 60.0)
+    interrupting.join()
     source = LiveSource(reader, board)
     os.write(far_end, STREAM)
     live = []
@@ -87,7 +102,7 @@ def test_ctrl_c_ends_a_recording_that_is_whole(port, board, tmp_path):
     recorder = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert "recording 'Elo SmartSet'; Ctrl-C ends it" in recorder.stderr.readline()
     os.write(far_end, STREAM)
-    while not file.exists() or file.read_text().count(" 0000 0000 0000\nE: ") < 4:
+    while reports_of(file) < 5:
         assert recorder.poll() is None
     recorder.send_signal(signal.SIGINT)
     out, errors = recorder.communicate(timeout=60)
