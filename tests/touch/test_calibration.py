@@ -100,6 +100,7 @@ def shares(points):
         (GOOD, shares([GOOD[1], GOOD[0], *GOOD[2:]]), "mm off what the others say"),
         (GOOD, shares([*GOOD[:4], (GOOD[4][0] + 8, GOOD[4][1])]), r"touch 5 is 6\.4 mm off"),
         (GOOD[:3], shares([GOOD[0], GOOD[1], GOOD[3]]), "oblique"),
+        (GOOD, [touched(place, (150.0, 150.0, 0.0), (35.0, -35.0, 70.0)) for place in GOOD], "both axes"),
         (GOOD[:3], [(0.45, 0.1), (0.55, 0.1), (0.45, 0.9)], "x axis would be 7 times"),
         (GOOD[:3], [(0.1, 0.1), (0.9, 0.1), (0.1, 2.1)], r"y axis would be 0\.35 times"),
     ],
@@ -167,7 +168,7 @@ def test_a_finger_that_slides_and_then_stays_counts_where_it_stayed():
 
 
 def test_two_fingers_at_once_do_not_count_until_both_are_lifted():
-    both = [(0, 0, 100, True), (0.1, 1, 50, True), (0.6, 1, 50, False), (1.2, 0, 100, True), (1.3, 0, 100, False)]
+    both = [(0, 0, 100, True), (0.1, 1, 50, True), (0.6, 1, 50, False), (0.7, 0, 110, True), (1.3, 0, 110, False)]
     assert hold(*both) == []
     assert hold(*both, (1.4, 2, 70, True)) == [70]
 
