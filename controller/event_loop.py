@@ -117,6 +117,11 @@ class EventLoop:
         return self._outputs.cause
 
     @property
+    def reloading(self) -> bool:
+        """Whether another scene is being prepared."""
+        return self._change is not None and self._change.fileno() is not None
+
+    @property
     def stretch(self) -> Callable[[float], None]:
         """To be told by how much slower emissions are played than the bank says."""
         return self._playback.stretch

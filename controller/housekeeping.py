@@ -35,6 +35,10 @@ class Watched(Protocol):
         """Empty while the outputs are on, else why not."""
 
     @property
+    def reloading(self) -> bool:
+        """Whether another scene is being prepared."""
+
+    @property
     def stretch(self) -> Callable[[float], None]:
         """Told by how much slower emissions are played than the bank says."""
 
@@ -71,6 +75,8 @@ class Housekeeping:
         self._period_s = board.temperature.period_s if board.temperature else math.inf
         self._loop: Watched | None = None
         self._panel: Panel | None = None
+        self._board_name = board.name
+        self._reloading = False
         self._state = ""
         self._present = True
         self._counters: Counters | None = None
@@ -94,6 +100,12 @@ class Housekeeping:
         if self._panel is not None and self._panel.present != self._present:
             self._present = self._panel.present
             self._say("the touch panel is back" if self._present else "the touch panel is lost; it is looked for twice a second")
+        if loop.reloading != self._reloading:
+            self._reloading = loop.reloading
+            if self._reloading:
+                self._notifier.reloading("preparing another scene")
+            else:
+                self._notifier.ready(f"playing on board {self._board_name!r}")
         if counters.scenes_loaded != self._loaded:
             self._loaded = counters.scenes_loaded
             self._say("another scene is played, or the same read again")
