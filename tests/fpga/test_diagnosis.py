@@ -70,6 +70,13 @@ def test_an_early_status_is_found_at_its_shift(status, shift):
     assert f"came {shift} bit{'s' * (shift > 1)} early" in told(wire(int.from_bytes(packed(status), "big") << shift))
 
 
+@given(st.integers(1, 8), st.binary(min_size=FRAME_BYTES - 2, max_size=FRAME_BYTES - 2))
+def test_a_sync_word_alone_at_some_shift_is_no_shifted_status(shift, rest):
+    answer = told(wire(int.from_bytes(b"\xa5\x5a" + rest, "big") >> shift))
+    assert " late:" not in answer
+    assert " early:" not in answer
+
+
 @settings(max_examples=20)
 @given(STATUSES, st.integers(16, 250))
 def test_a_clock_too_many_or_too_few_is_ringing(status, place):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import chi2
 
@@ -79,6 +79,8 @@ def test_wires_that_carry_nothing_get_no_proposal(board, wired):
 
 
 @given(st.lists(st.booleans(), min_size=1, max_size=12))
+@example([True] * 5 + [False])
+@example([True] * 4 + [False])
 def test_the_rule_keeps_its_margin(goods):
     speeds = [Speed((n + 1) * 1_000_000, (n + 1) * 1e6, 1000, 0 if good else 1, "") for n, good in enumerate(goods)]
     proposal_hz = proposed_hz(speeds)

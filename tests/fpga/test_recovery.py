@@ -275,8 +275,11 @@ def test_a_permit_that_goes_away_is_waited_for(panel, which):
     error = panel.lost()
     assert action_for(error) is Action.WAIT
     panel.outputs.failed(error, panel.clock.now_s())
+    assert not panel.advance()
+    frames = panel.link.frames
     for _ in range(50):
         assert not panel.advance()
+    assert panel.link.frames - frames == 50, "waiting is a heartbeat at a time"
     panel.session.clear_faults()
     assert State.HV_ENABLE not in panel.session.heartbeat().state
     permit(True)

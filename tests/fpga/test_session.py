@@ -368,3 +368,22 @@ def test_time_on_the_wire_is_that_of_the_bits_at_sck_and_a_pause_between_frames(
     assert link.bytes_sent - bytes_sent == 4096 + 4 * FRAME_BYTES, "STORE, NOP while the slot is checked, PLAY, NOP"
     bits_ns = 8 * (4096 + 4 * FRAME_BYTES) / board.link.sck_hz * 1e9
     assert bits_ns < link.wire_ns - wire_ns < bits_ns * 1.003 + 12 * 300
+
+
+def test_a_session_that_is_armed_disarms_before_it_is_brought_up_again(board, clock, link, armed):
+    with pytest.raises(LinkError, match="is told to disarm: try again when its ramp has passed"):
+        armed.bring_up()
+    wait(clock, link, board.limits.ramp_ms * 1e-3 + 1e-3)
+    armed.bring_up()
+    clock._now_s = armed.arm()
+    armed.require_armed()
+
+
+def test_a_link_that_damages_everything_is_not_taken_for_the_fault_behind_it(board, clock, link, armed):
+    wait(clock, link, 2 * board.limits.heartbeat_timeout_ms * 1e-3)
+    link.noise = dict.fromkeys(range(link.frames, link.frames + 100), ("to the FPGA", 9))
+    with pytest.raises(Refused, match="damaged on its way"):
+        armed.bring_up()
+    link.noise = {}
+    armed.bring_up()
+    assert armed.heartbeat().faults == 0
