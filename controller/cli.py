@@ -11,10 +11,10 @@ import sys
 from collections.abc import Callable, Sequence
 
 from controller import __version__
-from controller.commands import bank, calibrate_touch, focus, gateware, record, run
+from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, run
 from controller.errors import ControllerError
 
-COMMANDS = (run, gateware, bank, focus, record, calibrate_touch)  # in the order of --help
+COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch)  # in the order of --help
 OFFLINE_HINT = "this command needs the offline tools: pip install 'haptic-panel[offline]'"
 
 

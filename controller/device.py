@@ -21,7 +21,7 @@ from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.warnings import in_words
 
-REPLAY_AFTER_S = 0.1  # beyond the ramp
+REPLAY_AFTER_S = 0.3  # beyond the ramp
 
 
 def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recording | None = None) -> dict[str, Any]:

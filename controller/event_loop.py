@@ -312,7 +312,11 @@ class EventLoop:
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         bad = self._counters.skipped.bad_entries
-        start_s = self._playback.prepare(emissions, started_ns, **how)
+        try:
+            start_s = self._playback.prepare(emissions, started_ns, **how)
+        except ControllerError:  # they wait no longer, and what is under way ends with the outputs
+            self._performance.left_out(emissions, Outcome.REFUSED, self._panel_s())
+            raise
         if start_s is not None:
             if self._report_ns >= 0:
                 self._counters.report_latency.record(self._report_ns)

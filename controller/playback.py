@@ -143,6 +143,7 @@ class Playback:
         period_s: float = 0.0,
         not_before_s: float = -NEVER,
         at_s: float | None = None,
+        ahead: bool = True,
     ) -> float | None:
         """Bring one emission, of one or several foci, to an accepted play command; None if it had to be left out.
 
@@ -158,6 +159,8 @@ class Playback:
             Earliest start by the trigger pin, in host time.
         at_s : float, optional
             FPGA time at which the FPGA shall start it by itself, or as soon after as can be.
+        ahead : bool
+            Meet fingers where they will be. Where the bank has nothing there, they are met where they were.
 
         Returns
         -------
@@ -168,12 +171,12 @@ class Playback:
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
         running = self._running
         start_s = self._start_s(self._command_s, not_before_s, at_s)
-        points = self._aim(emissions, start_s)
+        points = self._aim(emissions, start_s, ahead)
         key = self._selection.key(points)
         resident = self._slots.find(key)
         if resident is None:
             start_s = self._start_s(self.upload_s, not_before_s, at_s)
-            points = self._aim(emissions, start_s)
+            points = self._aim(emissions, start_s, ahead)
             key = self._selection.key(points)
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
@@ -185,6 +188,10 @@ class Playback:
                 session.play(slot, count, period_s, stop=running is not None, start=start, when_ticks=when_ticks)
                 self._counters.near += resident != key
         except BankError as error:
+            if ahead and any(emission.finger is not None for emission in emissions):
+                return self.prepare(
+                    emissions, started_ns, count=count, period_s=period_s, not_before_s=not_before_s, at_s=at_s, ahead=False
+                )
             self._counters.skipped.bad_entries += 1
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return None
@@ -277,12 +284,12 @@ class Playback:
             return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S, not_before_s))
         return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
 
-    def _aim(self, emissions: Sequence[Emission], start_s: float) -> list[Point]:
-        """Where each emission meets its finger at T, and how strong it is."""
+    def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
+        """Where each emission meets its finger, at T or where it was, and how strong it is."""
         focus_s = self._time_base.host_s(start_s) + self.duration_s
         points = []
         for emission in emissions:
-            place = None if emission.finger is None else self._where(emission.finger, focus_s)
+            place = None if emission.finger is None or not ahead else self._where(emission.finger, focus_s)
             x_m, y_m = (emission.x_m, emission.y_m) if place is None else place
             points.append((x_m, y_m, emission.amplitude))
         return points

@@ -74,6 +74,14 @@ def plain_table(figures: dict[str, Any]) -> str:
     return "\n".join(f"{name:<{width}}  {_number(value)}" for name, value in flat)
 
 
+def amplitude_table(figures: dict[str, Any]) -> str:
+    """One line for each figure of composing; what each finger asked for and got is for machines."""
+    fingers = {number: found["error_percent"] for number, found in figures["fingers"].items()}
+    return plain_table(
+        {name: value for name, value in figures.items() if name != "fingers"} | {"error_percent_of_fingers": fingers}
+    )
+
+
 def power_table(figures: dict[str, Any]) -> str:
     """Table of what a bank's entries cost the driver stages."""
     duty, resistor, limits = figures["max_duty"], figures["resistor"], figures["limits"]

@@ -84,7 +84,7 @@ def test_a_click_on_a_cell_puts_the_banks_entry_on_the_pins_bit_by_bit(perform, 
     assert not run.response_mapped
 
 
-def test_real_time_plays_the_same_as_virtual_time(perform, cell):
+def test_real_time_plays_the_same_as_virtual_time(perform, board, cell):
     reports = [  # so far apart that no stall of a busy machine makes two of them one emission
         (0.0, {0: cell[1]}),
         (0.3, {1: (150.0, 94.0)}),
@@ -92,7 +92,8 @@ def test_real_time_plays_the_same_as_virtual_time(perform, cell):
         (0.9, {0: (60.0, 54.0)}),
         (1.2, {0: None}),
     ]
-    real, virtual = (perform(reports, CLICK, real_time=real_time) for real_time in (True, False))
+    patient = msgspec.structs.replace(board, limits=msgspec.structs.replace(board.limits, heartbeat_timeout_ms=250.0))
+    real, virtual = (perform(reports, CLICK, real_time=real_time, on=patient) for real_time in (True, False))
     assert real.counters.uploads == virtual.counters.uploads == 3
     for one, other in zip(real.capture.focus_ticks.tolist(), virtual.capture.focus_ticks.tolist(), strict=True):
         assert np.array_equal(words_before(real, one), words_before(virtual, other))
@@ -238,7 +239,7 @@ def test_a_spot_as_fast_as_the_plate_allows_gives_way_to_a_finger(perform):
 
 def test_a_finger_due_with_a_spot_is_composed_with_it(perform):
     first = perform(nearby(1.0), SPOT)
-    next_start_s = starts_ms(first)[4] * 1e-3 - first.start_s + first.link.time_s(0)
+    next_start_s = starts_ms(first)[8] * 1e-3 - first.start_s + first.link.time_s(0)
     run = perform([(0.0, {}), (next_start_s - 0.0005, {0: (150.0, 94.0)}), (0.9, {0: None}), (1.0, {})], SPOT + CLICK)
     ((together, meant),) = [(tick, meant) for tick, meant in foci_meant(run) if len(meant) == 2]
     assert {emission.region for emission in meant} == {"spot", "all"}

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 from operator import mul
 
 import numpy as np
+from numpy.typing import NDArray
 
 from controller.bank.amplitude import hold_threshold
 from controller.bank.file_format import REST_SAMPLES
@@ -138,18 +139,15 @@ class Composer:
                 np.multiply(self._interpolated, self._flip, out=self._interpolated)
                 np.copyto(self._rests[row], self._outside)
             np.copyto(self._points_of_samples[row], self._in_band)
-            np.abs(self._points[row], out=self._deviates)
-            sizes.append(float(np.dot(self._deviates, self._ones)) or 1.0)
-        shares = [1.0] * count
-        self._add(shares, sizes)
-        np.greater(self._sum, NO_SUM, out=self._bits)
+            sizes.append(self._size(row) if count > 1 else 1.0)
+        np.greater(self._total([1.0] * count, sizes), NO_SUM, out=self._bits)
         if full:
             return
         asked = [amplitude for _, _, amplitude in points]
         wanted = [share * reached for share, reached in zip(asked, self._reach(sizes), strict=True)]
-        self._add(asked, sizes)
-        self._holding.measure(self._sum)
-        self._holding.normalise(self._sum, self._normalised)
+        total = self._total(asked, sizes)
+        self._holding.measure(total)
+        self._holding.normalise(total, self._normalised)
         self._settle(asked, wanted, sizes)
 
     def _settle(self, asked: list[float], wanted: list[float], sizes: list[float]) -> None:
@@ -166,8 +164,8 @@ class Composer:
         for turn in range(ROUNDS):
             strength = _length(shares)
             if turn and len(shares) > 1:  # of one point the sum stays
-                self._add([share * length / strength for share in shares], sizes)
-                self._holding.normalise(self._sum, self._normalised)
+                total = self._total([share * length / strength for share in shares], sizes)
+                self._holding.normalise(total, self._normalised)
             self._held[...] = hold_threshold(strength / math.sqrt(len(shares)))
             np.greater(self._normalised, self._held, out=self._bits)
             if turn == ROUNDS - 1:
@@ -189,11 +187,21 @@ class Composer:
             shares_before, missing_before = shares, missing
             shares = further
 
-    def _add(self, shares: list[float], sizes: list[float]) -> None:
-        """Sum of the points' responses, each of size one, with these shares."""
+    def _size(self, row: int) -> float:
+        """Twice what a point would get alone, in the band: the sum of its response's absolute values."""
+        np.abs(self._points[row], out=self._deviates)
+        return float(np.dot(self._deviates, self._ones)) or 1.0
+
+    def _total(self, shares: list[float], sizes: list[float]) -> NDArray[np.float32]:
+        """Sum of the points' responses, each of size one, with these shares; of one point its response as it is."""
+        count = len(shares)
+        if count == 1:
+            alone: NDArray[np.float32] = self._points[0]
+            return alone
         for row, (share, size) in enumerate(zip(shares, sizes, strict=True)):
             self._weights[row] = share / size
-        np.dot(self._weights[: len(shares)], self._points[: len(shares)], out=self._sum)
+        np.dot(self._weights[:count], self._points[:count], out=self._sum)
+        return self._sum
 
     def _reach(self, sizes: list[float]) -> list[float]:
         """What the bits do at each point, in sizes of its response."""

@@ -16,7 +16,7 @@ from controller.bank.composition import Composer, Point
 from controller.bank.reader import Bank
 
 LATTICE_M = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
-NEAR_M = 0.4e-3  # a waveform for a place this near serves as well: at most 1.5 % less (README.md)
+NEAR_M = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less (README.md)
 
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from controller.offline.bank_builder import BuildReport
 
 SMALLEST_PITCH_MM = 0.5
+MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; farther, where it was
 
 
 def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -106,7 +107,7 @@ def _bank_file(options: argparse.Namespace) -> Path:
 
 
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
-    return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m)
+    return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
 
 
 def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None, *, measure: bool) -> BuildReport:

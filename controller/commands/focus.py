@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from controller.board import find_board, load_board
 from controller.commands.output import picture_path, show
 from controller.errors import ConfigError
-from controller.tables import plain_table
+from controller.tables import amplitude_table, plain_table
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
@@ -27,6 +27,12 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     point.add_argument(
         "--idle-figures", action="store_true", help="measure what the idle word and its ramp are worth instead; --plot draws it"
     )
+    point.add_argument(
+        "--amplitude-figures",
+        action="store_true",
+        help="measure what composing from a bank reaches instead: amplitudes, places between cells, edges; --plot draws it",
+    )
+    point.add_argument("--pitch-mm", type=float, metavar="MM", help="of that bank (default: the board's)")
     point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
@@ -51,8 +57,19 @@ def focus(options: argparse.Namespace) -> int:
             plot_idle(picture, board, found)
         show(options, found, plain_table)
         return 0
+    if options.amplitude_figures:
+        from controller.offline.amplitude_figures import amplitude_figures
+
+        pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
+        found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
+        if picture:
+            from controller.offline.plot_amplitude import plot_amplitude
+
+            plot_amplitude(picture, found)
+        show(options, found, amplitude_table)
+        return 0
     if not options.at:
-        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, or --idle-figures")
+        raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:

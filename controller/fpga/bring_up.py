@@ -215,13 +215,16 @@ def channel_self_test(
 ) -> Iterator[int]:
     """Chirp on one channel after the other, all others idle; yields each channel behind its chirp.
 
-    Whoever listens, or looks at the pins, finds dead and swapped wires. Outputs are off at the end.
+    Whoever listens, or looks at the pins, finds dead and swapped wires. Outputs are off at the end. Without a channel
+    nothing is armed.
 
     Raises
     ------
     LinkError
         If a channel's chirp did not run to its end.
     """
+    if not channels:
+        return
     period_s = board.waveform.duration_s / min(CHIRP_DUTY, board.limits.max_duty)
     with selectors.DefaultSelector() as selector:
 

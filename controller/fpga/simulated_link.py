@@ -39,8 +39,8 @@ class SimulatedLink:
         self.clock_hz = settings.clock_hz
         self._now_s = now_s
         self._start_s = now_s()
-        self._ticks_per_bit = settings.clock_hz / settings.sck_hz
-        self._pause_ticks = max(round(SELECT_PAUSE_SCK * self._ticks_per_bit), SELECT_PAUSE_TICKS)
+        self.sck_hz = 0.0
+        self.set_sck_hz(settings.sck_hz)
         self._free_tick = READY_TICKS  # when the wire is free
         self.gateware = gateware
         for permit in Permit:
@@ -77,6 +77,13 @@ class SimulatedLink:
     def time_s(self, tick: int) -> float:
         """A tick of the gateware on the loop's clock."""
         return self._start_s + tick / self.clock_hz
+
+    def set_sck_hz(self, sck_hz: int) -> float:
+        """Send the next frames at another SCK; what it is then."""
+        self.sck_hz = float(sck_hz)
+        self._ticks_per_bit = self.clock_hz / sck_hz
+        self._pause_ticks = max(round(SELECT_PAUSE_SCK * self._ticks_per_bit), SELECT_PAUSE_TICKS)
+        return self.sck_hz
 
     def close(self) -> None:
         """Let the gateware live on to what it would do by itself."""

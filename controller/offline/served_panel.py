@@ -2,7 +2,7 @@
 
     python -m controller.offline.served_panel /tmp/panel.sock
 
-Everything but the FPGA and the touch panel is what runs on the device: loop, scene, bank, socket. The
+Everything but the FPGA and the touch panel is what runs on the device: loop, scene, bank, socket, scheduling. The
 FPGA is its model; two fingers go to and fro for ever. It ends with SIGTERM or Ctrl-C.
 """
 
@@ -31,6 +31,7 @@ from controller.prepare_scene import populate
 from controller.scene import load_scene
 from controller.scene_change import SceneChanger
 from controller.scene_file import find_scene
+from controller.service import enter_realtime, tell
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -61,6 +62,8 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     session = open_session(link, board, clock.now_s)
     source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
     change = SceneChanger(board, board.scene, bank)
+    for warning in enter_realtime(board.realtime):
+        tell(warning)
     drain_s = clock.now_s()
 
     def progress(now_s: float) -> None:

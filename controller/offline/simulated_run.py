@@ -36,7 +36,7 @@ from controller.touch.replay import RecordingSource
 from controller.touch.tracks import Track
 from controller.touch.warnings import in_words
 
-SETTLE_S = 50e-3  # between arming and the first event of the recording
+SETTLE_S = 0.3  # between arming and the first event of the recording: a busy machine needs it in real time
 REFERENCE_ROUNDS = 2000
 Point = tuple[float, float]
 

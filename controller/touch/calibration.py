@@ -111,7 +111,7 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) 
         raise CalibrationError("the touches lie on one line: touch each target in its turn")
     wanted = np.array(targets, np.float64)
     columns = np.column_stack([raw, np.ones(len(raw))])
-    found = np.linalg.lstsq(columns, wanted, rcond=None)[0]
+    found = np.linalg.lstsq(columns, wanted, rcond=None)[0].astype(np.float64)
     residuals = np.hypot(*(columns @ found - wanted).T) if len(targets) > FEWEST else np.zeros(0)
     if residuals.size and residuals.max() > LARGEST_RESIDUAL_MM:
         raise CalibrationError(

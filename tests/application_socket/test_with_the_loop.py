@@ -24,6 +24,7 @@ QUIET = '[[regions]]\nname = "corner"\nshape = "rectangle"\nx_mm = 5\ny_mm = 5\n
 CIRCLE = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60.0\ny_mm = 54.0\nradius_mm = 3.0\n'
 SPOT = CIRCLE + 'effects = [{ effect = "always", rate_hz = 40.0 }]\n'
 PLACES = [(30.0 + 20 * number % 160, 30.0 + 11 * number % 90) for number in range(40)]
+STALL_S = 0.2  # twice the heartbeat's timeout
 ON_S = 0.1  # the outputs are on by then
 
 
@@ -31,7 +32,7 @@ ON_S = 0.1  # the outputs are on by then
 def serve(board, bank_file, folder, tmp_path, evemu_text, read_all):
     """Run the loop for a while with what clients send when; each client's answers, socket, loop's counters, what was played."""
 
-    def run(script, *, until_s, scene_text=QUIET, reports=((0.0, {}), (0.001, {0: (200.0, 140.0)})), **settings):
+    def run(script, *, until_s, scene_text=QUIET, reports=((0.0, {}), (0.001, {0: (200.0, 140.0)})), stalls_s=(), **settings):
         scene_file = tmp_path / "served.toml"
         scene_file.write_text(scene_text)
         scene, clock, played = load_scene(scene_file, board), VirtualClock(), []
@@ -47,6 +48,7 @@ def serve(board, bank_file, folder, tmp_path, evemu_text, read_all):
             client.connect(settings.path)
             client.setblocking(False)
         pending = sorted(script, key=lambda entry: entry[0])
+        stalls = list(stalls_s)
 
         def progress(now_s):
             while pending and pending[0][0] <= now_s:
@@ -54,6 +56,9 @@ def serve(board, bank_file, folder, tmp_path, evemu_text, read_all):
                 clients[name].send(json.dumps(request).encode() + b"\n")
             for name, client in clients.items():
                 answers[name] += read_all(client)
+            if stalls and stalls[0] <= now_s:
+                stalls.pop(0)
+                clock._now_s += STALL_S
             if now_s >= until_s:
                 made.loop.stop()
 
@@ -158,14 +163,48 @@ def test_every_command_for_a_finger_that_is_lifted_meanwhile_has_its_outcome(ser
     assert commands.waiting == 0
 
 
+LATE = '[effects.late]\nwhen = "command"\nrate_hz = 10.0\ncount = 2\nphase = 0.9\n' + QUIET  # 90 ms after the command
+
+
+def test_a_command_whose_finger_is_lifted_before_its_first_beat_is_skipped(serve):
+    reports = [(0.0, {0: (60.0, 70.0)}), (0.15, {0: (60.5, 70.0)}), (0.2, {0: None})]
+    script = [(0.28, "a", {"kind": "play", "effect": "late", "finger": 0, "id": 1})]
+    answers, commands, _, played = serve(script, until_s=0.6, reports=reports, scene_text=LATE)
+    assert [answer["outcome"] for answer in answers["a"]] == ["skipped"]
+    assert commands.waiting == len(played) == 0
+
+
+def test_when_the_outputs_go_off_every_command_under_way_is_answered(serve):
+    """The host stands still for twice the heartbeat's timeout, four times."""
+    script = [(0.2 + number / 500, "a", click(number, PLACES[number * 7 % 40])) for number in range(650)]
+    script += [(0.29, "b", click(f"late {number}", PLACES[number]) | {"effect": "late"}) for number in range(5)]
+    answers, commands, counters, _ = serve(script, until_s=2.0, scene_text=LATE, stalls_s=[0.3, 0.6, 0.9, 1.2])
+    assert counters.host_silent == 4
+    assert sorted(answer["id"] for answer in answers["a"]) == list(range(650))
+    assert [answer["outcome"] for answer in answers["b"]] == ["refused"] * 5
+    assert commands.waiting == 0
+
+
+@pytest.mark.parametrize("resident", [True, False])
+def test_a_command_that_finds_the_outputs_off_when_it_is_about_to_play_is_refused(serve, resident):
+    """The host stands still in the middle of a turn, which a touch began: the command is the first to notice."""
+    reports = [(0.0, {}), *[(0.39 + 0.001 * step, {0: (200.0 - step, 140.0)}) for step in range(30)]]
+    script = [(0.4, "a", click(1, PLACES[0])), (0.5, "b", click(2, PLACES[0 if resident else 1]))]
+    answers, commands, counters, played = serve(script, until_s=1.0, stalls_s=[0.5], reports=reports)
+    assert counters.host_silent == 1
+    assert [answer["outcome"] for answer in answers["b"]] == ["refused"]
+    assert len(played) == 1
+    assert commands.waiting == 0
+
+
 def test_effects_of_every_kind_have_exactly_one_outcome_each(serve):
     effects = ("click", "double_click", "train", "buzz", "edge", "notification")
     script = [
-        (0.2 + number / 400, "a", click(number, PLACES[number % 7]) | {"effect": effects[number % 6]}) for number in range(48)
+        (0.2 + number / 400, "a", click(number, PLACES[number % 7]) | {"effect": effects[number % 6]}) for number in range(18)
     ]
-    answers, commands, *_ = serve([*script, (0.1, "b", {"kind": "hello", "id": 1})], until_s=1.05)
+    answers, commands, *_ = serve([*script, (0.1, "b", {"kind": "hello", "id": 1})], until_s=0.4)
     assert set(effects) <= set(answers["b"][0]["effects"])
-    assert sorted(answer["id"] for answer in answers["a"]) == list(range(48))
+    assert sorted(answer["id"] for answer in answers["a"]) == list(range(18))
     assert commands.waiting == 0
 
 

@@ -24,10 +24,27 @@ def test_words_of_a_cell(benchmark, bank):
     benchmark(bank.words, 20)
 
 
+def places(count):
+    return np.random.default_rng(count).uniform([6e-3, 7e-3], [34e-3, 30e-3], (count, 2)).tolist()
+
+
+@pytest.mark.parametrize("amplitude", [1.0, 0.5])
 @pytest.mark.parametrize("count", [1, 2, 4, 10])
-def test_compose(benchmark, bank, count):
-    points = [(*place, 1.0) for place in np.random.default_rng(count).uniform([6e-3, 7e-3], [34e-3, 30e-3], (count, 2)).tolist()]
-    benchmark(Composer(bank, 0).compose, points)
+def test_compose(benchmark, bank, count, amplitude):
+    benchmark(Composer(bank, 0).compose, [(*place, amplitude) for place in places(count)])
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 10])
+def test_copy_of_the_responses_that_are_composed(benchmark, bank, count):
+    """What composing cannot do without: every byte of four cells for each point is read once."""
+    patches = [bank.response_patch(*bank.grid.patch(*place)[:3]) for place in places(count)]
+    room = np.empty_like(patches[0])
+
+    def read():
+        for patch in patches:
+            np.copyto(room, patch)
+
+    benchmark(read)
 
 
 def test_memcpy_and_crc_of_the_same_bytes(benchmark, bank):

@@ -9,8 +9,8 @@ import pytest
 
 from controller.board import data_folder
 from controller.cli import main
-from controller.errors import LinkError
 from controller.clocks import VirtualClock
+from controller.errors import LinkError
 from controller.fpga import bring_up
 from controller.fpga.build_hash import build_hash
 from controller.fpga.clock_relation import ClockRelation

@@ -12,8 +12,8 @@ from cobs import cobs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.errors import LinkError
 from controller.clocks import VirtualClock
+from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import Parameters

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from controller.board import find_board, load_board
-from controller.errors import FaultError
 from controller.clocks import VirtualClock
+from controller.errors import FaultError
 from controller.fpga.registers import Fault, Register
 from controller.hardware import open_session, open_simulated
 

@@ -55,7 +55,7 @@ class GpioTrace:
         if not (TRACES / "instances").is_dir():
             os.system(f"mount -t tracefs tracefs {TRACES}")
         self._folder = TRACES / "instances" / label
-        self._folder.mkdir()
+        self._folder.mkdir(exist_ok=True)  # one that a killed far end has left behind serves as well
         base = next(int((chip / "base").read_text()) for chip in _chips() if (chip / "label").read_text().strip() == label)
         self._names = {base + offset: name for offset, name in enumerate(names)}
         (self._folder / "trace_clock").write_text("mono")
@@ -84,9 +84,10 @@ def _chips():
 class _Gateware:
     """The gateware, its pins driven as time goes on."""
 
-    def __init__(self, parameters, factory, roles):
+    def __init__(self, parameters, factory, roles, slowness):
         self._gateware = RestartingGateware(factory, parameters)
-        self._clock_hz = parameters.clock_hz
+        self._clock_hz = parameters.clock_hz / slowness
+        self._bits_hz = parameters.clock_hz
         self._start_s = time.monotonic()
         self._free_tick = 10
         self._roles = roles
@@ -120,15 +121,15 @@ class _Gateware:
         self.modes.add(mode)
         sent = request[HEADER.size : HEADER.size + size]
         answer = bytearray(size)
-        ticks = max(round(8 * size * self._clock_hz / speed_hz), frame_ticks(size)) + 2 * LEAD_TICKS
+        ticks = max(round(8 * size * self._bits_hz / speed_hz), frame_ticks(size)) + 2 * LEAD_TICKS
         select_tick = max(self._tick(time.monotonic()) - ticks, self._free_tick)  # its time on the wire has passed already
         self._free_tick = select_tick + ticks + SELECT_HIGH_TICKS
         self._gateware.exchange(select_tick, select_tick + ticks, sent, memoryview(answer))
         return WIRES[self.wire](bytes(answer), sent)
 
     def reset(self, dark_s):
-        """The FPGA loses its supply now, and is configured again so much later."""
-        self._gateware.restart(self._tick(time.monotonic()), round(dark_s * self._clock_hz))
+        """The FPGA loses its supply now, and is configured again so much of its time later."""
+        self._gateware.restart(self._tick(time.monotonic()), round(dark_s * self._bits_hz))
 
     def pins(self):
         """What the pins have come to, and the emissions that ran to their end so far."""
@@ -151,10 +152,12 @@ class FarEnd:
         Of all lines of the chip, in their order.
     factory : GatewareFactory
         The model, or the Verilog compiled.
+    slowness : float
+        Seconds on the wall for one of the gateware: for a guest that may be held up. The host's clock has to be as slow.
     """
 
-    def __init__(self, settings, names, factory=GatewareModel):
-        self.settings, self._names, self._factory = settings, names, factory
+    def __init__(self, settings, names, factory=GatewareModel, slowness=1.0):
+        self.settings, self._names, self._factory, self._slowness = settings, names, factory, slowness
         context = multiprocessing.get_context("fork")
         self._pipe, theirs = context.Pipe()
         self._process = context.Process(target=self._serve, args=(theirs,), daemon=True)
@@ -191,7 +194,7 @@ class FarEnd:
         roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
         roles.pop("", None)
         trace = GpioTrace(settings.gpio_chip, self._names)
-        gateware = _Gateware(parameters, self._factory, roles)
+        gateware = _Gateware(parameters, self._factory, roles, self._slowness)
         wires = os.open("/dev/labspi", os.O_RDWR)
         with selectors.DefaultSelector() as selector:
             for file in (wires, trace.fd, pipe):
@@ -205,7 +208,8 @@ class FarEnd:
                 if request is not None:
                     answer = gateware.transfer(request)
                     if answer is not None:
-                        os.write(wires, answer)
+                        with contextlib.suppress(BrokenPipeError):  # the controller has given the transfer up
+                            os.write(wires, answer)
                 if pipe in ready:
                     what, arguments = pipe.recv()
                     if what == "close":

@@ -15,8 +15,8 @@ from far_end_spi import FarEnd, GpioTrace
 from gpio_lines import GpioLines
 
 from controller.board import data_folder, find_board, load_board
-from controller.clocks import MonotonicClock
-from controller.device_settings import LinkSettings
+from controller.device_settings import LinkSettings, Temperature
+from controller.doctor import examine_link, look
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.exchange import FpgaReset
@@ -26,6 +26,7 @@ from controller.fpga.spi_link import SpiLink, read_bufsiz
 from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
 from controller.outputs import Outputs
+from controller.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"
 NAMES = ["TRIGGER", "READY", "PERMIT"]
@@ -45,11 +46,25 @@ BOARD = msgspec.structs.replace(
     SIMULATED, link=SETTINGS, limits=msgspec.structs.replace(SIMULATED.limits, heartbeat_timeout_ms=250.0)
 )
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
-CLOCK = MonotonicClock()
+
+
+class SlowClock:
+    """The loop's clock where `SLOWNESS` seconds on the wall are one."""
+
+    def now_s(self):
+        return time.monotonic() / SLOWNESS
+
+    def wait(self, _, until_s):
+        time.sleep(max(until_s - self.now_s(), 0) * SLOWNESS)
+
+
+CLOCK = SlowClock()
 LINES = GpioLines(LABEL, NAMES)
 LINES.pull("READY", 1)
 BIND = Path("/sys/bus/spi/drivers/spidev")
-Path("/sys/module/labdev/parameters/timeout_ms").write_text("200")  # until a controller gives up a transfer
+TIMEOUT_MS = Path("/sys/module/labdev/parameters/timeout_ms")  # until a controller gives up a transfer
+TIMEOUT_MS.write_text("20000")
+SLOWNESS = 5.0  # of all clocks, for a machine that is busy with other things as well
 
 
 def with_settings(**changes):
@@ -66,21 +81,25 @@ def refusal(action):
 
 
 @contextlib.contextmanager
-def opened(settings=SETTINGS):
-    link = SpiLink(settings, time.monotonic)
+def opened(settings=SETTINGS, now_s=CLOCK.now_s):
+    link = SpiLink(settings, now_s)
     try:
         yield link
     finally:
         link.close()
 
 
+def session_on(link, board=BOARD):
+    return Session(link, board, build_hash(data_folder("fpga_rtl")), CLOCK.now_s)
+
+
 class Panel:
     """Far end, link and session, armed."""
 
     def __init__(self):
-        self.far_end = FarEnd(SETTINGS, NAMES)
-        self.link = SpiLink(SETTINGS, time.monotonic)
-        self.session = Session(self.link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
+        self.far_end = FarEnd(SETTINGS, NAMES, slowness=SLOWNESS)
+        self.link = SpiLink(SETTINGS, CLOCK.now_s)
+        self.session = session_on(self.link)
         self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
         self.come_on()
 
@@ -88,12 +107,12 @@ class Panel:
         """As the loop does it, without waiting in between."""
         while not self.outputs.on:
             try:
-                self.outputs.advance(time.monotonic())
+                self.outputs.advance(CLOCK.now_s())
             except (LinkError, FaultError) as error:
-                self.outputs.failed(error, time.monotonic())
+                self.outputs.failed(error, CLOCK.now_s())
 
     def rest(self, until_s):
-        while time.monotonic() < until_s:
+        while CLOCK.now_s() < until_s:
             self.session.heartbeat()
 
     def emissions(self, until):
@@ -102,7 +121,7 @@ class Panel:
             pass
 
     def recover(self, error):
-        self.outputs.failed(error, time.monotonic())
+        self.outputs.failed(error, CLOCK.now_s())
         self.come_on()
 
     def lost(self):
@@ -146,7 +165,7 @@ def test_each_frame_is_a_transfer_of_its_own_chip_select_and_comes_back_in_its_p
         link.exchange(sent, lengths, received)
         assert link.bytes_sent == sum(lengths)
         assert 0 < link.effective_hz < link.sck_hz == 25e6
-        assert link.free_s() <= time.monotonic()
+        assert link.free_s() <= CLOCK.now_s()
     thread.join()
     os.close(wires)
     start = 0
@@ -184,7 +203,7 @@ def test_a_buffer_that_the_kernel_does_not_have_is_told():
 
 def test_a_trigger_is_a_pulse_and_its_time_is_between_its_edges():
     trace = GpioTrace(LABEL, NAMES)
-    with opened() as link:
+    with opened(now_s=time.monotonic) as link:
         trace.read()
         edge_s = link.trigger()
         (rise_s, name, up), (fall_s, _, down) = trace.read()
@@ -202,7 +221,7 @@ def test_the_permit_is_given_while_the_link_is_open():
 def test_an_fpga_that_is_not_configured_is_told_and_gets_no_permit():
     LINES.pull("READY", 0)
     try:
-        assert "is not configured: its line 'READY' is low" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+        assert "is not configured: its line 'READY' is low" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
     finally:
         LINES.pull("READY", 1)
     assert LINES.value("PERMIT") == 0
@@ -221,14 +240,14 @@ def test_chips_and_lines_that_are_not_there_are_named_with_those_that_are():
 
 def test_a_line_that_somebody_holds_is_told_with_its_holder():
     with gpiod.request_lines(f"/dev/{LINES.chip}", consumer="oscilloscope", config={"TRIGGER": None}):
-        assert "'TRIGGER' of GPIO chip 'panel' is in use by oscilloscope" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+        assert "'TRIGGER' of GPIO chip 'panel' is in use by oscilloscope" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
     with opened():
         pass
 
 
 def test_two_programs_never_share_the_device():
     with opened():
-        assert "in use by another haptic-panel" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+        assert "in use by another haptic-panel" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
 
 
 def test_a_device_that_is_not_there_is_told_with_those_that_are():
@@ -260,7 +279,7 @@ def test_it_arms_uploads_and_plays_by_its_trigger_line():
 
 
 def test_what_is_wrong_with_the_wires_is_said():
-    far_end = FarEnd(SETTINGS, NAMES)
+    far_end = FarEnd(SETTINGS, NAMES, slowness=SLOWNESS)
     try:
         with opened() as link:
             for kind, said in [
@@ -272,17 +291,17 @@ def test_what_is_wrong_with_the_wires_is_said():
                 ("noise", "it is no status"),
             ]:
                 far_end.wire(kind)
-                message = refusal(lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic))
+                message = refusal(lambda: session_on(link))
                 assert said in message, (kind, message)
             far_end.wire("good")
-            Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
+            session_on(link)
     finally:
         far_end.close()
 
 
 def test_a_loopback_is_told_by_the_kernels_own():
     with opened() as link:  # nobody at the far end
-        message = refusal(lambda: Session(link, BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic))
+        message = refusal(lambda: session_on(link))
     assert "our own bytes came back" in message
 
 
@@ -303,7 +322,7 @@ def test_a_reset_fpga_is_noticed_and_brought_back():
 
 def test_an_fpga_without_supply_for_a_while_is_brought_back():
     with panel() as there:
-        there.far_end.reset(dark_s=1.0)
+        there.far_end.reset(dark_s=0.6)
         error = there.lost()
         assert "only ones came back" in str(error), error
         there.recover(error)
@@ -316,7 +335,7 @@ def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
         try:
             error = there.lost()
             assert "/dev/spidev0.0 has gone" in str(error), error
-            assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, time.monotonic))
+            assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
         finally:
             (BIND / "bind").write_text("spi0.0")
         while there.far_end.pins()["hv"]:  # the FPGA switches off by itself
@@ -330,10 +349,103 @@ def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
 def test_a_bus_that_is_stuck_is_told_and_work_goes_on_when_it_is_free():
     with panel() as there:
         there.far_end.wire("stuck")
-        error = there.lost()
+        TIMEOUT_MS.write_text("300")
+        try:
+            error = there.lost()
+        finally:
+            TIMEOUT_MS.write_text("20000")
         assert isinstance(error, LinkError)
         assert "did not finish a transfer: its bus is stuck" in str(error), error
         there.far_end.wire("good")
-        assert there.far_end.pins()["hv"] == 0
+        while there.far_end.pins()["hv"]:  # the FPGA switches off by itself
+            pass
         there.recover(error)
         assert there.far_end.pins()["hv"] == 1
+
+
+def test_the_doctor_finds_the_devices_and_examines_the_link():
+    settings = with_settings(slots=1)
+    short = msgspec.structs.replace(BOARD.waveform, duration_ms=0.2)  # its memory is read word by word
+    board = msgspec.structs.replace(BOARD, link=settings, waveform=short)
+    far_end = FarEnd(settings, NAMES, slowness=SLOWNESS)
+    findings = {finding.about: finding for finding in look(board, CLOCK.now_s)}
+    for about in ("SPI device", "spidev buffer", "GPIO lines", "priority", "locked memory"):
+        assert findings[about].good, findings[about]
+    assert "an upload is two messages" in findings["spidev buffer"].said
+    with opened(settings) as link:
+        assert {finding.about: finding for finding in look(board, CLOCK.now_s)}["GPIO lines"].good, "our own lines are no fault"
+
+        def examine(channels):
+            return examine_link(board, link, lambda: session_on(link, board), CLOCK, 3e4, channels)
+
+        found = examine([5])
+        assert all(finding.good for finding in found.findings), found.findings
+        assert found.figures["proposed_sck_hz"] == SETTINGS.sck_hz
+        assert found.figures["bit_errors"]["bits"] >= 3e4 * 0.9
+        print({name: found.figures[name] for name in ("sck_measured_hz", "effective_hz")})
+        far_end.wire("noise")
+        assert [finding.good for finding in examine([]).findings] == [False]
+    assert far_end.pins()["hv"] == 0
+    far_end.close()
+
+
+def bus_name():
+    """The I2C bus whose far end is a program."""
+    return next(
+        f"/dev/{bus.name}" for bus in Path("/sys/bus/i2c/devices").glob("i2c-*") if (bus / "name").read_text() == "labdev i2c\n"
+    )
+
+
+class Lm75Chip:
+    """TMP75 by its datasheet (SBOS288): a write sets the pointer, a read gives the register it points at, high byte first."""
+
+    def __init__(self):
+        self.words = {0: 0x1900, 1: 0x6000, 2: 0x4B00, 3: 0x5000}  # temperature 25 °C, configuration, limits
+        self.awake = True
+        self._pointer = 0
+        self._far_end = os.open("/dev/labi2c", os.O_RDWR)
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def _serve(self):
+        while True:
+            request = os.read(self._far_end, 1 << 12)
+            (count,) = struct.unpack_from("<I", request)
+            at, answer, result = 4, b"", count
+            for _ in range(count):
+                address, flags, length = struct.unpack_from("<HHH", request, at)
+                at += 6
+                if address != 0x4A or not self.awake:
+                    result = -6  # ENXIO: nobody acknowledges
+                if flags & 1:
+                    answer += struct.pack(">H", self.words[self._pointer & 3])[:length].ljust(length, b"\xff")
+                else:
+                    self._pointer = request[at]
+                    at += length
+            os.write(self._far_end, struct.pack("<i", result) + (answer if result > 0 else b""))
+            if self._pointer == 0x7F:
+                os.close(self._far_end)
+                return
+
+
+def test_the_bit_clock_follows_an_lm75_that_comes_and_goes():
+    chip = Lm75Chip()
+    settings = Temperature(kind="lm75", device=bus_name(), address=0x4A, reference_c=23.0, coefficient_per_k=-100e-6)
+    thermometer = Thermometer(settings)
+    assert abs(thermometer.scale(0.0) - (1 - 200e-6)) < 1e-12
+    chip.words[0] = 0xFFF0
+    assert thermometer.scale(2.0) == 1 - 200e-6, "a jump to -0.06 °C is not believed at once"
+    thermometer.scale(4.0)
+    assert thermometer.temperature_c == -0.0625
+    chip.awake = False
+    scale = thermometer.scale(6.0)
+    assert "no temperature sensor answers" in thermometer.cause
+    assert scale == thermometer.scale(7.0)
+    chip.awake = True
+    chip.words[0] = 0x0100
+    thermometer.scale(6.0 + RETRY_S)
+    assert (thermometer.temperature_c, thermometer.cause) == (1.0, "")
+    thermometer.close()
+    other = Thermometer(msgspec.structs.replace(settings, address=0x48))
+    assert other.scale(0.0) == 1
+    assert "address 0x48" in other.cause

@@ -6,9 +6,13 @@ import pytest
 from controller.bank.composition import Composer
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
+from controller.errors import ConfigError
+from controller.offline.amplitude_figures import amplitude_figures
 from controller.offline.bank_builder import build_bank
 from controller.offline.plate_twin import PlateTwin
+from controller.offline.plot_amplitude import plot_amplitude
 from controller.offline.work_precision import emit
+from controller.tables import amplitude_table
 
 PITCH_M = 2.5e-3
 APART_M = 10e-3
@@ -71,3 +75,19 @@ def test_a_quarter_of_the_amplitude_keeps_the_contrast(board, scenes, composer):
         assert quarter.amplitude_m / full.amplitude_m == pytest.approx(0.25, rel=0.05)
         assert quarter.contrast > 0.85 * full.contrast
         assert quarter.spot_m == pytest.approx(full.spot_m, rel=0.05)
+
+
+def test_the_figures_of_amplitude_are_measured_and_drawn(board, tmp_path):
+    found = amplitude_figures(board, 4, scenes=1)
+    assert list(found["fingers"]) == ["1", "2", "4", "10"]
+    assert [len(row["asked"]) for row in found["fingers"].values()] == [1, 2, 4, 10]
+    assert found["fingers"]["2"]["error_percent"]["max"] < 5
+    assert found["single"]["1"]["contrast_of_full"]["median"] == 1
+    assert found["single"]["0.5"]["edges_all"]["median"] < 0.6 * found["single"]["1"]["edges_all"]["median"]
+    assert found["between_cells"]["interpolated"]["min"] > 0.97 > found["between_cells"]["nearest_entry"]["min"]
+    assert found["between_cells"]["0.4_mm_beside"]["min"] > 0.97
+    plot_amplitude(tmp_path / "amplitude.png", found)
+    assert (tmp_path / "amplitude.png").stat().st_size > 10_000
+    with pytest.raises(ConfigError, match="cannot be written"):
+        plot_amplitude(tmp_path / "nowhere" / "amplitude.png", found)
+    assert "error_percent_of_fingers.4.max" in amplitude_table(found)

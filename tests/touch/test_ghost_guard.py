@@ -1,4 +1,5 @@
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import msgspec
@@ -251,3 +252,35 @@ def test_no_ghost_of_any_emissions_is_ever_played(hauntings):
         t.emitted(start_s, end_s)
     assert samples + played(t) == []
     assert t.tracking.ghosts == len(hauntings)
+
+
+SPOT_AND_CLICK = """
+[[regions]]
+name = "spot"
+shape = "circle"
+x_mm = 60.0
+y_mm = 54.0
+radius_mm = 3.0
+effects = [{ effect = "always", rate_hz = 20.0 }]
+
+[[regions]]
+name = "all"
+shape = "plate"
+effects = ["click"]
+"""
+
+
+def test_in_the_loop_a_tap_waits_for_the_end_of_the_shadow_of_the_spot_that_the_fpga_repeats(board, perform):
+    """Every 50 ms a shadow of 32 ms: what lands in it is played when it ends, all else at once."""
+    haunted = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=GHOST_S * 1e3))
+    late_s = []
+    for k in range(10):
+        tap_s = 1.0 + 5e-3 * k
+        run = perform([(0.0, {}), (tap_s, {0: (150.0, 100.0)}), (tap_s + 0.2, {0: None})], SPOT_AND_CLICK, on=haunted)
+        (click,) = [played for played in run.played if any(emission.finger is not None for emission in played.emissions)]
+        late_s.append(click.trigger_s - run.start_s - tap_s)
+    assert max(late_s) < T_S + GHOST_S + 5e-3
+    at_once = [late for late in late_s if late < 5e-3]
+    assert 3 <= len(at_once) <= 4  # 18 of 50 ms
+    waits_s = sorted(late_s)[len(at_once) :]  # until the same instant, from taps 5 ms apart
+    assert [after - before for before, after in pairwise(waits_s)] == pytest.approx([5e-3] * (len(waits_s) - 1), abs=1e-3)

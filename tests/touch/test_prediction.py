@@ -28,7 +28,7 @@ def figures():
     return measure(Recording.open(path) for path in sorted(FOLDER.glob("*.ev*")))
 
 
-@given(st.floats(-0.8, 0.8), st.floats(-0.8, 0.8), st.floats(0, 0.015), st.floats(0.004, 0.012))
+@given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(0, 0.015), st.floats(0.004, 0.012))
 def test_a_finger_of_constant_velocity_is_met_exactly(vx, vy, lag_s, period_s):
     end_s = 99 * period_s
     motion = moved(lambda time_s: (vx * time_s, vy * time_s), period_s)
@@ -54,6 +54,13 @@ def test_a_finger_at_rest_has_one_place_whatever_noise_its_reports_have(noise):
             places.add(motion.place(k * PERIOD_S + 5e-3, 10e-3, PERIOD_S))
     assert len(places) == 1
     assert math.dist(places.pop(), (0.1, 0.05)) < REST_M
+
+
+def test_the_place_of_rest_is_that_of_the_reports_not_of_the_first_alone():
+    motion = Motion(0.1 + 0.3e-3, 0.05, 0.0)
+    for k in range(1, 20):
+        motion.report(0.1, 0.05, k * PERIOD_S)
+    assert motion.place(20 * PERIOD_S, 0.0, PERIOD_S) == pytest.approx((0.1, 0.05), abs=0.05e-3)
 
 
 def test_a_finger_leaves_its_rest_with_the_first_report_beyond_the_dead_band():
@@ -93,6 +100,11 @@ def test_neither_time_nor_way_ahead_is_without_limit():
     assert motion.place(motion.time_s, 0.2, PERIOD_S)[0] - motion.x_m == pytest.approx(0.3 * LONGEST_AHEAD_S, rel=1e-3)
     fast = moved(lambda time_s: (3.0 * time_s, 4.0 * time_s))
     assert math.dist(fast.place(fast.time_s, 20e-3, PERIOD_S), (fast.x_m, fast.y_m)) == pytest.approx(FARTHEST_AHEAD_M)
+
+
+def test_a_time_before_the_last_report_is_that_of_the_report():
+    motion = moved(lambda time_s: (0.3 * time_s, 0.0))
+    assert motion.place(motion.time_s - 5e-3, 0.0, PERIOD_S) == (motion.x_m, motion.y_m)
 
 
 def test_after_a_pause_the_velocity_of_before_is_forgotten():

@@ -1,0 +1,88 @@
+"""`haptic-panel doctor`: what of a panel works, what does not, and what to do."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from controller.board import find_board, load_board
+from controller.clocks import MonotonicClock, VirtualClock
+from controller.commands.output import show
+from controller.doctor import Finding, LinkExamined, examine_link, look
+from controller.errors import ControllerError
+from controller.hardware import open_link, open_session
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+BITS = 1e6
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    doctor = commands.add_parser(
+        "doctor",
+        parents=[common],
+        help="what of a panel works, what does not, and what to do",
+        description="Look at every device, file and permission that the board needs. With --link, also send random bits to the "
+        "FPGA at several speeds, propose one, fill its memory and chirp on each channel: outputs are on meanwhile, if the "
+        "permits are given. End the service first. Exit code 1 if anything is wrong.",
+    )
+    doctor.add_argument("--link", action="store_true", help="examine the link to the FPGA and what is behind it")
+    doctor.add_argument("--bits", type=float, default=BITS, metavar="N", help="random bits to send at least (default: 1e6)")
+    doctor.add_argument("--no-chirps", action="store_true", help="leave the outputs off")
+    doctor.set_defaults(command=examine)
+
+
+def examine(options: argparse.Namespace) -> int:
+    """Look, and examine the link if asked to; 1 if anything is wrong."""
+    board = load_board(find_board(options.board))
+    real = MonotonicClock()
+    findings = look(board, real.now_s)
+    figures: dict[str, Any] = {}
+    if options.link:
+        clock = VirtualClock() if board.link.kind == "simulated" else real
+        channels = [] if options.no_chirps else sorted(actuator.channel for actuator in board.actuators)
+        try:
+            link = open_link(board, clock.now_s, unhurried=True)
+        except ControllerError as error:
+            examined = LinkExamined([Finding("link", False, str(error))], {})
+        else:
+            progress = _progress() if not options.json else lambda *_: None
+            try:
+                examined = examine_link(
+                    board, link, lambda: open_session(link, board, clock.now_s), clock, options.bits, channels, progress
+                )
+            finally:
+                link.close()
+        findings += examined.findings
+        figures = examined.figures
+    good = all(finding.good for finding in findings)
+    show(options, {"board": board.name, "good": good, "findings": [asdict(finding) for finding in findings], **figures}, _table)
+    return 0 if good else 1
+
+
+def _progress() -> Callable[[int, int], None]:
+    """A bar where the package for it is there: it belongs to the offline tools, which a device may lack."""
+    try:
+        from controller.commands.output import progress_bar
+
+        return progress_bar("link")
+    except ModuleNotFoundError:
+        return lambda *_: None
+
+
+def _table(figures: dict[str, Any]) -> str:
+    lines = [
+        f"{'ok' if finding['good'] else 'NOT OK':<8}{finding['about']:<24}{finding['said']}" for finding in figures["findings"]
+    ]
+    for speed in figures.get("sweep", ()):
+        said = speed["trouble"] or f"{speed['errors']} errors in {speed['bits']:,} bits"
+        lines.append(f"{'':<8}{speed['sck_hz'] / 1e6:>8.4g} MHz            {said}")
+    if "sck_measured_hz" in figures:
+        measured = figures["sck_measured_hz"]
+        shown = "could not be measured" if measured is None else f"{measured / 1e6:.3g} MHz by the time that frames take"
+        lines.append(f"{'':<8}SCK {shown}; {figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel")
+    return "\n".join(lines)

@@ -1,0 +1,131 @@
+"""The Python client and its command line, against the panel's own end of the socket."""
+
+import json
+import socket
+import threading
+
+import pytest
+
+from controller.client import PanelClient, main
+from controller.command_source import Outcome
+from controller.errors import ControllerError, LinkError
+from controller.touch.samples import TouchSample
+
+
+@pytest.fixture
+def served(panel):
+    """A panel whose loop turns in a thread: every command is played, a scene is taken over unless it is called `absent`."""
+    ended = threading.Event()
+
+    def loop():
+        while not ended.is_set():
+            panel.socket.serve(panel.now_s, panel.control)
+            while panel.control.plays:
+                panel.socket.outcome(panel.control.plays.pop(0)[0], Outcome.PLAYED, 1.5e-3)
+            while panel.control.scenes:
+                ticket, name = panel.control.scenes.pop(0)
+                panel.socket.loaded(ticket, "absent.toml: no such scene" if name == "absent" else "")
+            panel.socket.touches([TouchSample(7, 0.1, 0.07, panel.now_s, True, 8e-3)])
+            panel.now_s += 1e-3
+
+    thread = threading.Thread(target=loop)
+    thread.start()
+    yield panel
+    ended.set()
+    thread.join()
+
+
+def test_a_command_is_played_and_says_what_became_of_it(served):
+    with PanelClient(served.settings.path) as client:
+        answer = client.play("click", at_mm=(100, 70), amplitude=0.5)
+        assert (answer.outcome, answer.age_ms) == ("played", 1.5)
+        assert client.play("click", finger=7).outcome == "played"
+        refused = client.play("click", at_mm=(300, 70))
+        assert (refused.outcome, refused.reason) == ("refused", "x_mm = 300 is off the plate (0 to 210)")
+
+
+def test_several_commands_may_be_under_way_and_are_waited_for_in_any_order(served):
+    with PanelClient(served.settings.path) as client:
+        numbers = [client.start_play("click", at_mm=(10 * number, 70)) for number in range(1, 10)]
+        assert [client.wait(number).id for number in reversed(numbers)] == list(reversed(numbers))
+
+
+def test_touches_are_iterated_with_commands_in_between_and_no_more_come_after(served):
+    with PanelClient(served.settings.path) as client:
+        touches = client.touches()
+        for touch in (next(touches), next(touches)):
+            assert (touch.finger, touch.x_mm, touch.y_mm, touch.contact, touch.size_mm) == (7, 100.0, 70.0, True, 8.0)
+            assert client.play("click", finger=touch.finger).outcome == "played"
+        touches.close()
+        assert client.hello().board == "simulated"
+        assert served.socket._subscribers == 0
+
+
+def test_scenes_figures_and_who_is_there(served):
+    with PanelClient(served.settings.path) as client:
+        client.load_scene("drums")
+        with pytest.raises(ControllerError, match=r"the panel refused: absent.toml: no such scene"):
+            client.load_scene("absent")
+        assert client.figures()["emissions"] == 7
+        assert client.hello().effects == ("click", "buzz")
+
+
+def test_without_a_service_it_says_so(folder):
+    with pytest.raises(LinkError, match=r"nobody.sock: no panel to talk to \(No such file or directory\)"):
+        PanelClient(str(folder / "nobody.sock"))
+
+
+def test_a_panel_that_says_nothing_is_not_waited_for_without_end(folder):
+    with socket.socket(socket.AF_UNIX) as silent:
+        silent.bind(str(folder / "silent.sock"))
+        silent.listen()
+        client = PanelClient(str(folder / "silent.sock"), timeout_s=0.05)
+        with client, pytest.raises(LinkError, match=r"does not answer within 0\.05 s"):
+            client.hello()
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        (b'{"kind":"farewell","reason":"the service ends"}\n', "has ended the connection: the service ends"),
+        (b"", "has ended the connection"),
+        (b"HTTP/1.1 400 Bad Request\r\n", "what answers there is no panel, or another version"),
+        (b'{"kind":"hello","id":1,"version":"9"}\n', "what answers there is no panel, or another version"),
+    ],
+)
+def test_an_end_and_a_stranger_are_told_apart(folder, said, words):
+    with socket.socket(socket.AF_UNIX) as other:
+        other.bind(str(folder / "other.sock"))
+        other.listen()
+        with PanelClient(str(folder / "other.sock")) as client:
+            accepted, _ = other.accept()
+            accepted.sendall(said)
+            accepted.shutdown(socket.SHUT_WR)
+            with pytest.raises(LinkError, match=words):
+                client.hello()
+            accepted.close()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "shown"),
+    [
+        (["play", "click", "--at", "100", "70"], {"kind": "answer", "id": 1, "outcome": "played", "age_ms": 1.5}),
+        (["play", "buzz", "--finger", "7", "--amplitude", "0.5"], {"kind": "answer", "id": 1, "outcome": "played", "age_ms": 1.5}),
+        (["figures"], {"emissions": 7}),
+        (["hello"], {"board": "simulated", "length_mm": 210.0}),
+    ],
+)
+def test_the_command_line_prints_what_the_panel_says(served, capsys, arguments, shown):
+    assert main(["--socket", served.settings.path, *arguments]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert shown.items() <= printed.items()
+
+
+def test_the_command_line_fails_in_one_line(served, folder, capsys):
+    assert main(["--socket", served.settings.path, "load", "drums"]) == 0
+    assert main(["--socket", served.settings.path, "load", "absent"]) == 1
+    assert capsys.readouterr().err == "error: the panel refused: absent.toml: no such scene\n"
+    assert main(["--socket", served.settings.path, "play", "click", "--at", "-1", "70"]) == 1
+    assert json.loads(capsys.readouterr().out)["outcome"] == "refused"
+    assert main(["--socket", str(folder / "nobody.sock"), "hello"]) == 69
+    assert capsys.readouterr().err.count("\n") == 1

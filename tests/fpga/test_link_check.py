@@ -1,0 +1,100 @@
+"""The SCK that is proposed is one that the wires carry, and what was not seen is bounded."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.stats import chi2
+
+from controller.clocks import VirtualClock
+from controller.fpga.bring_up import BitErrors
+from controller.fpga.gateware import Parameters
+from controller.fpga.link_check import MARGIN, SWEEP_STEPS, Speed, counted, error_rate_bound, measured_hz, proposed_hz, sweep
+from controller.fpga.model import GatewareModel
+from controller.fpga.session import Session
+from controller.fpga.simulated_link import SimulatedLink
+
+BUILD = 7
+
+
+class LongWires(SimulatedLink):
+    """Wires on which a bit of every frame is damaged at SCK above `carried_hz`, and all of them at twice that."""
+
+    carried_hz = math.inf
+
+    def exchange(self, sent, lengths, received):
+        super().exchange(sent, lengths, received)
+        start = 0
+        for length in lengths:
+            if self.sck_hz > 2 * self.carried_hz:
+                received[start : start + length] = b"\xff" * length
+            elif self.sck_hz > self.carried_hz and length > 100:
+                received[start + 100] ^= 1
+            start += length
+
+
+@pytest.fixture
+def wired(board):
+    clock = VirtualClock()
+    link = LongWires(board.link, clock.now_s, GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD)))
+    return link, Session(link, board, BUILD, clock.now_s)
+
+
+@given(st.integers(0, 200), st.integers(1000, 10**9))
+def test_the_bound_is_that_of_the_chi_squared_distribution(errors, bits):
+    exact = chi2.ppf(0.95, 2 * (errors + 1)) / 2 / bits
+    assert error_rate_bound(errors, bits) == pytest.approx(min(exact, 1.0), rel=1e-6)
+
+
+def test_no_error_in_n_bits_is_the_rule_of_three():
+    assert error_rate_bound(0, 10**6) == pytest.approx(3e-6, rel=0.002)
+    assert error_rate_bound(0, 0) == 1
+
+
+def test_one_damaged_bit_counts_once():
+    assert counted(BitErrors(frames=8, frames_refused=1, answers_damaged=0, bits=30_000, wrong_bits=1)) == (30_000, 1)
+    assert counted(BitErrors(frames=8, frames_refused=0, answers_damaged=0, bits=0, wrong_bits=0)) == (8 * 512 * 8, 0)
+
+
+@pytest.mark.parametrize("carried", [1.0, 0.8, 0.55, 0.3])
+def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
+    link, session = wired
+    link.carried_hz = carried * board.link.sck_hz
+    speeds = sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))
+    assert [speed.asked_hz for speed in speeds] == [round(step * board.link.sck_hz) for step in SWEEP_STEPS]
+    assert [speed.good for speed in speeds] == [step <= carried for step in SWEEP_STEPS]
+    assert all("only ones came back" in speed.trouble for speed in speeds if speed.sck_hz > 2 * link.carried_hz)
+    assert link.sck_hz == speeds[0].asked_hz
+    proposal_hz = proposed_hz(speeds)
+    assert proposal_hz <= link.carried_hz
+    assert session.heartbeat().faults == 0
+
+
+def test_wires_that_carry_nothing_get_no_proposal(board, wired):
+    link, session = wired
+    link.carried_hz = 1e5
+    assert proposed_hz(sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))) is None
+
+
+@given(st.lists(st.booleans(), min_size=1, max_size=12))
+def test_the_rule_keeps_its_margin(goods):
+    speeds = [Speed((n + 1) * 1_000_000, (n + 1) * 1e6, 1000, 0 if good else 1, "") for n, good in enumerate(goods)]
+    proposal_hz = proposed_hz(speeds)
+    failed_hz = [speed.asked_hz for speed in speeds if not speed.good]
+    if proposal_hz is None:
+        assert not [speed for speed in speeds if speed.good and speed.asked_hz <= MARGIN * min(failed_hz)]
+        return
+    assert all(speed.good for speed in speeds if speed.asked_hz <= proposal_hz)
+    assert proposal_hz <= MARGIN * min(failed_hz, default=math.inf)
+    if not failed_hz:
+        assert proposal_hz == speeds[-1].asked_hz
+
+
+def test_sck_is_measured_by_the_time_that_frames_take(wired):
+    link, session = wired
+    for sck_hz in (25_000_000, 10_000_000):
+        link.set_sck_hz(sck_hz)
+        assert measured_hz(session, link) == pytest.approx(sck_hz, rel=2e-3)
+        assert measured_hz(session, link) != pytest.approx(sck_hz * 1.01, rel=2e-3)

@@ -1,0 +1,167 @@
+"""The doctor says what is wrong, one thing in one line, with what to do; and that all is well where it is."""
+
+import json
+import resource
+
+import msgspec
+import pytest
+
+from controller import doctor
+from controller.cli import main
+from controller.clocks import VirtualClock
+from controller.device_settings import (
+    Ft5x06Touch,
+    LinkSettings,
+    LinuxInputTouch,
+    Realtime,
+    SerialTouch,
+    Temperature,
+)
+from controller.doctor import examine_link, look
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.session import Session
+from controller.fpga.simulated_link import SimulatedLink
+
+AXES = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
+SPI = LinkSettings(
+    kind="spi",
+    clock_hz=80_000_000,
+    sck_hz=25_000_000,
+    slots=4,
+    device="/dev/spidev9.9",
+    gpio_chip="no-such-chip",
+    trigger_line="GPIO25",
+)
+
+
+def said(findings, about):
+    """What was found out about one thing, and whether it is good."""
+    (finding,) = [finding for finding in findings if finding.about == about]
+    return finding.good, finding.said
+
+
+def with_tables(board, **tables):
+    return msgspec.structs.replace(board, **tables)
+
+
+def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
+    touch = Ft5x06Touch(bus="/dev/i2c-none", interrupt_chip="none", interrupt_line="INT", width=800, height=480, **AXES)
+    temperature = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
+    findings = look(with_tables(board, link=SPI, touch=touch, temperature=temperature), VirtualClock().now_s)
+    assert [finding.about for finding in findings] == [
+        "SPI device",
+        "spidev buffer",
+        "GPIO lines",
+        "touch panel",
+        "scene",
+        "bank",
+        "temperature",
+        "priority",
+        "locked memory",
+    ]
+    assert said(findings, "SPI device")[1].startswith("there is no /dev/spidev9.9")
+    assert "no GPIO chip has the label 'no-such-chip'" in said(findings, "GPIO lines")[1]
+    assert not said(findings, "touch panel")[0]
+    assert "no temperature sensor answers at /dev/i2c-none, address 0x48" in said(findings, "temperature")[1]
+    assert said(findings, "scene")[0]
+    assert all("\n" not in finding.said for finding in findings)
+
+
+@pytest.mark.parametrize(
+    "touch",
+    [LinuxInputTouch(device="/dev/input/none", grab=True, **AXES), SerialTouch(device="/dev/ttyNONE", **AXES)],
+)
+def test_a_panel_that_is_not_there_is_one_line(board, touch):
+    good, text = said(look(with_tables(board, touch=touch), VirtualClock().now_s), "touch panel")
+    assert not good
+    assert touch.device in text
+
+
+def test_a_serial_port_that_is_not_there_is_one_line(board):
+    link = msgspec.structs.replace(SPI, kind="serial", device="/dev/ttyNONE")
+    good, text = said(look(with_tables(board, link=link), VirtualClock().now_s), "serial port")
+    assert not good
+    assert "there is no serial port /dev/ttyNONE" in text
+
+
+@pytest.mark.parametrize(
+    ("bufsiz", "good", "text"), [(8192, True, "one message"), (4096, True, "two messages"), (4095, False, "8192")]
+)
+def test_the_buffer_of_spidev_is_judged(board, monkeypatch, bufsiz, good, text):
+    monkeypatch.setattr(doctor, "read_bufsiz", lambda: bufsiz)
+    found = said(look(with_tables(board, link=SPI), VirtualClock().now_s), "spidev buffer")
+    assert found[0] is good
+    assert text in found[1]
+
+
+@pytest.mark.parametrize("limit", [0, 49, 50, resource.RLIM_INFINITY])
+def test_what_a_user_may_ask_of_the_scheduler_is_judged(board, monkeypatch, limit):
+    monkeypatch.setattr(doctor.os, "geteuid", lambda: 1000)
+    monkeypatch.setattr(doctor.resource, "getrlimit", lambda _: (limit, limit))
+    findings = look(with_tables(board, link=SPI), VirtualClock().now_s)
+    assert said(findings, "priority")[0] is (limit in (50, resource.RLIM_INFINITY))
+    assert said(findings, "locked memory")[0] is (limit == resource.RLIM_INFINITY)
+    without = Realtime(priority=0, lock_memory=False)
+    findings = look(with_tables(board, link=SPI, realtime=without), VirtualClock().now_s)
+    assert said(findings, "priority") == (True, "none is asked for")
+    assert said(findings, "locked memory") == (True, "not asked for")
+    nowhere = Realtime(priority=0, cpu=1023)
+    assert "no core 1023" in said(look(with_tables(board, link=SPI, realtime=nowhere), VirtualClock().now_s), "priority")[1]
+
+
+def test_a_damaged_scene_and_a_missing_bank_are_named(board, tmp_path):
+    (tmp_path / "scene.toml").write_text("nonsense = 1\n")
+    findings = look(with_tables(board, scene=str(tmp_path / "scene.toml")), VirtualClock().now_s)
+    assert "nonsense" in said(findings, "scene")[1]
+    findings = look(with_tables(board, name="never-built"), VirtualClock().now_s)
+    assert "haptic-panel bank build --board" in said(findings, "bank")[1]
+
+
+def examined(board, model, channels=range(32)):
+    clock = VirtualClock()
+    link = SimulatedLink(board.link, clock.now_s, model)
+    return link, examine_link(board, link, lambda: Session(link, board, 5, clock.now_s), clock, 3e4, channels)
+
+
+def model_of(board, build=5):
+    return GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, build))
+
+
+def test_a_good_link_has_a_proposal_a_bound_and_no_complaint(board):
+    link, found = examined(board, model_of(board))
+    assert all(finding.good for finding in found.findings)
+    assert found.figures["proposed_sck_hz"] == board.link.sck_hz == link.sck_hz
+    assert found.figures["bit_errors"]["error_rate_at_most"] < 1.2e-4
+    assert [speed["errors"] for speed in found.figures["sweep"]] == [0] * 9
+
+
+def test_foreign_gateware_and_a_missing_permit_are_found(board):
+    _, found = examined(board, model_of(board, build=6))
+    assert "BUILD_HASH" in said(found.findings, "link")[1]
+    clock = VirtualClock()
+    model = model_of(board)
+    link = SimulatedLink(board.link, clock.now_s, model)
+    model.permit(1, False, Permit.RUN)
+
+    def session():
+        return Session(link, board, 5, clock.now_s)
+
+    found = examine_link(board, link, session, clock, 1e4, [3])
+    assert "run permit" in said(found.findings, "link")[1]
+    found = examine_link(board, link, session, clock, 1e4, [])
+    link.close()
+    assert all(finding.good for finding in found.findings)
+    assert not link.take_capture().hv.any(), "without chirps nothing is armed"
+    assert "no channel was asked for" in said(found.findings, "board")[1]
+
+
+def test_the_command_ends_with_1_if_anything_is_wrong_and_shows_it_as_json(capsys):
+    code = main(["doctor", "--link", "--bits", "1e4", "--no-chirps", "--json"])
+    figures = json.loads(capsys.readouterr().out)
+    assert code == (0 if figures["good"] else 1)
+    assert {finding["about"] for finding in figures["findings"]} >= {"touch panel", "identity and settings", "SCK", "bits"}
+    assert len(figures["sweep"]) == 9
+    assert main(["doctor", "--board", "ulx3s"]) in (0, 1)
+    table = capsys.readouterr().out
+    assert table.splitlines()[0].startswith(("ok", "NOT OK"))
