@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.latency import P999_SAMPLES, LatencyHistogram, Stages
+from controller.latency import P999_SAMPLES, STAGES, LatencyHistogram, Stages
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 
@@ -47,5 +47,26 @@ def test_a_clock_stepped_back_counts_as_no_time():
 
 def test_the_total_is_the_sum_of_its_stages():
     stages = Stages()
-    stages.record(100, 20, 3)
-    assert [h.worst_ns for h in (stages.host, stages.wait, stages.wire, stages.total)] == [100, 20, 3, 123]
+    stages.record(100, 20, 3_000, 50_000, 4)
+    assert {name: getattr(stages, name).worst_ns for name in STAGES} == {
+        "decide": 100,
+        "frame": 20,
+        "wire": 3_000,
+        "wait": 50_000,
+        "trigger": 4,
+        "host": 124,
+        "total": 53_124,
+    }
+
+
+@given(st.lists(st.integers(0, 10**10), max_size=50))
+def test_an_exported_histogram_has_every_record_below_its_upper_bound(durations_ns):
+    histogram = LatencyHistogram()
+    for duration_ns in durations_ns:
+        histogram.record(duration_ns)
+    exported = histogram.export()["histogram"]
+    assert sum(count for _, count in exported) == len(durations_ns)
+    below = 0
+    for upper_us, count in exported:
+        below += count
+        assert below == sum(duration_ns < round(upper_us * 1e3) for duration_ns in durations_ns)

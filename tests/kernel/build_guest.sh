@@ -22,7 +22,7 @@ if [ ! -e "$done" ]; then
   series=$(printf '%s' "$base" | cut -d. -f1-2)
   root=$work/root
   mkdir -p "$work"/{deb,source,gpio-sim,labdev} "$root"
-  (cd "$work/deb" && apt-get download -q "linux-image-$version" "linux-headers-$version" "linux-headers-$base-common" \
+  (cd "$work/deb" && apt-get -o APT::Sandbox::User=root download -q "linux-image-$version" "linux-headers-$version" "linux-headers-$base-common" \
     "linux-kbuild-$series" "linux-source-$series" busybox-static) >>"$log" 2>&1
   for package in "$work"/deb/linux-{image,headers,kbuild}-*.deb "$work"/deb/busybox-static*.deb; do dpkg-deb -x "$package" "$root"; done
   headers=$root/usr/src/linux-headers-$version

@@ -5,5 +5,7 @@ set -euo pipefail
 dpkg -s "$@" >/dev/null 2>&1 && exit
 as_root=(env DEBIAN_FRONTEND=noninteractive)
 [ "$(id -u)" = 0 ] || as_root=(sudo "${as_root[@]}")
-"${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 update -q
-"${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 install -y -q --no-install-recommends "$@"
+# In containers apt's own user may lack what checking a signature needs: root checks it.
+options=(-o DPkg::Lock::Timeout=300 -o APT::Sandbox::User=root)
+"${as_root[@]}" apt-get "${options[@]}" update -q
+"${as_root[@]}" apt-get "${options[@]}" install -y -q --no-install-recommends "$@"
