@@ -19,6 +19,7 @@ from controller.scene_change import SceneChanger
 from controller.service import Notifier, Watchdog, enter_realtime, tell
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
+from controller.touch.tracker import Tracker
 from controller.touch.warnings import in_words
 
 REPLAY_AFTER_S = 0.3  # beyond the ramp
@@ -78,7 +79,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
         assembly.loop.run(_ready(notifier, board))
         notifier.stopping("outputs are off")
-        return _figures(board, assembly, housekeeping, in_words(source.warnings))
+        return _figures(board, assembly, housekeeping, source)
 
 
 def _ready(notifier: Notifier, board: Board) -> Callable[[], None]:
@@ -89,5 +90,11 @@ def _ready(notifier: Notifier, board: Board) -> Callable[[], None]:
     return ready
 
 
-def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, warnings: list[str]) -> dict[str, Any]:
-    return {"board": board.name, "warnings": warnings, "bit_clock_scale": housekeeping.scale} | assembly.counters.export()
+def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, source: Tracker) -> dict[str, Any]:
+    said = {
+        "board": board.name,
+        "warnings": in_words(source.warnings),
+        "bit_clock_scale": housekeeping.scale,
+        "touch": source.figures(),
+    }
+    return said | assembly.counters.export()

@@ -202,7 +202,9 @@ class EventLoop:
         """The outputs are off: nothing that was under way is taken up again."""
         self._playback.forget()
         self._performance.interrupted(self._panel_s())
-        self._outputs.failed(error, self._clock.now_s())
+        now_s = self._clock.now_s()
+        self._source.emitted(now_s, now_s)  # whatever sounded has ended
+        self._outputs.failed(error, now_s)
 
     def _watch(self, selector: selectors.BaseSelector) -> None:
         """Keep the selector on the files of today: a panel that was plugged in again has another one."""

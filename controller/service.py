@@ -132,9 +132,10 @@ class Watchdog:
 
 
 def tell(sentence: str) -> None:
-    """One line to the log."""
-    sys.stderr.write(f"haptic-panel: {sentence}\n")
-    sys.stderr.flush()
+    """One line to the log; a log that is full or gone is no reason to stop."""
+    with contextlib.suppress(OSError):
+        sys.stderr.write(f"haptic-panel: {sentence}\n")
+        sys.stderr.flush()
 
 
 def enter_realtime(settings: Realtime) -> list[str]:

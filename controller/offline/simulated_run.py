@@ -78,6 +78,7 @@ class Run:
     played: list[Played]
     link: SimulatedLink
     start_s: float
+    touch: dict[str, Any]  # of the tracker
     lookups: int
     response_mapped: bool
     reference: LatencyHistogram
@@ -133,6 +134,7 @@ def play(
         played=played,
         link=link,
         start_s=start_s,
+        touch=tracker.figures(),
         lookups=bank.counters.lookups,
         response_mapped=assembly.selection.composes,
         reference=copy_and_checksum(board.waveform.samples * 4),
@@ -250,7 +252,13 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "outputs_off": not (run.capture.hv[-1:].any() or run.capture.words[-1:].any()),
         "bytes_sent": run.link.bytes_sent,
         "gateware_speed": round(run.link.speed, 3),  # times real time
+        "scheduled": counters.scheduled,
+        "late": counters.late,
+        "prefetched": counters.prefetched,
+        "near": counters.near,
+        "outages": counters.outages,
         "skipped": asdict(counters.skipped),
+        "touch": run.touch,
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},

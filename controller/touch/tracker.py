@@ -12,8 +12,9 @@ What a contact goes through:
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import hypot, inf
+from typing import Any
 
 from controller.device_settings import TouchPanel
 from controller.touch.ghost_guard import NEAR_M, GhostGuard
@@ -103,6 +104,14 @@ class Tracker:
     def warnings(self) -> Counter[str]:
         """Of the source."""
         return self._source.warnings
+
+    def figures(self) -> dict[str, Any]:
+        """What was held back or refused, and how the panel reports, ready for JSON; None where too little is known."""
+        median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
+        return asdict(self.tracking) | {
+            "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
+            "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
+        }
 
     def fileno(self) -> int | None:
         """Of the source."""
