@@ -82,7 +82,6 @@ class Performance:
         if state is None:
             self._unfelt(before, Outcome.SKIPPED, sample.time_s)
             self._states.pop(finger, None)
-            self._given.pop(finger, None)
         else:
             self._states[finger] = state
         if emissions:
@@ -91,6 +90,8 @@ class Performance:
             self._counters.skipped.outside_region += 1
         elif state is not None:
             self._counters.skipped.between_emissions += 1
+        if state is None:  # what it felt as it was lifted is counted too
+            self._given.pop(finger, None)
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """A command plays an effect at a point, or for a finger.

@@ -54,12 +54,13 @@ def main(bank_path: Path, scene_file: Path, warm_up: int, steady: int, spoilt: b
             figures["emissions"] = emissions - int(str(figures["from"]))
             panel.stopped = True
 
+    source = tracked(LiveSource(panel, board), board)
     with Bank.open(bank_path, board) as bank:
-        assembly = assemble(board, scene, bank, clock, session, tracked(LiveSource(panel, board), board), progress=progress)
+        assembly = assemble(board, scene, bank, clock, session, source, progress=progress)
         counters = assembly.counters
         assembly.selection.prepare()
         assembly.loop.run(link.answer_alone)
-    figures["most_fingers"] = max(1, counters.uploads) and panel.rounds
+    figures["most_fingers"] = source.counts.max_fingers
     if counts:
         large = counter.counted_large()
         figures["large"] = large
