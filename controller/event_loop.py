@@ -33,6 +33,7 @@ from controller.wakeup import Wakeup, signals
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
+KEPT_TUPLES, KEPT_TUPLE_LENGTHS = 2000, 20  # CPython keeps so many freed tuples of each length below, 5 MB in all
 PREFETCH_AHEAD_S = 30e-3  # for where a moving finger will be then
 
 
@@ -378,6 +379,8 @@ def _collector_off() -> Iterator[None]:
     gc.collect()
     gc.freeze()
     gc.disable()
+    for length in range(1, KEPT_TUPLE_LENGTHS):  # so that the interpreter's store of them does not grow while the loop runs
+        _ = [tuple([None] * length) for _ in range(KEPT_TUPLES)]
     try:
         yield
     finally:

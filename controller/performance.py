@@ -23,7 +23,6 @@ from controller.scene import (
     Spot,
     anchored,
     ended,
-    next_time_s,
     on_time,
     on_touch,
     spot_emission,
@@ -35,6 +34,7 @@ from controller.touch.samples import TouchSample
 
 MOST_WAITING = 32  # commands; of more the oldest is skipped
 LEAST_STEP_M = 0.5e-3  # a finger that moves less is at rest
+GLIMPSE_S = 5e-3  # over which a finger's velocity is seen; farther ahead `place` expects that it may have stopped
 SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
 
 Owner = int | str
@@ -82,7 +82,6 @@ class Performance:
         if state is None:
             self._unfelt(before, Outcome.SKIPPED, sample.time_s)
             self._states.pop(finger, None)
-            self._given.pop(finger, None)
         else:
             self._states[finger] = state
         if emissions:
@@ -91,6 +90,8 @@ class Performance:
             self._counters.skipped.outside_region += 1
         elif state is not None:
             self._counters.skipped.between_emissions += 1
+        if state is None:  # what it felt as it was lifted is counted too
+            self._given.pop(finger, None)
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """A command plays an effect at a point, or for a finger.
@@ -115,12 +116,14 @@ class Performance:
 
     def advance(self, until_s: float) -> None:
         """Collect what becomes due by itself up to a time."""
+        advanced = False
         for owner, state in self._states.items():
-            at_s = next_time_s(state)
-            if at_s is not None and at_s <= until_s:
+            if state.next_s <= until_s:
                 self._states[owner], emissions = on_time(self.scene, state, until_s)
                 self._add(emissions)
-        self._drop_ended()
+                advanced = True
+        if advanced:
+            self._drop_ended()
 
     def add_spots(self, now_s: float, until_s: float) -> None:
         """Collect the spots whose beat comes up to a time."""
@@ -160,7 +163,7 @@ class Performance:
 
     def next_s(self) -> float:
         """When `advance` has something to do."""
-        return min([at_s for at_s in map(next_time_s, self._states.values()) if at_s is not None], default=NEVER)
+        return min([state.next_s for state in self._states.values()], default=NEVER)
 
     def next_spot_s(self) -> float:
         """When the next spot's beat comes."""
@@ -183,17 +186,18 @@ class Performance:
             From crossing to the focus.
         """
         state = self._states.get(finger)
-        here, there = place(finger, now_s), place(finger, now_s + ahead_s)
-        if state is None or here is None or there is None:
+        here, soon = place(finger, now_s), place(finger, now_s + GLIMPSE_S)
+        if state is None or here is None or soon is None:
             return None
-        step_m = math.dist(here, there)
-        if step_m < LEAST_STEP_M:
+        step_m = math.dist(here, soon)
+        if step_m * ahead_s < LEAST_STEP_M * GLIMPSE_S:
             return None
-        way_m, amplitude = state.next_crossing((there[0] - here[0]) / step_m, (there[1] - here[1]) / step_m)
-        if way_m > step_m:
+        x, y = (soon[0] - here[0]) / step_m, (soon[1] - here[1]) / step_m
+        way_m, amplitude = state.next_crossing(x, y)
+        if way_m * GLIMPSE_S > step_m * ahead_s:
             return None
-        at = place(finger, now_s + ahead_s * way_m / step_m + after_s)
-        return None if at is None else (*at, amplitude)
+        way_m += step_m * after_s / GLIMPSE_S
+        return here[0] + x * way_m, here[1] + y * way_m, amplitude
 
     def started(self, emissions: list[Emission], start_s: float) -> None:
         """These were started; trains that began with them keep their beat from there."""

@@ -56,10 +56,13 @@ class Grid:
 
     def nearest(self, x_m: float, y_m: float) -> tuple[int, float]:
         """Cell nearest to a point, and its distance from it in m."""
-        ix = min(max(round((x_m - self.x0_m) / self.pitch_m), 0), self.nx - 1)
-        iy = min(max(round((y_m - self.y0_m) / self.pitch_m), 0), self.ny - 1)
-        distance_m = math.hypot(x_m - self.x0_m - ix * self.pitch_m, y_m - self.y0_m - iy * self.pitch_m)
-        return iy * self.nx + ix, distance_m
+        pitch_m, nx = self.pitch_m, self.nx
+        x_m -= self.x0_m
+        y_m -= self.y0_m
+        ix, iy = round(x_m / pitch_m), round(y_m / pitch_m)
+        ix = 0 if ix < 0 else ix if ix < nx else nx - 1
+        iy = 0 if iy < 0 else iy if iy < self.ny else self.ny - 1
+        return iy * nx + ix, math.hypot(x_m - ix * pitch_m, y_m - iy * pitch_m)
 
     def patch(self, x_m: float, y_m: float) -> tuple[int, int, int, float, float]:
         """Give the cells around a point that count: the first, how many along x and along y, and the place between.

@@ -73,12 +73,15 @@ class Interpolation:
 
     def _weigh(self, cell: int, columns: int, rows: int, right: float, up: float) -> None:
         """Weights of the cells: bilinear, times each one's scale, in 256ths of all."""
-        vertical, horizontal = (1 - up, up), (1 - right, right)
-        shares = [
-            vertical[row] * horizontal[column] * self._bank.scale(cell + row * self._grid.nx + column)
-            for row in range(rows)
-            for column in range(columns)
-        ]
+        scale = self._bank.scale
+        shares = [(1 - up) * (1 - right) * scale(cell)]
+        if columns == 2:
+            shares.append((1 - up) * right * scale(cell + 1))
+        if rows == 2:
+            above = cell + self._grid.nx
+            shares.append(up * (1 - right) * scale(above))
+            if columns == 2:
+                shares.append(up * right * scale(above + 1))
         total = sum(shares)
         unit = WEIGHT_SUM / total if total else 0.0
         for weight, share in zip(self._weights, shares, strict=False):

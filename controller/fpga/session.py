@@ -67,6 +67,7 @@ class Session:
         self._upload_lengths = [(*self._upload.lengths, *[FRAME_BYTES] * commands) for commands in range(COMMANDS + 1)]
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
         self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole ones, before the PLAY
+        self._period_s, self._period_of, self._period = 0.0, 0, 0  # the last one asked for, at which bit period, in clocks
         self._ours = False  # if anything is on, this host has armed it
         self._on = False  # it has to be, since it was armed and until it is disarmed
         self._beat_s = math.inf  # after the last heartbeat
@@ -269,7 +270,7 @@ class Session:
             fillers = self._check_frames + 1
             for number in range(1, fillers + 1):
                 end = frames.pack_nop(self._sent, end, sequence + number)
-            return self.exchange.message(self._upload_lengths[1 + fillers])
+            return self.exchange.message(self._upload_lengths[1 + fillers], vouched=self._upload.frames)
 
         self.exchange.insist(send)
 
@@ -316,7 +317,7 @@ class Session:
                 self._sent, end, sequence, slot, count=count, period_ticks=period_ticks, start=start, when_ticks=when_ticks
             )
             end = frames.pack_nop(self._sent, end, sequence + 1)
-            return self.exchange.message(self._upload_lengths[(end - commands) // FRAME_BYTES])
+            return self.exchange.message(self._upload_lengths[(end - commands) // FRAME_BYTES], vouched=self._upload.frames)
 
         try:
             self.exchange.insist(send)
@@ -365,6 +366,11 @@ class Session:
 
     def _period_ticks(self, period_s: float) -> int:
         """Clocks from emission to emission: without a pause at the board's bit clock is without one at any."""
+        if period_s != self._period_s or self._period_of != self.bit_period:
+            self._period_s, self._period_of, self._period = period_s, self.bit_period, self._ticks_between(period_s)
+        return self._period
+
+    def _ticks_between(self, period_s: float) -> int:
         board = self._board
         ticks = board.period_ticks(period_s)
         shortest = self._emission_ticks

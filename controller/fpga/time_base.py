@@ -25,11 +25,14 @@ class TimeBase:
     ----------
     known : bool
         Whether any exchange was taken in.
+    offset_s : float
+        FPGA time minus host time.
     """
 
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
         self.known = False
+        self.offset_s = 0.0
         self._low_s = self._high_s = 0.0  # bounds of FPGA time - host time
         self._at_s = 0.0
 
@@ -44,12 +47,8 @@ class TimeBase:
             if kept_low_s <= kept_high_s:
                 low_s, high_s = kept_low_s, kept_high_s
         self._low_s, self._high_s = low_s, high_s
+        self.offset_s = (low_s + high_s) / 2
         self.known = True
-
-    @property
-    def offset_s(self) -> float:
-        """FPGA time minus host time."""
-        return (self._low_s + self._high_s) / 2
 
     @property
     def error_s(self) -> float:

@@ -39,15 +39,17 @@ class UploadImage:
         self.frames = len(pieces)
         self._sent = sent
         self._end: int = pieces[-1].stop
-        # each frame: where it begins, where its CRC lies, what that is of, its payload, whose part of the words
+        # each frame: its header by sequence number, where that goes, where its CRC lies, what that is of, its payload, and
+        # which part of the words that is
         self._pieces = []
         for chunk, piece in enumerate(pieces):
             crc, payload = piece.stop - CRC.size, piece.start + HEADER.size
             first, last = chunk * STEP_BYTES, min((chunk + 1) * STEP_BYTES, 4 * samples)
             under_crc, filled = sent[piece.start : crc], sent[payload : payload + last - first]
-            self._pieces.append((piece.start, crc, under_crc, filled, slice(first, last), crc - payload))
+            heads = tuple(HEADER.pack(FRAME_SYNC, LOAD, sequence, crc - payload, chunk) for sequence in range(256))
+            self._pieces.append((heads, sent[piece.start : payload], crc, under_crc, filled, slice(first, last)))
         rest = 4 * samples % STEP_BYTES
-        self._filler = sent[self._pieces[-1][1] - LOAD_PAYLOAD_MIN_BYTES + rest : self._pieces[-1][1]]
+        self._filler = sent[self._pieces[-1][2] - LOAD_PAYLOAD_MIN_BYTES + rest : self._pieces[-1][2]]
         if not 0 < rest < LOAD_PAYLOAD_MIN_BYTES:
             self._filler = sent[:0]
         self._zeros = bytes(len(self._filler))
@@ -62,10 +64,11 @@ class UploadImage:
         words : memoryview of bytes
             4 for each sample; copied once.
         """
-        sent = self._sent
+        sent, seal = self._sent, CRC.pack_into
         self._filler[:] = self._zeros
-        for chunk, (start, crc, under_crc, payload, part, size) in enumerate(self._pieces):
+        for heads, head, crc, under_crc, payload, part in self._pieces:
             payload[:] = words[part]
-            HEADER.pack_into(sent, start, FRAME_SYNC, LOAD, (sequence + chunk) & 0xFF, size, chunk)
-            CRC.pack_into(sent, crc, zlib.crc32(under_crc))
+            head[:] = heads[sequence & 0xFF]
+            seal(sent, crc, zlib.crc32(under_crc))
+            sequence += 1
         return self._end

@@ -240,12 +240,13 @@ class Decoder:
     def _samples(self, time_s: float) -> tuple[TouchSample, ...]:
         """What this report released, moved and began."""
         samples = []
-        for contact in self._gone:
-            samples.append(self._released(contact, time_s))
-        self._gone.clear()
+        placed = []
+        if self._gone:
+            for contact in self._gone:
+                samples.append(self._released(contact, time_s))
+            self._gone.clear()
         hovering = self._touching is False
         down = 0
-        moved = False
         for contact in self._slots.values():
             identity = contact.identity
             if (identity < 0 and identity != IMPLIED) or hovering or contact.hovers:
@@ -262,21 +263,19 @@ class Decoder:
                     samples.append(self._released(contact, time_s))
                 contact.refused = False
             elif contact.moved or contact.finger is None:
-                moved = True
+                placed.append(contact)
         if down:
             counts = self.counts
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)
-        if moved:
-            for contact in self._slots.values():
-                if contact.moved or contact.finger is None:
-                    self._place(contact, time_s, samples)
+        for contact in placed:  # after all releases: they make room for fingers that begin
+            self._place(contact, time_s, samples)
         return tuple(samples)
 
     def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
-        """Add the sample of a contact that has moved or begun, if it is played."""
+        """Add the sample of a contact that is down and has moved or begun, if it is played."""
         x, y = contact.x, contact.y
-        if x is None or y is None or contact.palm or contact.refused or not self._down(contact):
+        if x is None or y is None or contact.refused:
             return
         finger = contact.finger
         if finger is None:

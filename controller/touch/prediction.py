@@ -87,7 +87,8 @@ class Motion:
         if self._rested >= REST_REPORTS:
             return self._anchor_x_m, self._anchor_y_m
         age_s = at_s - self.time_s
-        ahead_s = min(max(age_s, 0.0) + lag_s, LONGEST_AHEAD_S)
+        ahead_s = age_s + lag_s if age_s > 0.0 else lag_s
+        ahead_s = min(ahead_s, LONGEST_AHEAD_S)
         if age_s > LIVELY_PERIODS * period_s:
             ahead_s *= max(SILENT_PERIODS - age_s / period_s, 0.0) / (SILENT_PERIODS - LIVELY_PERIODS)
         ahead_m = hypot(self.vx, self.vy) * ahead_s

@@ -158,7 +158,11 @@ class Tracker:
             x_m, y_m = contact.motion.x_m, contact.motion.y_m
         else:
             x_m, y_m = contact.motion.place(at_s, self._lag_s, self.rate.period_s)
-        return min(max(x_m, 0.0), self._length_m), min(max(y_m, 0.0), self._width_m)
+        length_m, width_m = self._length_m, self._width_m
+        return (
+            0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
+            0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
+        )
 
     def confirmed(self, finger: int) -> bool:
         """Whether a second report, or silence for as long, has shown that the contact stays."""

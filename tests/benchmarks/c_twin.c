@@ -1,0 +1,694 @@
+/* The way of a touch report to the frames of an upload, in C: what the loop does in Python, for the same bytes.
+ *
+ * Events of protocol B are decoded, fingers tracked and predicted, regions and ways asked; then an upload is aimed,
+ * its words are looked up, interpolated or composed, and packed into frames. Which of the fingers that are due is
+ * played when, from which slot, under which number, is told by the loop that runs beside (host_latency.py).
+ */
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#include <time.h>
+
+enum { CHANNELS = 32, SAMPLES = 1000, VALUES = CHANNELS * SAMPLES, FINGERS = 16, SLOTS = 16, POINTS = 10, CHUNKS = 8 };
+enum { CHUNK_BYTES = 500, LOAD_BYTES = 512, SHORT_BYTES = 36, UPLOAD_BYTES = CHUNKS * LOAD_BYTES };
+enum { AWAY = -1, UNKNOWN = -2, IMPLIED = -3 };
+
+struct event { int64_t second, microsecond; uint16_t type, code; int32_t value; };
+
+struct config {
+    const uint8_t *drive;
+    const int8_t *response;
+    const int32_t *entry_of;
+    const double *scale_of;
+    uint32_t (*crc32)(uint32_t, const uint8_t *, uint32_t);
+    int64_t drive_stride, response_stride;
+    int64_t nx, ny, regions, slots;
+    double pitch_m, x0_m, y0_m, snap_m, near_m, lattice_m;
+    double length_m, width_m, lag_s, max_size_m;
+    double rectangle[16][4], spacing_m[16]; /* spacing 0: none */
+    int64_t idle_word;
+};
+
+struct axes { double from[6], size_m; int64_t x_low, x_high, y_low, y_high; };
+struct contact { int identity, x, y, has_x, has_y, moved, hovers, palm, size, finger, used; double x_m, y_m, size_m; };
+struct sample { int finger, contact; double x_m, y_m, time_s, size_m; };
+struct motion { double x_m, y_m, time_s, vx, vy, fx_m, fy_m, fvx, fvy, ax_m, ay_m; int rested; };
+struct tracked { int number, finger, reports, played, refused; double first_s, lost_s; struct motion motion; };
+struct state { int finger, region, due; double x_m, y_m, way_m, anchor_x_m, anchor_y_m; };
+struct key { int known, cell, lone; long x, y; double x_m, y_m; };
+
+static struct config c;
+static struct axes axes;
+static struct contact slots[SLOTS];
+static int order[SLOTS], used, here, touching, next_finger;
+static struct { int finger; double x_m, y_m, size_m; } gone[FINGERS];
+static int gones;
+static struct tracked contacts[FINGERS], lost[FINGERS];
+static int contact_count, lost_count;
+static double period_s, last_report_s, due_s;
+static int has_report;
+static struct state states[FINGERS];
+static int state_count;
+static struct key resident[16];
+static uint8_t sent[UPLOAD_BYTES + 8 * SHORT_BYTES];
+static uint32_t words[SAMPLES];
+static int16_t low_at[CHANNELS], flip[CHANNELS];
+
+static int64_t now_ns(void)
+{
+    struct timespec at;
+    clock_gettime(CLOCK_MONOTONIC, &at);
+    return at.tv_sec * 1000000000LL + at.tv_nsec;
+}
+
+void twin_begin(const struct config *config)
+{
+    c = *config;
+    for (int q = 0; q < CHANNELS; q++) {
+        int high = c.idle_word >> q & 1;
+        low_at[q] = -high;
+        flip[q] = 1 - 2 * high;
+    }
+    period_s = 10e-3;
+    due_s = INFINITY;
+    touching = -1;
+    next_finger = contact_count = lost_count = state_count = has_report = used = gones = 0;
+    memset(resident, 0, sizeof resident);
+    memset(slots, 0, sizeof slots);
+}
+
+static void enter(int slot)
+{
+    here = slot;
+    if (!slots[slot].used) {
+        memset(&slots[slot], 0, sizeof slots[slot]);
+        slots[slot].used = 1;
+        slots[slot].identity = UNKNOWN;
+        slots[slot].finger = -1;
+        order[used++] = slot;
+    }
+}
+
+void twin_panel(const struct axes *of) /* another recording: a decoder anew, the fingers' numbers go on */
+{
+    axes = *of;
+    memset(slots, 0, sizeof slots);
+    used = gones = 0;
+    touching = -1;
+    enter(0);
+}
+
+/* ---- tracking ---- */
+
+static void motion_begin(struct motion *m, double x_m, double y_m, double time_s)
+{
+    memset(m, 0, sizeof *m);
+    m->x_m = m->fx_m = m->ax_m = x_m;
+    m->y_m = m->fy_m = m->ay_m = y_m;
+    m->time_s = time_s;
+}
+
+static void motion_report(struct motion *m, double x_m, double y_m, double time_s)
+{
+    double step_s = time_s - m->time_s;
+    if (step_s > 50e-3) {
+        step_s = 50e-3;
+        m->fvx = m->fvy = 0;
+        m->fx_m = m->x_m;
+        m->fy_m = m->y_m;
+    } else if (step_s < 2e-3)
+        step_s = 2e-3;
+    double vx = m->fvx, vy = m->fvy;
+    double ahead_x = m->fx_m + vx * step_s, ahead_y = m->fy_m + vy * step_s;
+    double off_x = x_m - ahead_x, off_y = y_m - ahead_y;
+    m->fx_m = ahead_x + 0.4 * off_x;
+    m->fy_m = ahead_y + 0.4 * off_y;
+    m->fvx = vx = vx + 0.2 / step_s * off_x;
+    m->fvy = vy = vy + 0.2 / step_s * off_y;
+    double step_x = x_m - m->x_m, step_y = y_m - m->y_m;
+    double most = 1.5 * hypot(step_x, step_y) / step_s, speed = hypot(vx, vy);
+    if (vx * step_x + vy * step_y <= 0)
+        vx = vy = 0;
+    else if (speed > most) {
+        vx = vx * most / speed;
+        vy = vy * most / speed;
+    }
+    m->vx = vx;
+    m->vy = vy;
+    m->x_m = x_m;
+    m->y_m = y_m;
+    m->time_s = time_s;
+    if (hypot(x_m - m->ax_m, y_m - m->ay_m) <= 0.35e-3) {
+        if (++m->rested == 8) {
+            m->ax_m = m->fx_m;
+            m->ay_m = m->fy_m;
+        }
+    } else {
+        m->ax_m = x_m;
+        m->ay_m = y_m;
+        m->rested = 0;
+    }
+}
+
+static void motion_place(const struct motion *m, double at_s, double *x_m, double *y_m)
+{
+    if (m->rested >= 8) {
+        *x_m = m->ax_m;
+        *y_m = m->ay_m;
+        return;
+    }
+    double age_s = at_s - m->time_s, ahead_s = fmin(fmax(age_s, 0) + c.lag_s, 40e-3);
+    if (age_s > 1.5 * period_s)
+        ahead_s *= fmax(2.5 - age_s / period_s, 0) / (2.5 - 1.5);
+    double ahead_m = hypot(m->vx, m->vy) * ahead_s;
+    if (ahead_m > 20e-3)
+        ahead_s *= 20e-3 / ahead_m;
+    *x_m = m->x_m + m->vx * ahead_s;
+    *y_m = m->y_m + m->vy * ahead_s;
+}
+
+/* ---- scene ---- */
+
+static int region_at(double x_m, double y_m)
+{
+    for (int i = 0; i < c.regions; i++) {
+        const double *r = c.rectangle[i];
+        if (r[0] <= x_m && x_m <= r[2] && r[1] <= y_m && y_m <= r[3])
+            return i;
+    }
+    return -1;
+}
+
+static void come_into(struct state *s, int region)
+{
+    s->region = region;
+    s->way_m = 0;
+    s->anchor_x_m = s->x_m;
+    s->anchor_y_m = s->y_m;
+}
+
+static int crossed(struct state *s, double spacing_m)
+{
+    double rest_m = fmin(0.25e-3, spacing_m / 4);
+    double step_m = hypot(s->x_m - s->anchor_x_m, s->y_m - s->anchor_y_m), way_m = s->way_m + step_m;
+    if (way_m >= spacing_m - 1e-9) {
+        s->way_m = fmax(fmod(way_m + 1e-9, spacing_m) - 1e-9, 0);
+        s->anchor_x_m = s->x_m;
+        s->anchor_y_m = s->y_m;
+        return 1;
+    }
+    if (step_m >= rest_m) {
+        s->way_m = way_m;
+        s->anchor_x_m = s->x_m;
+        s->anchor_y_m = s->y_m;
+    }
+    return 0;
+}
+
+static void touch(int finger, double x_m, double y_m, int contact)
+{
+    struct state *s = states, *end = states + state_count;
+    while (s < end && s->finger != finger)
+        s++;
+    if (!contact) {
+        if (s < end)
+            *s = states[--state_count];
+        return;
+    }
+    int region = region_at(x_m, y_m);
+    if (s == end) {
+        if (state_count == FINGERS)
+            return;
+        state_count++;
+        s->finger = finger;
+        s->x_m = x_m;
+        s->y_m = y_m;
+        come_into(s, region);
+        s->due = region >= 0;
+        return;
+    }
+    s->x_m = x_m;
+    s->y_m = y_m;
+    if (region != s->region)
+        come_into(s, region);
+    else if (region >= 0 && c.spacing_m[region] > 0 && crossed(s, c.spacing_m[region]))
+        s->due = 1;
+}
+
+/* ---- one read of the tracker ---- */
+
+static void track(const struct sample *sample)
+{
+    struct tracked *t = contacts, *end = contacts + contact_count;
+    while (t < end && t->number != sample->finger)
+        t++;
+    if (!sample->contact) {
+        if (t == end)
+            return;
+        struct tracked left = *t;
+        memmove(t, t + 1, (end - t - 1) * sizeof *t);
+        contact_count--;
+        if (!left.refused && left.played && lost_count < FINGERS) {
+            left.lost_s = sample->time_s;
+            lost[lost_count++] = left;
+        }
+        return;
+    }
+    int palm = sample->size_m > c.max_size_m;
+    if (t == end) {
+        if (contact_count == FINGERS)
+            return;
+        contact_count++;
+        int i = 0;
+        for (; i < lost_count; i++) {
+            struct motion *m = &lost[i].motion;
+            if (!palm && hypot(sample->x_m - m->x_m, sample->y_m - m->y_m) <= 5e-3 &&
+                sample->time_s <= lost[i].lost_s + 1.5 * period_s)
+                break;
+        }
+        if (i < lost_count) {
+            *t = lost[i];
+            memmove(lost + i, lost + i + 1, (lost_count - i - 1) * sizeof *lost);
+            lost_count--;
+            t->lost_s = INFINITY;
+            t->number = sample->finger;
+        } else {
+            memset(t, 0, sizeof *t);
+            t->number = t->finger = sample->finger;
+            t->reports = 1;
+            t->refused = palm;
+            t->first_s = sample->time_s;
+            t->lost_s = INFINITY;
+            motion_begin(&t->motion, sample->x_m, sample->y_m, sample->time_s);
+            return;
+        }
+    }
+    if (t->refused)
+        return;
+    if (palm) {
+        t->refused = 1;
+        if (t->played) {
+            t->played = 0;
+            touch(t->finger, 0, 0, 0);
+        }
+        return;
+    }
+    motion_report(&t->motion, sample->x_m, sample->y_m, sample->time_s);
+    t->reports++;
+    if (t->played)
+        touch(t->finger, sample->x_m, sample->y_m, 1);
+}
+
+static void tracker_read(const struct sample *samples, int count, int told, double now_s)
+{
+    if (!count && !told && now_s < due_s)
+        return;
+    double known_s = count ? samples[0].time_s : now_s;
+    for (int i = 0; i < count; i++)
+        track(samples + i);
+    if (told) {
+        if (has_report) {
+            double step_s = known_s - last_report_s;
+            int bin = (int)(step_s / 0.25e-3);
+            if (0 < bin && bin < 256)
+                period_s = fmin(fmax(period_s * (step_s > period_s ? 1 + 0.02 : 1 - 0.02), 2e-3), 25e-3);
+        }
+        has_report = 1;
+        last_report_s = known_s;
+        for (int i = 0; i < contact_count; i++) {
+            struct tracked *t = contacts + i;
+            if (t->motion.time_s < known_s && !t->refused) {
+                motion_report(&t->motion, t->motion.x_m, t->motion.y_m, known_s);
+                t->reports++;
+            }
+        }
+    }
+    due_s = INFINITY;
+    for (int i = 0; i < lost_count;) {
+        double until_s = lost[i].lost_s + 1.5 * period_s;
+        if (known_s >= until_s) {
+            touch(lost[i].finger, 0, 0, 0);
+            memmove(lost + i, lost + i + 1, (lost_count - i - 1) * sizeof *lost);
+            lost_count--;
+        } else {
+            due_s = fmin(due_s, until_s);
+            i++;
+        }
+    }
+    for (int i = 0; i < contact_count; i++) {
+        struct tracked *t = contacts + i;
+        if (t->played || t->refused)
+            continue;
+        t->played = 1;
+        touch(t->finger, t->motion.x_m, t->motion.y_m, 1);
+    }
+    if (!contact_count)
+        has_report = 0;
+}
+
+/* ---- decoding ---- */
+
+static int down(const struct contact *k)
+{
+    return (k->identity >= 0 || k->identity == IMPLIED) && !k->hovers && touching != 0;
+}
+
+static struct sample released(struct contact *k, double time_s)
+{
+    struct sample s = {k->finger, 0, k->x_m, k->y_m, time_s, k->size_m};
+    k->finger = -1;
+    return s;
+}
+
+static int decode(const struct event *events, int count, double time_s, struct sample *samples, int *told)
+{
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        const struct event *e = events + i;
+        struct contact *k = slots + here;
+        if (e->type == 3) {
+            switch (e->code) {
+            case 0x35:
+                if (!k->has_x || e->value != k->x) { k->x = e->value; k->has_x = k->moved = 1; }
+                if (k->identity == UNKNOWN) k->identity = IMPLIED;
+                break;
+            case 0x36:
+                if (!k->has_y || e->value != k->y) { k->y = e->value; k->has_y = k->moved = 1; }
+                if (k->identity == UNKNOWN) k->identity = IMPLIED;
+                break;
+            case 0x2f:
+                if (0 <= e->value && e->value < SLOTS) enter(e->value);
+                break;
+            case 0x30: k->size = e->value; break;
+            case 0x37: k->palm = e->value == 2; break;
+            case 0x3b: k->hovers = e->value > 0; break;
+            case 0x39: {
+                int identity = e->value < 0 ? AWAY : e->value;
+                if (identity == k->identity) break;
+                if (k->finger >= 0) {
+                    gone[gones].finger = k->finger;
+                    gone[gones].x_m = k->x_m;
+                    gone[gones].y_m = k->y_m;
+                    gone[gones++].size_m = k->size_m;
+                    k->finger = -1;
+                }
+                k->identity = identity;
+                break;
+            }
+            }
+        } else if (e->type == 1 && e->code == 0x14a)
+            touching = e->value != 0;
+    }
+    for (int i = 0; i < gones; i++)
+        samples[n++] = (struct sample){gone[i].finger, 0, gone[i].x_m, gone[i].y_m, time_s, gone[i].size_m};
+    gones = 0;
+    int fingers_down = 0;
+    for (int i = 0; i < used; i++) {
+        struct contact *k = slots + order[i];
+        if (!down(k)) {
+            if (k->finger >= 0) samples[n++] = released(k, time_s);
+            continue;
+        }
+        fingers_down++;
+        if (k->palm && k->finger >= 0) samples[n++] = released(k, time_s);
+    }
+    *told = fingers_down > 0;
+    for (int i = 0; i < used; i++) {
+        struct contact *k = slots + order[i];
+        if (!(k->moved || k->finger < 0) || !k->has_x || !k->has_y || k->palm || !down(k))
+            continue;
+        if (k->finger < 0) k->finger = next_finger++;
+        int64_t x = k->x < axes.x_low ? axes.x_low : k->x > axes.x_high ? axes.x_high : k->x;
+        int64_t y = k->y < axes.y_low ? axes.y_low : k->y > axes.y_high ? axes.y_high : k->y;
+        k->x_m = fmin(fmax(axes.from[0] * x + axes.from[1] * y + axes.from[2], 0), c.length_m);
+        k->y_m = fmin(fmax(axes.from[3] * x + axes.from[4] * y + axes.from[5], 0), c.width_m);
+        k->size_m = k->size > 0 ? k->size * axes.size_m : 0;
+        k->moved = 0;
+        samples[n++] = (struct sample){k->finger, 1, k->x_m, k->y_m, time_s, k->size_m};
+    }
+    return n;
+}
+
+/* One read: a report's events, or none; how long it took. */
+int64_t twin_read(const struct event *events, int count, double start_s, double now_s)
+{
+    int64_t began_ns = now_ns();
+    struct sample samples[2 * FINGERS];
+    int n = 0, told = 0;
+    if (count) {
+        const struct event *last = events + count - 1;
+        double time_s = fmin(start_s + last->second + last->microsecond * 1e-6, now_s);
+        n = decode(events, count - 1, time_s, samples, &told);
+    }
+    tracker_read(samples, n, told, now_s);
+    return now_ns() - began_ns;
+}
+
+/* ---- an upload ---- */
+
+static double along(double distance_m, int64_t last, int64_t *index)
+{
+    double millionths = rint(distance_m / c.pitch_m * 1e6);
+    *index = 0;
+    if (millionths <= 0) return 0;
+    int64_t all = (int64_t)millionths;
+    *index = all / 1000000;
+    if (*index >= last) { *index = last; return 0; }
+    return (all % 1000000) * 1e-6;
+}
+
+struct patch { const int8_t *from[4]; int16_t weight[4]; int cells; };
+
+static void patch_at(double x_m, double y_m, struct patch *p)
+{
+    int64_t ix, iy;
+    double right = along(x_m - c.x0_m, c.nx - 1, &ix), up = along(y_m - c.y0_m, c.ny - 1, &iy);
+    int columns = right ? 2 : 1, rows_ = up ? 2 : 1;
+    double share[4], total = 0, vertical[2] = {1 - up, up}, horizontal[2] = {1 - right, right};
+    p->cells = 0;
+    for (int row = 0; row < rows_; row++)
+        for (int column = 0; column < columns; column++) {
+            int entry = c.entry_of[(iy + row) * c.nx + ix + column];
+            p->from[p->cells] = c.response + (int64_t)entry * c.response_stride;
+            share[p->cells] = vertical[row] * horizontal[column] * c.scale_of[entry];
+            total += share[p->cells++];
+        }
+    double unit = total ? 256 / total : 0;
+    for (int i = 0; i < p->cells; i++)
+        p->weight[i] = (int16_t)rint(share[i] * unit);
+    for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
+}
+
+/* Plain loops, for the compiler to make vectors of; the best that the machine has is chosen when the library is loaded. */
+#ifdef __x86_64__
+#define FAST __attribute__((target_clones("avx2", "default"), optimize("O3")))
+#else
+#define FAST __attribute__((optimize("O3")))
+#endif
+#define INLINE static inline __attribute__((always_inline))
+
+static int16_t sum_of[VALUES];
+static uint8_t bits_of[VALUES];
+static float row[VALUES], total_of[VALUES];
+
+INLINE void add_up(const struct patch *p)
+{
+    const int8_t *a = p->from[0], *b = p->from[1], *d = p->from[2], *e = p->from[3];
+    int16_t wa = p->weight[0], wb = p->weight[1], wd = p->weight[2], we = p->weight[3];
+    if (p->cells == 4)
+        for (int i = 0; i < VALUES; i++) sum_of[i] = (int16_t)(a[i] * wa) + (int16_t)(b[i] * wb) + (int16_t)(d[i] * wd) + (int16_t)(e[i] * we);
+    else if (p->cells == 2)
+        for (int i = 0; i < VALUES; i++) sum_of[i] = (int16_t)(a[i] * wa) + (int16_t)(b[i] * wb);
+    else
+        for (int i = 0; i < VALUES; i++) sum_of[i] = a[i];
+}
+
+INLINE void pack(uint32_t turned)
+{
+    for (int n = 0; n < SAMPLES; n++) {
+        uint64_t eights[4];
+        uint32_t word = 0;
+        memcpy(eights, bits_of + n * CHANNELS, sizeof eights);
+        for (int k = 0; k < 4; k++) word |= (uint32_t)(eights[k] * 0x0102040810204080ULL >> 56) << 8 * k;
+        words[n] = word ^ turned;
+    }
+}
+
+FAST static void interpolate(double x_m, double y_m)
+{
+    struct patch p;
+    patch_at(x_m, y_m, &p);
+    add_up(&p);
+    for (int n = 0; n < SAMPLES; n++)
+        for (int q = 0; q < CHANNELS; q++) bits_of[n * CHANNELS + q] = sum_of[n * CHANNELS + q] > low_at[q];
+    pack(0);
+}
+
+FAST static void compose(const double (*points)[2], int count)
+{
+    for (int i = 0; i < count; i++) {
+        struct patch p;
+        int64_t size = 0;
+        float weight;
+        patch_at(points[i][0], points[i][1], &p);
+        add_up(&p);
+        for (int n = 0; n < SAMPLES; n++) {
+            int part = 0;
+            for (int q = 0; q < CHANNELS; q++) {
+                int value = sum_of[n * CHANNELS + q] * flip[q];
+                row[n * CHANNELS + q] = (float)value;
+                part += value < 0 ? -value : value;
+            }
+            size += part;
+        }
+        weight = (float)(1.0 / (size ? (double)(float)size : 1.0));
+        if (i)
+            for (int v = 0; v < VALUES; v++) total_of[v] += weight * row[v];
+        else
+            for (int v = 0; v < VALUES; v++) total_of[v] = weight * row[v];
+    }
+    for (int v = 0; v < VALUES; v++) bits_of[v] = total_of[v] > 0;
+    pack((uint32_t)c.idle_word);
+}
+
+static void put16(uint8_t *at, uint32_t value) { at[0] = value; at[1] = value >> 8; }
+static void put32(uint8_t *at, uint32_t value) { memcpy(at, &value, 4); }
+
+static uint8_t *frame(uint8_t *at, int type, int sequence, int payload, int argument)
+{
+    put16(at, 0xa55a);
+    at[2] = type;
+    at[3] = sequence;
+    put16(at + 4, payload);
+    put16(at + 6, argument);
+    if (type != 3) memset(at + 8, 0, payload);
+    return at + 8;
+}
+
+static uint8_t *seal(uint8_t *start, int size)
+{
+    put32(start + size, c.crc32(0, start, size));
+    return start + size + 4;
+}
+
+static int frames(const uint8_t *payload, int sequence, int slot, int stop, int shorts, int count, int start, uint32_t period_ticks,
+                  uint64_t when_ticks)
+{
+    uint8_t *at = sent;
+    for (int k = 0; k < CHUNKS; k++) {
+        memcpy(frame(at, 3, sequence++, CHUNK_BYTES, k), payload + k * CHUNK_BYTES, CHUNK_BYTES);
+        at = seal(at, 8 + CHUNK_BYTES);
+    }
+    uint8_t *p = frame(at, 4, sequence++, 24, slot);
+    put32(p, SAMPLES);
+    put32(p + 4, c.crc32(0, payload, 4 * SAMPLES));
+    at = seal(at, 32);
+    if (stop) {
+        put32(frame(at, 2, sequence++, 24, 8), stop); /* register CONTROL */
+        at = seal(at, 32);
+    }
+    for (int k = 0; k < shorts - 3 - !!stop; k++) {
+        frame(at, 0, sequence++, 24, 0);
+        at = seal(at, 32);
+    }
+    p = frame(at, 5, sequence++, 24, slot); /* first, length, count, start, inverted, period, mask, when */
+    put16(p + 4, count);
+    p[6] = start;
+    put32(p + 8, period_ticks);
+    put32(p + 12, 0xffffffff);
+    memcpy(p + 16, &when_ticks, 8);
+    at = seal(at, 32);
+    frame(at, 0, sequence, 24, 0);
+    at = seal(at, 32);
+    return at - sent;
+}
+
+static struct tracked *finger_of(int finger)
+{
+    for (int i = 0; i < contact_count; i++)
+        if (contacts[i].played && contacts[i].finger == finger) return contacts + i;
+    for (int i = 0; i < lost_count; i++)
+        if (lost[i].finger == finger) return lost + i;
+    return 0;
+}
+
+static int take_due(const int *fingers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        struct state *s = states, *end = states + state_count;
+        while (s < end && s->finger != fingers[i]) s++;
+        if (s < end) {
+            if (!s->due) return -1;
+            s->due = 0;
+        }
+    }
+    return 0;
+}
+
+/* Fingers were played from a slot that held their waveform already; -1: one of them was not due here. */
+int twin_played(const int *fingers, int count)
+{
+    return take_due(fingers, count);
+}
+
+/* An upload; how long it took, or -1: a finger was not due here, -2: it is not known here. */
+int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int sequence, int stop, int shorts, int plays, int start,
+                    uint32_t period_ticks, uint64_t when_ticks)
+{
+    int64_t began_ns = now_ns();
+    double points[POINTS][2];
+    const uint8_t *payload = (const uint8_t *)words;
+    struct key key = {0};
+    if (take_due(fingers, count)) return -1;
+    for (int i = 0; i < count; i++) {
+        struct tracked *t = finger_of(fingers[i]);
+        if (!t) return -2;
+        if (t->lost_s != INFINITY) {
+            points[i][0] = t->motion.x_m;
+            points[i][1] = t->motion.y_m;
+        } else
+            motion_place(&t->motion, focus_s, &points[i][0], &points[i][1]);
+        points[i][0] = fmin(fmax(points[i][0], 0), c.length_m);
+        points[i][1] = fmin(fmax(points[i][1], 0), c.width_m);
+    }
+    if (count == 1) {
+        double x_m = points[0][0], y_m = points[0][1];
+        double ix = fmin(fmax(rint((x_m - c.x0_m) / c.pitch_m), 0), c.nx - 1);
+        double iy = fmin(fmax(rint((y_m - c.y0_m) / c.pitch_m), 0), c.ny - 1);
+        key.known = key.lone = 1;
+        key.cell = -1;
+        if (hypot(x_m - c.x0_m - ix * c.pitch_m, y_m - c.y0_m - iy * c.pitch_m) <= c.snap_m) {
+            key.cell = (int)(iy * c.nx + ix);
+            key.x_m = c.x0_m + ix * c.pitch_m;
+            key.y_m = c.y0_m + iy * c.pitch_m;
+            payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
+        } else {
+            key.x_m = rint(x_m / c.lattice_m) * c.lattice_m;
+            key.y_m = rint(y_m / c.lattice_m) * c.lattice_m;
+        }
+        for (int i = 0; i < c.slots; i++)
+            if (i != slot && resident[i].known && hypot(resident[i].x_m - key.x_m, resident[i].y_m - key.y_m) <= c.near_m)
+                key.x = i; /* the search; what is found near there is the loop's to judge: it asks for an earlier start */
+        if (key.cell < 0) interpolate(key.x_m, key.y_m);
+    } else {
+        long lattice[POINTS][2];
+        for (int i = 0; i < count; i++) { /* in the order of their places, as the key has them */
+            long x = lrint(points[i][0] / c.lattice_m), y = lrint(points[i][1] / c.lattice_m);
+            int j = i;
+            for (; j && (lattice[j - 1][0] > x || (lattice[j - 1][0] == x && lattice[j - 1][1] > y)); j--)
+                memcpy(lattice[j], lattice[j - 1], sizeof *lattice);
+            lattice[j][0] = x;
+            lattice[j][1] = y;
+        }
+        for (int i = 0; i < count; i++) {
+            points[i][0] = lattice[i][0] * c.lattice_m;
+            points[i][1] = lattice[i][1] * c.lattice_m;
+        }
+        compose((const double(*)[2])points, count);
+    }
+    resident[slot] = key;
+    frames(payload, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
+    return now_ns() - began_ns;
+}
+
+const uint8_t *twin_sent(void) { return sent; }

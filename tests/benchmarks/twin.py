@@ -1,0 +1,206 @@
+"""The C twin beside a loop: the same reports and plays, and the same bytes as the loop sends, or an error."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from controller.bank.reader import Bank
+from controller.bank.selection import LATTICE_M, NEAR_M
+from controller.board import Board
+from controller.fpga.frames import FRAME_BYTES, PLAY, UPLOAD_BYTES
+from controller.fpga.registers import Control, FrameType
+from controller.latency import LatencyHistogram
+from controller.scene import Scene
+from controller.touch.axes import Axes, AxisRange
+from controller.touch.event_codes import POSITIONS
+from controller.touch.event_reader import DeviceDescription
+from controller.touch.linux_input import INPUT_EVENT
+from controller.touch.tracker import Tracker
+
+SOURCE = Path(__file__).with_name("c_twin.c")
+REGIONS = 16
+
+
+class Config(ctypes.Structure):
+    _fields_ = (
+        *((name, ctypes.c_void_p) for name in ("drive", "response", "entry_of", "scale_of", "crc32")),
+        *((name, ctypes.c_int64) for name in ("drive_stride", "response_stride", "nx", "ny", "regions", "slots")),
+        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "snap_m", "near_m", "lattice_m")),
+        *((name, ctypes.c_double) for name in ("length_m", "width_m", "lag_s", "max_size_m")),
+        ("rectangle", ctypes.c_double * 4 * REGIONS),
+        ("spacing_m", ctypes.c_double * REGIONS),
+        ("idle_word", ctypes.c_int64),
+    )
+
+
+class PanelAxes(ctypes.Structure):
+    _fields_ = (
+        ("origin", ctypes.c_double * 6),
+        ("size_m", ctypes.c_double),
+        *((name, ctypes.c_int64) for name in ("x_low", "x_high", "y_low", "y_high")),
+    )
+
+
+def compiled(folder: Path) -> ctypes.CDLL:
+    """The twin as a library, made by `cc -O2`."""
+    library = folder / "c_twin.so"
+    subprocess.run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
+    twin = ctypes.CDLL(str(library))
+    twin.twin_read.restype = twin.twin_upload.restype = ctypes.c_int64
+    twin.twin_read.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double)
+    number = ctypes.c_int
+    twin.twin_upload.argtypes = (ctypes.c_void_p, number, ctypes.c_double, *[number] * 6, ctypes.c_uint32, ctypes.c_uint64)
+    twin.twin_sent.restype = ctypes.c_void_p
+    return twin
+
+
+class Twin:
+    """Follows a loop, told of its reads, of where it aims, and of what it sends.
+
+    Attributes
+    ----------
+    host : LatencyHistogram
+        Its time of an upload, from the read of the report, if that was in the same turn.
+    checked, composed, bits : int
+        Uploads compared; those of several fingers; bits in which the latter differ (float32 sums are rounded
+        in another order). Everything else has to be equal, byte for byte.
+    """
+
+    def __init__(self, folder: Path, board: Board, scene: Scene, bank: Bank, descriptions: Sequence[DeviceDescription]) -> None:
+        self.host = LatencyHistogram()
+        self.checked = self.composed = self.bits = 0
+        self._twin = compiled(folder)
+        self._descriptions = descriptions
+        self._board = board
+        self._panel: int | None = None
+        self._read_ns = 0
+        self._asked: list[int] = []
+        self._focus_s = 0.0
+        self._images: dict[bytes, int] = {}
+        self._kept: list[Any] = []
+        self._twin.twin_begin(ctypes.byref(self._config(board, scene, bank)))
+        self._sent = np.ctypeslib.as_array(
+            ctypes.cast(self._twin.twin_sent(), ctypes.POINTER(ctypes.c_uint8)), (UPLOAD_BYTES + 8 * FRAME_BYTES,)
+        )
+
+    def turn(self) -> None:
+        """A turn of the loop begins."""
+        self._read_ns = 0
+
+    def given(self, now_s: float, start_s: float, which: int, image: bytes, first: int, count: int) -> None:
+        """A read of the loop's panel."""
+        if count and which != self._panel:
+            self._panel = which
+            x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
+            axes = Axes(self._board, x, y)
+            from_axes = (ctypes.c_double * 6)(*axes._from_axes)
+            self._twin.twin_panel(
+                ctypes.byref(PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum))
+            )
+        at = 0
+        if count:
+            if id(image) not in self._images:
+                self._images[id(image)] = np.frombuffer(image, np.uint8).ctypes.data
+            at = self._images[id(image)] + first * INPUT_EVENT.size
+        self._read_ns += self._twin.twin_read(at, count, start_s, now_s)
+
+    def aimed(self, finger: int, focus_s: float) -> None:
+        """The loop asks where a finger will be."""
+        if focus_s != self._focus_s:
+            self._asked.clear()
+            self._focus_s = focus_s
+        if finger not in self._asked:  # it asks twice: for when it would play from a slot, and for after an upload
+            self._asked.append(finger)
+
+    def sent(self, sent: memoryview, lengths: Sequence[int]) -> None:
+        """The loop sends a message."""
+        asked, self._asked = self._asked, []
+        focus_s, self._focus_s = self._focus_s, 0.0
+        end = sum(lengths)
+        shorts = sum(length == FRAME_BYTES for length in lengths)
+        kinds = [sent[end - FRAME_BYTES * back + 2] for back in range(shorts, 0, -1)]
+        if FrameType.PLAY not in kinds:
+            return
+        fingers = (ctypes.c_int * len(asked))(*asked)
+        if len(lengths) == shorts:
+            assert self._twin.twin_played(fingers, len(asked)) == 0, "the loop plays a finger that is not due in the twin"
+            return
+        play = end - FRAME_BYTES * (shorts - kinds.index(FrameType.PLAY))
+        _, _, _, _, slot, _, _, plays, start, _, period_ticks, _, when_ticks = PLAY.unpack_from(sent, play)
+        stop = Control.STOP if FrameType.WRITE in kinds else 0
+        took_ns = self._twin.twin_upload(
+            fingers, len(asked), focus_s, slot, sent[3], stop, shorts, plays, start, period_ticks, when_ticks
+        )
+        assert took_ns > 0, f"the twin does not know what the loop plays ({took_ns})"
+        self.host.record(took_ns + self._read_ns)
+        self._compare(np.frombuffer(sent, np.uint8, end), len(asked))
+
+    def _compare(self, ours: np.ndarray, fingers: int) -> None:
+        theirs = self._sent[: ours.size]
+        self.checked += 1
+        self.composed += fingers > 1
+        if np.array_equal(ours, theirs):
+            return
+        assert fingers > 1, f"upload {self.checked}: the twin's frames differ"
+        load = UPLOAD_BYTES // 8
+        words = [side[:UPLOAD_BYTES].reshape(8, load)[:, 8:-4] for side in (ours, theirs)]
+        bits = int(np.unpackbits(words[0] ^ words[1]).sum())
+        assert 0 < bits < 32, f"upload {self.checked}: {bits} bits differ"
+        self.bits += bits
+
+    def _config(self, board: Board, scene: Scene, bank: Bank) -> Config:
+        bank.response(next(cell for cell, here in enumerate(bank.cells) if here))  # both sections are mapped with the first use
+        bank.words(next(cell for cell, here in enumerate(bank.cells) if here))
+        crc32 = ctypes.CDLL("libz.so.1").crc32
+        drive, response = (np.frombuffer(view, np.uint8) for view in (bank._drive, bank._response))
+        entry_of, scale_of = np.array(bank._entry_of, np.int32), np.array(bank._scale_of)
+        self._kept = [crc32, drive, response, entry_of, scale_of]
+        grid, config = bank.grid, Config()
+        values = {
+            "drive": drive.ctypes.data,
+            "response": response.ctypes.data,
+            "entry_of": entry_of.ctypes.data,
+            "scale_of": scale_of.ctypes.data,
+            "crc32": ctypes.cast(crc32, ctypes.c_void_p).value,
+            "drive_stride": bank._drive_stride,
+            "response_stride": bank._response_stride,
+            "nx": grid.nx,
+            "ny": grid.ny,
+            "regions": len(scene.areas),
+            "slots": board.link.slots,
+            "pitch_m": grid.pitch_m,
+            "x0_m": grid.x0_m,
+            "y0_m": grid.y0_m,
+            "snap_m": board.bank.snap_mm * 1e-3,
+            "near_m": NEAR_M,
+            "lattice_m": LATTICE_M,
+            "length_m": board.plate.length_m,
+            "width_m": board.plate.width_m,
+            "lag_s": board.touch.lag_s,
+            "max_size_m": board.touch.max_size_m,
+            "idle_word": board.idle_word,
+        }
+        for name, value in values.items():
+            setattr(config, name, value)
+        for index, area in enumerate(scene.areas):
+            config.rectangle[index][:] = area.shape.bounds
+            config.spacing_m[index] = area.spacings[0].spacing_m if area.spacings else 0.0
+        return config
+
+
+class Watched(Tracker):
+    """A tracker that tells the twin what it was asked."""
+
+    twin: Twin | None = None
+
+    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+        """As the tracker's."""
+        if self.twin is not None:
+            self.twin.aimed(finger, at_s)
+        return super().place(finger, at_s)
