@@ -96,7 +96,7 @@ class Housekeeping:
             return
         if loop.state != self._state:
             self._state = loop.state
-            self._say(f"outputs off: {self._state}" if self._state else "the outputs are on")
+            self._say(f"outputs off: {self._state.removeprefix('outputs off: ')}" if self._state else "the outputs are on")
         if self._panel is not None and self._panel.present != self._present:
             self._present = self._panel.present
             self._say("the touch panel is back" if self._present else "the touch panel is lost; it is looked for twice a second")
