@@ -29,7 +29,7 @@ case $base in
   *) interpreter=/opt/python/bin && echo "$base /opt/python" >>"$tree/binds" ;;
 esac
 "$python" -m pip install -q --root-user-action ignore --disable-pip-version-check --no-deps --no-build-isolation --no-index \
-  --ignore-installed --no-compile --no-warn-script-location --prefix "$tree/opt/haptic-panel" "$checkout"
+  --ignore-installed --no-warn-script-location --prefix "$tree/opt/haptic-panel" "$checkout"
 ln -s "$interpreter/$version" "$tree/opt/haptic-panel/bin/python"
 printf 'home = %s\n' "$interpreter" >"$tree/opt/haptic-panel/pyvenv.cfg"
 echo /opt/packages >"$tree/opt/haptic-panel/lib/$version/site-packages/packages.pth"
@@ -38,7 +38,7 @@ sed -i '1s#.*#\#!/opt/haptic-panel/bin/python#' "$tree/opt/haptic-panel/bin/hapt
 # the simulated board with a coarse bank; the test files write what else their board has
 board=$tree/etc/haptic-panel/boards/panel
 cp -r "$checkout/boards/simulated" "$board"
-sed -i 's/^pitch_mm = .*/pitch_mm = 10.0/; s/^snap_mm = .*/snap_mm = 5.0/' "$board/board.toml"
+sed -i 's/^pitch_mm = .*/pitch_mm = 15.0/; s/^snap_mm = .*/snap_mm = 7.0/' "$board/board.toml"
 PYTHONPATH=$checkout STATE_DIRECTORY=$tree/var/lib/haptic-panel OPENBLAS_NUM_THREADS=1 "$python" -c \
   'import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))' bank build --board "$board" --scene scene --json >/dev/null
 

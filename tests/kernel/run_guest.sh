@@ -44,7 +44,7 @@ else
 fi
 chmod -R a+rX "$run"
 chmod +x "$run/init"
-timeout -s KILL "${LIMIT_S:-300}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -smp 2 -m 1024 -nodefaults -no-user-config \
+timeout -s KILL "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -smp 2 -m 1024 -nodefaults -no-user-config \
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
   -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 \

@@ -12,7 +12,7 @@ import time
 import traceback
 from pathlib import Path
 
-LONGEST_S = 90.0  # of one test; then the stacks of all threads are shown and nothing more is run
+LONGEST_S = 300.0  # of one test; then the stacks of all threads are shown and nothing more is run
 
 
 def load(path):
