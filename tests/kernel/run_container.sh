@@ -14,5 +14,5 @@ binds=()
 while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
 "${as_root[@]}" env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 timeout -s TERM -k 20 "${LIMIT_S:-900}" \
   systemd-nspawn -q -b -D "$tree" -M "$name" --register=no --keep-unit --console=interactive --private-network "${binds[@]}" \
-  systemd.show_status=false </dev/null 2>&1 | tr -d '\r' | tee "$tree/log" || true
+  systemd.show_status=false </dev/null 2>&1 | sed -u 's/\r//g' | tee "$tree/log" || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$tree/log" | tail -n 1 | grep . || echo 99)"

@@ -44,10 +44,11 @@ else
 fi
 chmod -R a+rX "$run"
 chmod +x "$run/init"
-timeout -s KILL "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -smp 2 -m 1024 -nodefaults -no-user-config \
+# -icount: each instruction takes 2 ns of the guest's time, however busy this machine is
+timeout -s KILL "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -rtc clock=vm -cpu max -smp 1 -m 1024 -nodefaults -no-user-config \
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
   -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 \
     systemd.show_status=false guest_init=$run/init" \
-  </dev/null 2>&1 | tr -d '\r' | tee "$run/log" || true
+  </dev/null 2>&1 | sed -u 's/\r//g' | tee "$run/log" || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$run/log" | tail -n 1 | grep . || echo 99)"
