@@ -66,7 +66,7 @@ class Twin:
     Attributes
     ----------
     host : LatencyHistogram
-        Its time of an upload, from the read of the report, if that was in the same turn.
+        Its time of an upload, from the read of the report, if that was in the same turn: as `replay` measures it, alone.
     checked, composed, bits : int
         Uploads compared; those of several fingers; bits in which the latter differ (float32 sums are rounded
         in another order). Everything else has to be equal, byte for byte.
@@ -79,19 +79,39 @@ class Twin:
         self._descriptions = descriptions
         self._board = board
         self._panel: int | None = None
-        self._read_ns = 0
         self._asked: list[int] = []
         self._focus_s = 0.0
         self._images: dict[bytes, int] = {}
         self._kept: list[Any] = []
-        self._twin.twin_begin(ctypes.byref(self._config(board, scene, bank)))
+        self._calls: list[tuple[Any, ...]] = []  # a function of the twin and its arguments; none where a turn begins
+        self._config = self._configured(board, scene, bank)
+        self._twin.twin_begin(ctypes.byref(self._config))
         self._sent = np.ctypeslib.as_array(
             ctypes.cast(self._twin.twin_sent(), ctypes.POINTER(ctypes.c_uint8)), (UPLOAD_BYTES + 8 * FRAME_BYTES,)
         )
 
     def turn(self) -> None:
         """A turn of the loop begins."""
-        self._read_ns = 0
+        self._calls.append(())
+
+    def replay(self) -> None:
+        """All once more without the loop, timed: caches are as the twin leaves them, not as the loop has just filled them."""
+        self._twin.twin_begin(ctypes.byref(self._config))
+        upload, read, read_ns = self._twin.twin_upload, self._twin.twin_read, 0
+        for call in self._calls:
+            if not call:
+                read_ns = 0
+                continue
+            took_ns = call[0](*call[1:])
+            if call[0] is read:
+                read_ns += took_ns
+            elif call[0] is upload:
+                self.host.record(took_ns + read_ns)
+
+    def _call(self, function: Any, *arguments: Any) -> int:
+        self._calls.append((function, *arguments))
+        result: int = function(*arguments)
+        return result
 
     def given(self, now_s: float, start_s: float, which: int, image: bytes, first: int, count: int) -> None:
         """A read of the loop's panel."""
@@ -100,15 +120,14 @@ class Twin:
             x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
             axes = Axes(self._board, x, y)
             from_axes = (ctypes.c_double * 6)(*axes._from_axes)
-            self._twin.twin_panel(
-                ctypes.byref(PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum))
-            )
+            panel = PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
+            self._call(self._twin.twin_panel, ctypes.byref(panel))
         at = 0
         if count:
             if id(image) not in self._images:
                 self._images[id(image)] = np.frombuffer(image, np.uint8).ctypes.data
             at = self._images[id(image)] + first * INPUT_EVENT.size
-        self._read_ns += self._twin.twin_read(at, count, start_s, now_s)
+        self._call(self._twin.twin_read, at, count, start_s, now_s)
 
     def aimed(self, finger: int, focus_s: float) -> None:
         """The loop asks where a finger will be."""
@@ -129,16 +148,28 @@ class Twin:
             return
         fingers = (ctypes.c_int * len(asked))(*asked)
         if len(lengths) == shorts:
-            assert self._twin.twin_played(fingers, len(asked)) == 0, "the loop plays a finger that is not due in the twin"
+            assert self._call(self._twin.twin_played, fingers, len(asked)) == 0, (
+                "the loop plays a finger that is not due in the twin"
+            )
             return
         play = end - FRAME_BYTES * (shorts - kinds.index(FrameType.PLAY))
         _, _, _, _, slot, _, _, plays, start, _, period_ticks, _, when_ticks = PLAY.unpack_from(sent, play)
         stop = Control.STOP if FrameType.WRITE in kinds else 0
-        took_ns = self._twin.twin_upload(
-            fingers, len(asked), focus_s, slot, sent[3], stop, shorts, plays, start, period_ticks, when_ticks
+        took_ns = self._call(
+            self._twin.twin_upload,
+            fingers,
+            len(asked),
+            focus_s,
+            slot,
+            sent[3],
+            stop,
+            shorts,
+            plays,
+            start,
+            period_ticks,
+            when_ticks,
         )
         assert took_ns > 0, f"the twin does not know what the loop plays ({took_ns})"
-        self.host.record(took_ns + self._read_ns)
         self._compare(np.frombuffer(sent, np.uint8, end), len(asked))
 
     def _compare(self, ours: np.ndarray, fingers: int) -> None:
@@ -154,7 +185,7 @@ class Twin:
         assert 0 < bits < 32, f"upload {self.checked}: {bits} bits differ"
         self.bits += bits
 
-    def _config(self, board: Board, scene: Scene, bank: Bank) -> Config:
+    def _configured(self, board: Board, scene: Scene, bank: Bank) -> Config:
         bank.response(next(cell for cell, here in enumerate(bank.cells) if here))  # both sections are mapped with the first use
         bank.words(next(cell for cell, here in enumerate(bank.cells) if here))
         crc32 = ctypes.CDLL("libz.so.1").crc32
