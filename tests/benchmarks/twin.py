@@ -117,6 +117,7 @@ class Twin:
             if name == "twin_read":
                 read_ns += took_ns
             elif name == "twin_upload":
+                assert took_ns > 0, f"the twin does not know what it played before ({took_ns})"
                 host.record(took_ns + read_ns)
         return host
 
@@ -137,6 +138,7 @@ class Twin:
         at = 0
         if count:
             if id(image) not in self._images:
+                self._kept.append(image)  # replays read it too
                 self._images[id(image)] = np.frombuffer(image, np.uint8).ctypes.data
             at = self._images[id(image)] + first * INPUT_EVENT.size
         self._call("twin_read", at, count, start_s, now_s)
