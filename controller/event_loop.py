@@ -253,7 +253,7 @@ class EventLoop:
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
-            elif trigger_at_s is None and self._performance.due and self._session.free_s() <= now_s:
+            elif trigger_at_s is None and self._performance.due and self._session.free_s() <= now_s and not self._held(now_s):
                 self._play(now_s, started_ns)
             elif trigger_at_s is None and self._moving is not None:
                 self._prefetch(now_s)
@@ -303,7 +303,7 @@ class EventLoop:
     def _play(self, now_s: float, started_ns: int) -> None:
         """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
         performance, playback = self._performance, self._playback
-        emissions = performance.take(playback.duration_s)
+        emissions = performance.take(playback.duration_s, self._time_base.fpga_s(now_s))
         period_s = performance.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
             self._prepare(emissions, started_ns, count=ENDLESS, period_s=period_s, at_s=emissions[0].time_s)
@@ -317,6 +317,11 @@ class EventLoop:
                 performance.spots_from(panel_s)
         beats = [emission.time_s for emission in emissions if emission.period_s]
         self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
+
+    def _held(self, now_s: float) -> bool:
+        """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
+        panel_s = self._time_base.fpga_s(now_s)
+        return self._performance.held(panel_s, self._time_base.fpga_s(self._playback.clear_s(now_s)))
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         bad = self._counters.skipped.bad_entries
@@ -349,7 +354,7 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         commands_s = NEVER if self._commands is None else self._commands.next_time_s()
         trigger_at_s = self._playback.trigger_at_s
-        if self._outputs.on and self._performance.due and trigger_at_s is None:
+        if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
             return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()
         next_s = self._performance.next_s()

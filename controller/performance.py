@@ -35,6 +35,7 @@ from controller.touch.samples import TouchSample
 MOST_WAITING = 32  # commands; of more the oldest is skipped
 LEAST_STEP_M = 0.5e-3  # a finger that moves less is at rest
 GLIMPSE_S = 5e-3  # over which a finger's velocity is seen; farther ahead `place` expects that it may have stopped
+MOST_HELD_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
 SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
 
 Owner = int | str
@@ -150,13 +151,27 @@ class Performance:
         """Whether anything waits to be played."""
         return bool(self._due)
 
-    def take(self, duration_s: float) -> list[Emission]:
-        """What is played next, as one emission; the rest goes on waiting."""
+    def held(self, now_s: float, until_s: float) -> bool:
+        """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
+
+        What has waited for MOST_HELD_S is not held any longer: of trains so fast that nothing goes between their beats,
+        a beat is late then.
+        """
+        if self.next_s() > until_s:
+            return False
+        oldest = next(iter(self._due.values()))
+        return now_s - oldest.time_s < MOST_HELD_S and not any(emission.period_s for emission in self._due.values())
+
+    def take(self, duration_s: float, now_s: float) -> list[Emission]:
+        """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
         if len(self._due) == 1:
             chosen = list(self._due.values())
             self._due.clear()
         else:
-            first, rest = together(tuple(self._due.values()), duration_s)
+            due = tuple(self._due.values())
+            if not due[0].period_s and now_s - due[0].time_s < MOST_HELD_S:
+                due = tuple(sorted(due, key=_has_no_beat))
+            first, rest = together(due, duration_s)
             chosen = list(first)
             self._due = {emission.owner: emission for emission in rest}
         return chosen
@@ -281,3 +296,7 @@ class Performance:
         over = [owner for owner, state in self._states.items() if isinstance(owner, str) and ended(state)]
         for owner in over:
             del self._states[owner]
+
+
+def _has_no_beat(emission: Emission) -> bool:
+    return emission.period_s == 0

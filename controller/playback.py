@@ -130,6 +130,11 @@ class Playback:
         """Whether the FPGA repeats an emission by itself, or is about to."""
         return self._running is not None or (self._prepared is not None and self._prepared.count == ENDLESS)
 
+    def clear_s(self, now_s: float) -> float:
+        """When the plate and the wire are free for a beat, if something else is uploaded now and played before it."""
+        start_s = max(now_s + self.upload_s, self.free_s + MARGIN_S)
+        return start_s + max(self._busy_s, self.upload_s + HANDOVER_S) + 2 * MARGIN_S
+
     def next_repetition_s(self, at_s: float) -> float:
         """When the endless repetition next starts an emission, after a time; never without one."""
         return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s

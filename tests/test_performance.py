@@ -58,7 +58,7 @@ def command(performance, ticket, x_m=0.1, y_m=0.07, effect="tap", finger=None, n
 
 
 def played(performance, now_s):
-    emissions = performance.take(T_S)
+    emissions = performance.take(T_S, 0.0)
     performance.started(emissions, now_s)
     return emissions
 
@@ -128,7 +128,7 @@ def test_a_command_for_a_finger_follows_it_and_ends_with_it(performance, told):
     assert played(performance, 0.0)[0].finger == 3
     performance.touch(TouchSample(3, 0.09, 0.05, 0.005, True))
     performance.advance(0.01)
-    assert performance.take(T_S)[0].x_m == 0.09
+    assert performance.take(T_S, 0.0)[0].x_m == 0.09
     performance.touch(TouchSample(3, 0.09, 0.05, 0.012, False))
     performance.advance(0.1)
     assert not performance.due
@@ -202,6 +202,6 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
     )
     performance = performing(load_scene(tmp_path / "spot.toml", board), told)
     performance.touch(TouchSample(3, finger_mm * 1e-3, 0.07, 1.0, True))
-    emissions = performance.with_spots(performance.take(T_S), 1.05)
+    emissions = performance.with_spots(performance.take(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
     assert performance.next_spot_s() == 1.05

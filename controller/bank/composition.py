@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from controller.bank.amplitude import hold_threshold
 from controller.bank.file_format import REST_SAMPLES
 from controller.bank.holding import Holding
-from controller.bank.interpolation import Interpolation
+from controller.bank.interpolation import Interpolation, aligned
 from controller.bank.packing import CHANNELS, WORD, WordPacker
 from controller.bank.reader import Bank
 
@@ -60,7 +60,7 @@ class Composer:
         padded = self._holding.padded_samples * CHANNELS
         self._band = Interpolation(bank, samples)
         self._band_and_rest = Interpolation(bank, samples + rest_rows)
-        self._interpolated = np.empty(values + rest_rows * CHANNELS, np.int16)
+        self._interpolated = aligned(values + rest_rows * CHANNELS)
         self._in_band, self._outside = self._interpolated[:values], self._interpolated[values:]
         self._points = np.zeros((MOST_POINTS, padded), np.float32)
         self._points_of_samples = self._points[:, :values]

@@ -193,13 +193,16 @@ class Bank:
         BankError
             If a cell has no entry, or a damaged one.
         """
-        first = self._checked_response(cell)
+        checked, stride = self._checked_response, self._response_stride
+        first = checked(cell)
         if columns == 2:
-            self._checked_response(cell + 1)  # entries are numbered as cells are: the next one in the file
-        stride = self._response_stride
-        up = self._checked_response(cell + self.grid.nx) - first if rows == 2 else 0
-        if columns == rows == 2:
-            self._checked_response(cell + self.grid.nx + 1)
+            checked(cell + 1)  # entries are numbered as cells are: the next one in the file
+        up = 0
+        if rows == 2:
+            above = cell + self.grid.nx
+            up = checked(above) - first
+            if columns == 2:
+                checked(above + 1)
         shape = (rows, columns, self._response_bytes)
         return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
 

@@ -479,11 +479,13 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
 }
 
-/* Plain loops, for the compiler to make vectors of; the best that the machine has is chosen when the library is loaded. */
-#ifdef __x86_64__
+/* Plain loops. With -DVECTORS the compiler makes vectors of them, of the widest kind that the machine has. */
+#if defined(VECTORS) && defined(__x86_64__)
 #define FAST __attribute__((target_clones("avx2", "default"), optimize("O3")))
-#else
+#elif defined(VECTORS)
 #define FAST __attribute__((optimize("O3")))
+#else
+#define FAST
 #endif
 #define INLINE static inline __attribute__((always_inline))
 

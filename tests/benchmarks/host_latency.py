@@ -4,9 +4,10 @@
 
 The product's own loop plays recordings round and round on a scene of many emissions, over a link whose far end costs
 nothing (`null_link.py`; time within the link is not the host's). Time is virtual: the loop never sleeps, and both go the
-same way every time. In each run the twin goes first, beside the loop, and compares every upload with its own; then the
-loop goes alone and is measured, on one core, with real-time priority if that is allowed, while another process keeps
-the other core busy. Required: p50 <= the twin's p50 + 60 us, p99 <= 4 p50.
+same way every time. In each run the twin first goes beside the loop, which shows that both send the same bytes; then the
+twin alone and the loop alone are measured, on one core, with real-time priority if that is allowed, while another
+process keeps the other core busy. Required: p50 <= the twin's p50 + 60 us, p99 <= 4 p50. There are two twins: as `cc -O2`
+makes it, and with its inner loops made vectors of, as numpy's are; the second is the harder one to be near.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ os.sched_setaffinity(0, {%d})
 a = numpy.ones((400, 400))
 while True: a @ a
 """
-FIGURES = ("p50", "p99", "worst", "twin_p50", "more_than_twin", "p99_over_p50")
+FIGURES = ("p50", "p99", "worst", "twin_p50", "vector_twin_p50", "more_than_twin", "p99_over_p50")
 MOST_MORE_US = 60
 MOST_RATIO = 4
 
@@ -108,8 +109,9 @@ def measure(bank_path: Path, emissions: int, runs: int) -> dict[str, Any]:
             gc.collect()
             _, twin = play(board, bank, emissions, Path(folder))
             assert twin is not None
+            plain, vectors = twin.replay(), twin.replay("-DVECTORS")
             counters, _ = play(board, bank, emissions)
-            host, theirs = counters.upload_latency.host.summary_us(), twin.host.summary_us()
+            host, theirs = counters.upload_latency.host.summary_us(), plain.summary_us()
             p50, p99, worst, twin_p50 = (float(x or 0) for x in (host["p50"], host["p99"], host["worst"], theirs["p50"]))
             figures.append(
                 {
@@ -121,12 +123,13 @@ def measure(bank_path: Path, emissions: int, runs: int) -> dict[str, Any]:
                     "worst": worst,
                     "twin_p50": twin_p50,
                     "twin_p99": theirs["p99"],
+                    "vector_twin_p50": vectors.summary_us()["p50"],
                     "more_than_twin": round(p50 - twin_p50, 3),
                     "p99_over_p50": round(p99 / p50, 3),
                     "stages": {name: getattr(counters.upload_latency, name).summary_us() for name in STAGES},
                     "resident": counters.resident_latency.host.summary_us(),
                     "histogram": counters.upload_latency.host.buckets_us(),
-                    "twin_histogram": twin.host.buckets_us(),
+                    "twin_histogram": plain.buckets_us(),
                     "twin_checked": twin.checked,
                     "twin_composed": twin.composed,
                     "twin_bits_off": twin.bits,
@@ -177,14 +180,21 @@ def main() -> int:
     for run in figures["runs"]:
         print(
             f"{run['uploads']} uploads: p50 {run['p50']:.1f} p99 {run['p99']:.1f} worst {run['worst']:.0f} us;"
-            f" twin p50 {run['twin_p50']:.1f} p99 {run['twin_p99']:.1f} us; {run['more_than_twin']:+.1f} us, p99/p50"
+            f" twin p50 {run['twin_p50']:.1f} (with vectors {run['vector_twin_p50']:.1f}) p99 {run['twin_p99']:.1f} us;"
+            f" {run['more_than_twin']:+.1f} us, p99/p50"
             f" {run['p99_over_p50']:.2f}; load {run['load']:.1f}; {run['twin_checked']} uploads compared,"
             f" {run['twin_composed']} of several fingers ({run['twin_bits_off']} bits off);"
             f" decide {run['stages']['decide']['p50']:.1f}"
             f" frame {run['stages']['frame']['p50']:.1f} trigger {run['stages']['trigger']['p50']:.1f} us"
         )
-    verdict = "met" if figures["met"] else "NOT met"
-    print(f"p50 <= twin + {MOST_MORE_US} us and p99 <= {MOST_RATIO} p50: {verdict}; medians {figures['medians']}")
+    medians = figures["medians"]
+    for what, met in (
+        (f"p50 <= twin + {MOST_MORE_US} us", medians["more_than_twin"] <= MOST_MORE_US),
+        (f"p50 <= twin with vectors + {MOST_MORE_US} us", medians["p50"] - medians["vector_twin_p50"] <= MOST_MORE_US),
+        (f"p99 <= {MOST_RATIO} p50", medians["p99_over_p50"] <= MOST_RATIO),
+    ):
+        print(f"{what}: {'met' if met else 'NOT met'}")
+    print(f"medians: {medians}")
     return 0 if figures["met"] else 1
 
 

@@ -47,10 +47,12 @@ class PanelAxes(ctypes.Structure):
     )
 
 
-def compiled(folder: Path) -> ctypes.CDLL:
-    """The twin as a library, made by `cc -O2`."""
-    library = folder / "c_twin.so"
-    subprocess.run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
+def compiled(folder: Path, *flags: str) -> ctypes.CDLL:
+    """The twin as a library, made by `cc -O2`; another one each time, with a state of its own."""
+    library = folder / f"c_twin_{len(list(folder.iterdir()))}.so"
+    subprocess.run(
+        ["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", *flags, "-o", library, SOURCE, "-lm"], check=True
+    )
     twin = ctypes.CDLL(str(library))
     twin.twin_read.restype = twin.twin_upload.restype = ctypes.c_int64
     twin.twin_read.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double)
@@ -65,33 +67,64 @@ class Twin:
 
     Attributes
     ----------
-    host : LatencyHistogram
-        Its time of an upload, from the read of the report, if that was in the same turn.
     checked, composed, bits : int
         Uploads compared; those of several fingers; bits in which the latter differ (float32 sums are rounded
         in another order). Everything else has to be equal, byte for byte.
     """
 
     def __init__(self, folder: Path, board: Board, scene: Scene, bank: Bank, descriptions: Sequence[DeviceDescription]) -> None:
-        self.host = LatencyHistogram()
         self.checked = self.composed = self.bits = 0
+        self._folder = folder
         self._twin = compiled(folder)
         self._descriptions = descriptions
         self._board = board
         self._panel: int | None = None
-        self._read_ns = 0
         self._asked: list[int] = []
         self._focus_s = 0.0
         self._images: dict[bytes, int] = {}
         self._kept: list[Any] = []
-        self._twin.twin_begin(ctypes.byref(self._config(board, scene, bank)))
+        self._calls: list[tuple[Any, ...]] = []  # a function of the twin and its arguments; none where a turn begins
+        self._config = self._configured(board, scene, bank)
+        self._twin.twin_begin(ctypes.byref(self._config))
         self._sent = np.ctypeslib.as_array(
             ctypes.cast(self._twin.twin_sent(), ctypes.POINTER(ctypes.c_uint8)), (UPLOAD_BYTES + 8 * FRAME_BYTES,)
         )
 
     def turn(self) -> None:
         """A turn of the loop begins."""
-        self._read_ns = 0
+        self._calls.append(())
+
+    def replay(self, *flags: str) -> LatencyHistogram:
+        """All once more without the loop: its times of an upload, from the read of the report, if that was in the same turn.
+
+        Caches are then as the twin leaves them, not as the loop has just filled them.
+
+        Parameters
+        ----------
+        flags : str
+            For the compiler, beyond -O2: "-DVECTORS" for the best that the machine has.
+        """
+        host = LatencyHistogram()
+        twin = compiled(self._folder, *flags)
+        twin.twin_begin(ctypes.byref(self._config))
+        calls = [(call[0], getattr(twin, call[0]), call[1:]) if call else ("", None, ()) for call in self._calls]
+        read_ns = 0
+        for name, function, arguments in calls:
+            if function is None:
+                read_ns = 0
+                continue
+            took_ns = function(*arguments)
+            if name == "twin_read":
+                read_ns += took_ns
+            elif name == "twin_upload":
+                assert took_ns > 0, f"the twin does not know what it played before ({took_ns})"
+                host.record(took_ns + read_ns)
+        return host
+
+    def _call(self, name: str, *arguments: Any) -> int:
+        self._calls.append((name, *arguments))
+        result: int = getattr(self._twin, name)(*arguments)
+        return result
 
     def given(self, now_s: float, start_s: float, which: int, image: bytes, first: int, count: int) -> None:
         """A read of the loop's panel."""
@@ -100,15 +133,15 @@ class Twin:
             x, y = (AxisRange(*self._descriptions[which].axes[code][:2]) for code in POSITIONS)
             axes = Axes(self._board, x, y)
             from_axes = (ctypes.c_double * 6)(*axes._from_axes)
-            self._twin.twin_panel(
-                ctypes.byref(PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum))
-            )
+            panel = PanelAxes(from_axes, axes.size_m_per_unit, x.minimum, x.maximum, y.minimum, y.maximum)
+            self._call("twin_panel", ctypes.byref(panel))
         at = 0
         if count:
             if id(image) not in self._images:
+                self._kept.append(image)  # replays read it too
                 self._images[id(image)] = np.frombuffer(image, np.uint8).ctypes.data
             at = self._images[id(image)] + first * INPUT_EVENT.size
-        self._read_ns += self._twin.twin_read(at, count, start_s, now_s)
+        self._call("twin_read", at, count, start_s, now_s)
 
     def aimed(self, finger: int, focus_s: float) -> None:
         """The loop asks where a finger will be."""
@@ -129,16 +162,26 @@ class Twin:
             return
         fingers = (ctypes.c_int * len(asked))(*asked)
         if len(lengths) == shorts:
-            assert self._twin.twin_played(fingers, len(asked)) == 0, "the loop plays a finger that is not due in the twin"
+            assert self._call("twin_played", fingers, len(asked)) == 0, "the loop plays a finger that is not due in the twin"
             return
         play = end - FRAME_BYTES * (shorts - kinds.index(FrameType.PLAY))
         _, _, _, _, slot, _, _, plays, start, _, period_ticks, _, when_ticks = PLAY.unpack_from(sent, play)
         stop = Control.STOP if FrameType.WRITE in kinds else 0
-        took_ns = self._twin.twin_upload(
-            fingers, len(asked), focus_s, slot, sent[3], stop, shorts, plays, start, period_ticks, when_ticks
+        took_ns = self._call(
+            "twin_upload",
+            fingers,
+            len(asked),
+            focus_s,
+            slot,
+            sent[3],
+            stop,
+            shorts,
+            plays,
+            start,
+            period_ticks,
+            when_ticks,
         )
         assert took_ns > 0, f"the twin does not know what the loop plays ({took_ns})"
-        self.host.record(took_ns + self._read_ns)
         self._compare(np.frombuffer(sent, np.uint8, end), len(asked))
 
     def _compare(self, ours: np.ndarray, fingers: int) -> None:
@@ -154,7 +197,7 @@ class Twin:
         assert 0 < bits < 32, f"upload {self.checked}: {bits} bits differ"
         self.bits += bits
 
-    def _config(self, board: Board, scene: Scene, bank: Bank) -> Config:
+    def _configured(self, board: Board, scene: Scene, bank: Bank) -> Config:
         bank.response(next(cell for cell, here in enumerate(bank.cells) if here))  # both sections are mapped with the first use
         bank.words(next(cell for cell, here in enumerate(bank.cells) if here))
         crc32 = ctypes.CDLL("libz.so.1").crc32

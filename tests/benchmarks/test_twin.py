@@ -1,0 +1,24 @@
+"""The C twin does the loop's work: every upload of some rounds of recordings, byte for byte."""
+
+import pytest
+
+from controller.bank.reader import Bank
+from controller.touch import prediction
+from tests.benchmarks.host_latency import play
+
+EMISSIONS = 700
+
+
+def test_the_twin_gives_the_bytes_that_the_loop_sends(board, bank_file, tmp_path):
+    with Bank.open(bank_file, board) as bank:
+        counters, twin = play(board, bank, EMISSIONS, tmp_path)
+    assert twin.checked == counters.uploads > EMISSIONS / 2
+    assert twin.composed > 50
+    assert twin.bits <= twin.composed
+    assert twin.replay().count == twin.replay("-DVECTORS").count == twin.checked
+
+
+def test_a_loop_that_predicts_otherwise_is_told_apart(board, bank_file, tmp_path, monkeypatch):
+    monkeypatch.setattr(prediction, "ALPHA", 0.99 * prediction.ALPHA)
+    with Bank.open(bank_file, board) as bank, pytest.raises(AssertionError, match=" differ"):
+        play(board, bank, EMISSIONS, tmp_path)

@@ -1,0 +1,181 @@
+"""When things are played: trains to one clock of the FPGA whatever the host does, and as many emissions as can be had.
+
+The loop is the product's own on virtual time, the FPGA its gateware model. Spacings are taken from the captured pins.
+"""
+
+import random
+
+import msgspec
+import numpy as np
+import pytest
+
+from controller.assembly import assemble
+from controller.bank.reader import Bank
+from controller.clocks import VirtualClock
+from controller.event_loop import BEAT_LEAD_S
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.hardware import open_session, open_simulated, tracked
+from controller.playback import HANDOVER_S
+from controller.scene import load_scene
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+
+PLATE = 'shape = "plate"'
+
+
+def region(name, shape, effect):
+    return f'[[regions]]\nname = "{name}"\n{shape}\neffects = [{{ {effect} }}]\n'
+
+
+def train(rate_hz, duration_ms=1000.0):
+    return region("all", PLATE, f'effect = "train", rate_hz = {rate_hz:.1f}, duration_ms = {duration_ms}')
+
+
+class LateClock(VirtualClock):
+    """Virtual time on a busy machine: the loop wakes up late, by up to some time, at random."""
+
+    def __init__(self, most_s):
+        super().__init__()
+        self._most_s = most_s
+        self._random = random.Random(4)
+
+    def wait(self, selector, until_s):
+        super().wait(selector, until_s)
+        self._now_s += self._random.uniform(0, self._most_s)
+
+
+class Ran:
+    """What a run did: counters, and the ticks of the starts of all emissions."""
+
+    def __init__(self, board, link, counters, played):
+        self.counters = counters
+        self.played = played
+        self.starts = link.take_capture().focus_ticks.astype(np.int64) - 1000 * board.bit_ticks
+
+    def spacings(self):
+        return np.diff(self.starts)
+
+
+@pytest.fixture
+def run(board, bank_file, tmp_path, evemu_text):
+    def run_it(reports, scene_text, clock=None, on=board):
+        clock = clock or VirtualClock()
+        (tmp_path / "s.toml").write_text(scene_text)
+        recording = Recording(evemu_text(*reports))
+        link = open_simulated(on, clock.now_s)
+        session = open_session(link, on, clock.now_s)
+        played = []
+        with Bank.open(bank_file, on) as bank:
+            source = tracked(RecordingSource(recording, recording.axes(on), 0.1), on)
+            assembly = assemble(on, load_scene(tmp_path / "s.toml", on), bank, clock, session, source, played=played.append)
+            assembly.loop.run()
+        link.close()
+        return Ran(on, link, assembly.counters, played)
+
+    return run_it
+
+
+def sliding(end_s, speed_m_s=0.1, slot=0, y_mm=54.0, from_s=0.0, step_s=0.01):
+    """Reports of a finger that slides to and fro."""
+    count = round((end_s - from_s) / step_s)
+    way_mm = [(k * step_s * speed_m_s * 1e3) % 300 for k in range(count)]
+    return [(from_s + k * step_s, {slot: (30 + (w if w < 150 else 300 - w), y_mm)}) for k, w in enumerate(way_mm)] + [
+        (end_s, {slot: None})
+    ]
+
+
+def merged(*ways):
+    at = {}
+    for way in ways:
+        for time_s, slots in way:
+            at.setdefault(round(time_s, 6), {}).update(slots)
+    return sorted(at.items())
+
+
+LOWER = 'shape = "rectangle"\nx_mm = 0.0\ny_mm = 0.0\nwidth_mm = 210.0\nheight_mm = 75.0'
+FINE = region("all", PLATE, 'effect = "texture", spacing_mm = 0.5')
+TICKS = 80_000_000  # a second
+
+
+def rate_hz(starts):
+    return (len(starts) - 1) / np.diff(starts).sum() * TICKS
+
+
+def beats(done):
+    """Starts of the emissions in which a train's beat takes part."""
+    assert len(done.played) == len(done.starts)
+    return np.array(
+        [start for start, played in zip(done.starts, done.played, strict=True) if any(e.period_s for e in played.emissions)]
+    )
+
+
+def test_a_train_of_a_moving_finger_keeps_its_spacing_to_one_clock(run):
+    done = run(sliding(1.1), train(50))
+    assert done.counters.uploads == 50, "each beat at another place"
+    assert np.unique(done.spacings()).tolist() == [TICKS // 50]
+
+
+@pytest.mark.parametrize("late_s", [0.1e-3, 0.95 * (BEAT_LEAD_S - HANDOVER_S)])
+def test_a_host_that_wakes_up_late_does_not_move_a_beat(run, late_s):
+    done = run(sliding(1.1), train(50), LateClock(late_s))
+    assert done.counters.uploads == 50
+    assert np.unique(done.spacings()).tolist() == [TICKS // 50]
+
+
+def test_a_host_later_than_the_lead_does(run):
+    done = run(sliding(1.1), train(50), LateClock(2e-3))
+    assert np.unique(done.spacings()).size > 1
+
+
+@pytest.mark.parametrize("rate", [50, 100])
+@pytest.mark.parametrize("late_s", [0.0, 0.45e-3])
+def test_what_another_finger_feels_does_not_move_a_beat(run, rate, late_s):
+    scene = region("lower", LOWER, f'effect = "train", rate_hz = {rate}.0, duration_ms = 1000.0') + region(
+        "upper", PLATE, 'effect = "texture", spacing_mm = 1.0'
+    )
+    other = sliding(1.05, slot=1, y_mm=110.0, from_s=0.003, speed_m_s=0.3, step_s=0.007)
+    done = run(merged(sliding(1.1), other), scene, LateClock(late_s))
+    train_of_one = beats(done)
+    assert len(train_of_one) == rate
+    assert np.unique(np.diff(train_of_one)).tolist() == [TICKS // rate]
+    assert len(done.starts) > rate + 100, "and the other finger feels its own"
+    assert any(len(played.emissions) == 2 for played in done.played), "what would be in the way of a beat is played with it"
+
+
+def test_trains_of_two_fingers_each_keep_their_own_spacing(run):
+    done = run(merged(sliding(1.1), sliding(1.0, slot=1, y_mm=100.0, from_s=0.013, speed_m_s=0.2)), train(50))
+    for finger in (0, 1):
+        own = [s for s, played in zip(done.starts, done.played, strict=True) if played.emissions[0].finger == finger]
+        assert len(own) >= 49
+        assert np.unique(np.diff(own)).tolist() == [TICKS // 50]
+
+
+def test_an_emission_that_no_gap_of_a_fast_train_has_room_for_is_felt_all_the_same(run):
+    """Too near the train's finger to be played together with it."""
+    scene = region("left", 'shape = "rectangle"\nx_mm = 0.0\ny_mm = 0.0\nwidth_mm = 105.0\nheight_mm = 148.0',
+                   'effect = "train", rate_hz = 400.0, duration_ms = 1000.0')  # fmt: skip
+    scene += region("right", PLATE, 'effect = "click"')
+    taps = [report for k in range(4) for report in ((0.2 * k + 0.1, {1: (108.0, 74.0)}), (0.2 * k + 0.15, {1: None}))]
+    done = run(merged([(0.0, {0: (102.0, 74.0)}), (1.1, {0: None})], taps), scene)
+    clicks = [(p.trigger_s, e.time_s) for p in done.played for e in p.emissions if e.finger != 0]
+    assert len(clicks) == 4
+    assert max(trigger_s - time_s for trigger_s, time_s in clicks) < 25e-3
+
+
+def test_a_finger_at_rest_gets_495_emissions_a_second_from_one_upload(run):
+    done = run([(0.0, {0: (105.0, 74.0)}), (1.1, {0: None})], train(500))
+    assert done.counters.uploads == 1
+    assert done.counters.resident > 480
+    assert rate_hz(done.starts[1:]) >= 495  # the first comes before the panel has confirmed the contact
+
+
+@pytest.mark.parametrize("fingers", [1, 4])
+@pytest.mark.parametrize("sck_hz", [25_000_000, 8_000_000])
+def test_uploads_reach_nine_tenths_of_what_wire_and_plate_allow(run, board, fingers, sck_hz):
+    on = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, sck_hz=sck_hz))
+    ways = [sliding(1.0, speed_m_s=1.0, step_s=0.001, slot=k, y_mm=20 + 25.0 * k) for k in range(fingers)]
+    done = run(merged(*ways), FINE, on=on)
+    wire_hz = sck_hz / 8 / (UPLOAD_BYTES + 4 * FRAME_BYTES)
+    plate_hz = 1 / board.waveform.duration_s
+    uploads_hz = rate_hz(done.starts) * done.counters.uploads / done.counters.emissions
+    assert uploads_hz >= 0.9 * min(wire_hz, plate_hz)
