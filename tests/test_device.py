@@ -203,7 +203,8 @@ def test_sighup_reads_the_scene_again(service, folder, panel):
     service.says("another scene is played")
     with service.client() as client:
         assert "knock" in client.hello().effects
-        assert client.play("knock", at_mm=(50, 50)).outcome == "played"
+        answer = client.play("knock", at_mm=(50, 50))
+        assert answer.outcome == "played", (answer, service.log)
     figures, _ = service.end()
     assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 0)
 
