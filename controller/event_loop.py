@@ -285,7 +285,7 @@ class EventLoop:
             if self._wakeup is not None:
                 self._wakeup.clear()
             change.begin(None, 0)
-        prepared = None if change.fileno() is None else change.take()
+        prepared = change.take()
         if prepared is None:
             return
         if prepared.scene is not None:

@@ -37,6 +37,7 @@ class SceneChanger:
         self._child: subprocess.Popen[bytes] | None = None
         self._wanted = ("", 0)
         self._again = False
+        self._failed: Prepared | None = None
         self._said = bytearray()
 
     def begin(self, name: str | None, ticket: int) -> None:
@@ -56,7 +57,11 @@ class SceneChanger:
         self._wanted = (self._name if name is None else name, ticket)
         self._said.clear()
         command = [sys.executable, "-m", "controller.prepare_scene", str(self._board.folder), self._wanted[0], str(self._bank.path)]
-        self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+        try:
+            self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+        except OSError as error:  # no memory, no processes left
+            self._failed = Prepared(ticket, None, reason=f"no process to prepare a scene: {error.strerror}")
+            return
         assert self._child.stdout is not None
         os.set_blocking(self._child.stdout.fileno(), False)
 
@@ -66,6 +71,9 @@ class SceneChanger:
 
     def take(self) -> Prepared | None:
         """What was prepared; None while it is not done."""
+        failed, self._failed = self._failed, None
+        if failed is not None:
+            return failed
         child = self._child
         if child is None or child.stdout is None:
             return None

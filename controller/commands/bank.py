@@ -83,11 +83,19 @@ def bank_check(options: argparse.Namespace) -> int:
     return 0
 
 
-def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path) -> Bank:
-    """Bank asked for, or the board's own, which is built again when it is missing, damaged, or of another board or scene."""
+def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path, *, keep: bool = False) -> Bank:
+    """Bank asked for, or the board's own, which is built again when it is missing, damaged, or of another board or scene.
+
+    Parameters
+    ----------
+    keep : bool
+        Build only what is missing: a panel in the field does not replace its bank by itself.
+    """
     if options.bank:
         return Bank.open(Path(options.bank), board)
     path = bank_path(board.name, scene_file.stem)
+    if keep and path.exists():
+        return Bank.open(path, board)
     pitch_m = board.bank.pitch_mm * 1e-3
     if not is_current(path, board, pitch_m, _cells(board, pitch_m, scene)):
         print(f"haptic-panel: building the bank {path}", file=sys.stderr)

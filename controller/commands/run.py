@@ -72,7 +72,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     replay = None
     if options.replay or isinstance(board.touch, RecordingTouch):
         replay = Recording.open(recording_path(board, options.replay))
-    with open_bank(options, board, scene, scene_file) as bank:
+    with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             print(f"haptic-panel: {scene_file}: {warning}", file=sys.stderr)
         figures = serve(board, scene, str(scene_file), bank, replay)
