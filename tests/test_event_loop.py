@@ -239,7 +239,7 @@ def test_a_spot_as_fast_as_the_plate_allows_gives_way_to_a_finger(perform):
 
 def test_a_finger_due_with_a_spot_is_composed_with_it(perform):
     first = perform(nearby(1.0), SPOT)
-    next_start_s = starts_ms(first)[8] * 1e-3 - first.start_s + first.link.time_s(0)
+    next_start_s = starts_ms(first)[4] * 1e-3 - first.start_s + first.link.time_s(0)
     run = perform([(0.0, {}), (next_start_s - 0.0005, {0: (150.0, 94.0)}), (0.9, {0: None}), (1.0, {})], SPOT + CLICK)
     ((together, meant),) = [(tick, meant) for tick, meant in foci_meant(run) if len(meant) == 2]
     assert {emission.region for emission in meant} == {"spot", "all"}

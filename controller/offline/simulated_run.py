@@ -36,7 +36,8 @@ from controller.touch.replay import RecordingSource
 from controller.touch.tracks import Track
 from controller.touch.warnings import in_words
 
-SETTLE_S = 0.3  # between arming and the first event of the recording: a busy machine needs it in real time
+SETTLE_S = 50e-3  # between arming and the first event of the recording
+REAL_SETTLE_S = 0.3  # in real time, on a busy machine
 REFERENCE_ROUNDS = 2000
 Point = tuple[float, float]
 
@@ -114,7 +115,7 @@ def play(
     link = open_simulated(board, clock.now_s, gateware)
     session = open_session(link, board, clock.now_s)
     played: list[Played] = []
-    start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + SETTLE_S
+    start_s = session.ready_s() + board.limits.ramp_ms * 1e-3 + (REAL_SETTLE_S if real_time else SETTLE_S)
     axes = recording.axes(board)
     tracks = recording.tracks(axes)
     if not tracks:  # without any touch nothing is played, spots included
