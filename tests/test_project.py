@@ -60,6 +60,17 @@ def test_device_code_needs_nothing_of_the_offline_extra():
     assert done.returncode == 0, done.stderr
 
 
+def test_no_code_of_the_device_reads_the_clock_of_the_day():
+    """It may be set at any time: panels stamp their events, and the loop reads its time, by CLOCK_MONOTONIC."""
+    for path in (ROOT / "controller").rglob("*.py"):
+        if "offline" in path.parts:
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            name = ast.unparse(node) if isinstance(node, ast.Attribute) else ""
+            assert name not in {"time.time", "time.time_ns", "time.localtime", "time.gmtime", "time.CLOCK_REALTIME"}, path
+            assert not (isinstance(node, ast.Import | ast.ImportFrom) and "datetime" in ast.unparse(node)), path
+
+
 def test_every_public_name_says_what_it_is():
     """What ruff's D1 does not see: module docstrings are more than a word."""
     for path in (ROOT / "controller").rglob("*.py"):

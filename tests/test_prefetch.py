@@ -1,0 +1,59 @@
+"""What is sent ahead of a moving finger, and what stays resident: counted, on the pins of the simulated panel."""
+
+import pytest
+
+from controller.bank.selection import NEAR_M
+
+TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
+SPOT = """[[regions]]
+name = "spot"
+shape = "circle"
+x_mm = 60.0
+y_mm = 54.0
+radius_mm = 3.0
+effects = [{ effect = "always", rate_hz = 20.0 }]
+"""
+REPORT_S = 0.008
+
+
+def stroke(speed_mm_s, duration_s, y_mm=74.0):
+    """Reports of one finger that goes straight along x."""
+    reports = [(k * REPORT_S, {0: (20.0 + speed_mm_s * k * REPORT_S, y_mm)}) for k in range(round(duration_s / REPORT_S))]
+    return [*reports, (duration_s + 0.1, {0: None})]
+
+
+def test_ahead_of_a_finger_that_goes_straight_most_waveforms_are_there_when_they_are_due(perform):
+    run = perform(stroke(40.0, 3.0), TEXTURE)
+    counters = run.counters
+    assert counters.emissions == pytest.approx(24, abs=1)
+    assert counters.prefetched >= 20
+    assert counters.resident >= 0.8 * counters.emissions
+
+
+def test_what_was_sent_ahead_is_played_where_the_finger_is_then(perform):
+    run = perform(stroke(40.0, 3.0), TEXTURE)
+    track = run.tracks[0]
+    for played in run.played[2:]:
+        (emission,) = played.emissions
+        x_m, y_m = track.position(played.trigger_s - run.start_s + run.board.waveform.duration_s)
+        assert emission.x_m == pytest.approx(x_m, abs=NEAR_M + 0.6e-3)
+        assert emission.y_m == pytest.approx(y_m, abs=NEAR_M)
+
+
+def test_nothing_is_sent_ahead_of_a_finger_at_rest_or_one_that_feels_nothing_as_it_moves(perform):
+    assert perform([(0.0, {0: (60.0, 54.0)}), (1.0, {0: None})], TEXTURE).counters.prefetched == 0
+    assert perform(stroke(40.0, 1.0), CLICK).counters.prefetched == 0
+
+
+def test_a_finger_that_is_too_fast_to_be_foreseen_is_played_all_the_same(perform):
+    run = perform(stroke(600.0, 0.25), TEXTURE)
+    assert run.counters.emissions >= 20
+    assert run.counters.skipped.bad_entries == 0
+
+
+def test_a_spot_stays_resident_whatever_fingers_play(perform):
+    places = [(30.0 + 13.0 * k, 110.0) for k in range(10)]
+    taps = [report for k, place in enumerate(places) for report in ((0.1 * k, {0: place}), (0.1 * k + 0.05, {0: None}))]
+    run = perform([*taps, (1.2, {})], SPOT + CLICK)
+    assert run.counters.uploads == len(places) + 1, "each place once, and the spot once"
