@@ -11,7 +11,7 @@ from controller.bank.selection import Selection
 from controller.board import Board
 from controller.clocks import Clock
 from controller.command_source import CommandSource
-from controller.event_loop import EventLoop, SceneChange
+from controller.event_loop import EventLoop
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
@@ -19,6 +19,7 @@ from controller.latency import Counters
 from controller.performance import Performance
 from controller.playback import Playback, Played
 from controller.scene import Scene
+from controller.scene_source import SceneChange
 from controller.touch.source import TrackedTouch
 
 UPLOAD_COMMANDS = 4  # STORE, NOP while the slot is checked, PLAY, NOP

@@ -7,17 +7,15 @@ it to the playback. The longest call that blocks is one message on the wire (`Pl
 from __future__ import annotations
 
 import contextlib
-import gc
 import selectors
 import signal
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any, Protocol
+from collections.abc import Callable
+from typing import Any
 
-from controller.bank.selection import Selection
 from controller.board import Board
 from controller.clocks import NEVER, Clock
+from controller.collector import collector_off
 from controller.command_source import CommandSource, Outcome
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.session import Session
@@ -26,38 +24,15 @@ from controller.latency import Counters
 from controller.outputs import Outputs
 from controller.performance import Performance
 from controller.playback import ENDLESS, Playback
-from controller.scene import ROUNDING_S, Emission, Scene
+from controller.scene import ROUNDING_S, Emission
+from controller.scene_source import SceneChange
 from controller.touch.samples import TouchSample
 from controller.touch.source import TrackedTouch
 from controller.wakeup import Wakeup, signals
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
-KEPT_TUPLES, KEPT_TUPLE_LENGTHS = 2000, 20  # CPython keeps so many freed tuples of each length below, 5 MB in all
 PREFETCH_AHEAD_S = 30e-3  # for where a moving finger will be then
-
-
-@dataclass(frozen=True, slots=True)
-class Prepared:
-    """Another scene and, if that has changed, the bank to play it from; or why there is none."""
-
-    ticket: int
-    scene: Scene | None
-    selection: Selection | None = None
-    reason: str = ""
-
-
-class SceneChange(Protocol):
-    """Prepares another scene outside the loop."""
-
-    def begin(self, name: str | None, ticket: int) -> None:
-        """Prepare the scene of this name; None: the one that is played, read again."""
-
-    def fileno(self) -> int | None:
-        """Readable when it is done; None while nothing is prepared."""
-
-    def take(self) -> Prepared | None:
-        """What was prepared; None while it is not done."""
 
 
 class EventLoop:
@@ -151,7 +126,7 @@ class EventLoop:
         handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop}
         if self._change is not None:
             handlers[signal.SIGHUP] = self.reload
-        with selectors.DefaultSelector() as selector, signals(handlers, selector) as self._wakeup, _collector_off():
+        with selectors.DefaultSelector() as selector, signals(handlers, selector) as self._wakeup, collector_off():
             try:
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
@@ -376,18 +351,3 @@ def _nothing() -> None:
 
 def _at(sample: TouchSample, time_s: float) -> TouchSample:
     return TouchSample(sample.finger, sample.x_m, sample.y_m, time_s, sample.contact, sample.size_m)
-
-
-@contextlib.contextmanager
-def _collector_off() -> Iterator[None]:
-    """No garbage collection while the loop runs: it makes no cycles."""
-    gc.collect()
-    gc.freeze()
-    gc.disable()
-    for length in range(1, KEPT_TUPLE_LENGTHS):  # so that the interpreter's store of them does not grow while the loop runs
-        _ = [tuple([None] * length) for _ in range(KEPT_TUPLES)]
-    try:
-        yield
-    finally:
-        gc.enable()
-        gc.unfreeze()

@@ -12,7 +12,7 @@ from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.board import Board
 from controller.errors import ConfigError, ControllerError
-from controller.event_loop import Prepared
+from controller.scene_source import Prepared
 
 CHUNK_BYTES = 1 << 16
 
