@@ -61,7 +61,10 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             stack.callback(commands.close)
         change = SceneChanger(board, scene_name, bank)
         stack.callback(change.close)
-        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier), open_thermometer(board))
+        thermometer = open_thermometer(board)
+        if thermometer is not None:
+            stack.callback(thermometer.close)
+        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier), thermometer)
         assembly = assemble(
             board,
             scene,

@@ -15,6 +15,10 @@ from controller.service import Notifier, Watchdog, tell
 class Thermometer(Protocol):
     """The plate's temperature, as far as it is known."""
 
+    @property
+    def cause(self) -> str:
+        """Why the last reading gave nothing; empty if it did."""
+
     def scale(self, now_s: float) -> float:
         """What the bit clock is to be multiplied by."""
 
@@ -76,6 +80,7 @@ class Housekeeping:
         self._loop: Watched | None = None
         self._panel: Panel | None = None
         self._board_name = board.name
+        self._cause = ""
         self._reloading = False
         self._state = ""
         self._present = True
@@ -119,6 +124,9 @@ class Housekeeping:
         assert self._thermometer is not None
         scale = self._thermometer.scale(now_s)
         self._read_s = now_s + self._period_s
+        if self._thermometer.cause != self._cause:
+            self._cause = self._thermometer.cause
+            self._say(self._cause or "the temperature sensor is read again")
         if scale == self.scale:
             return
         if self._session.set_bit_period(scale):  # else something plays: the next turn but one

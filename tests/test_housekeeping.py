@@ -1,0 +1,95 @@
+"""What the service does beside playing: the bit clock follows the plate, and changes are told once."""
+
+import msgspec
+import numpy as np
+import pytest
+
+from controller.assembly import assemble
+from controller.bank.reader import Bank
+from controller.clocks import VirtualClock
+from controller.device_settings import Temperature
+from controller.hardware import open_session, open_simulated, open_thermometer, tracked
+from controller.housekeeping import Housekeeping
+from controller.scene import load_scene
+from controller.service import Notifier, Watchdog
+from controller.touch.recording import Recording
+from controller.touch.replay import RecordingSource
+
+CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
+PER_K = -2e-4
+
+
+@pytest.fixture
+def sensor(tmp_path):
+    """As sysfs shows one: thousandths of a degree."""
+    file = tmp_path / "temp1_input"
+    file.write_text("23000\n")
+    return file
+
+
+@pytest.fixture
+def kept(board, bank_file, tmp_path, sensor, evemu_text, capsys):
+    """Run a loop with housekeeping; `at` maps times to what the sensor says from then on."""
+
+    def run(at):
+        temperature = Temperature(kind="hwmon", device=str(sensor), coefficient_per_k=PER_K, period_s=0.1)
+        warm = msgspec.structs.replace(board, temperature=temperature)
+        (tmp_path / "s.toml").write_text(CLICK)
+        clock = VirtualClock()
+        link = open_simulated(warm, clock.now_s)
+        session = open_session(link, warm, clock.now_s)
+        taps = [r for k in range(6) for r in ((0.5 * k, {0: (40.0 + 20 * k, 70.0)}), (0.5 * k + 0.1, {0: None}))]
+        recording = Recording(evemu_text(*taps))
+        notifier = Notifier("")
+        thermometer = open_thermometer(warm)
+        housekeeping = Housekeeping(warm, session, notifier, Watchdog(notifier, float("inf")), thermometer)
+        left = sorted(at.items())
+
+        def progress(now_s):
+            while left and left[0][0] <= now_s:
+                said = left.pop(0)[1]
+                sensor.write_text("" if said is None else f"{said}\n")
+            housekeeping.progress(now_s)
+
+        with Bank.open(bank_file, warm) as bank:
+            source = tracked(RecordingSource(recording, recording.axes(warm), 0.2), warm)
+            scene = load_scene(tmp_path / "s.toml", warm)
+            assembly = assemble(warm, scene, bank, clock, session, source, progress=progress)
+            housekeeping.watch(assembly.loop, assembly.counters, None)
+            assembly.loop.run()
+            link.close()
+        return link, housekeeping, assembly.counters, capsys.readouterr().err
+
+    return run
+
+
+def lengths_us(link, clock_hz):
+    """From the first change of an emission's words to its focus."""
+    capture = link.take_capture()
+    ticks = capture.ticks.astype(np.int64)
+    lengths = []
+    for focus in capture.focus_ticks.astype(np.int64):
+        within = ticks[(ticks > focus - 2.2e-3 * clock_hz) & (ticks < focus)]
+        lengths.append((focus - within[0]) / clock_hz * 1e6)
+    return lengths
+
+
+def test_emissions_are_played_as_much_slower_as_the_warm_plate_is(kept, board):
+    link, housekeeping, counters, _ = kept({1.0: 27000, 1.3: 31000, 1.6: 33000})
+    assert housekeeping.scale == pytest.approx(1 + PER_K * 10)
+    lengths = lengths_us(link, board.link.clock_hz)
+    assert len(lengths) == counters.emissions == 6
+    assert lengths[0] == pytest.approx(2000, abs=2.1)
+    assert lengths[-1] - lengths[0] == pytest.approx(4.0, abs=0.5), "10 K of -200 ppm/K on 2 ms"
+
+
+def test_a_sensor_that_is_lost_is_told_once_and_its_last_reading_holds(kept):
+    _, housekeeping, _, log = kept({0.5: 26000, 1.0: None})
+    assert housekeeping.scale == pytest.approx(1 + PER_K * 3)
+    assert log.count("temperature") == 1, log
+
+
+def test_nonsense_changes_nothing(kept):
+    _, housekeeping, _, log = kept({0.5: 99999, 0.9: -273150})
+    assert housekeeping.scale == 1.0
+    assert "temperature sensor says" in log
