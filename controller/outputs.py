@@ -123,5 +123,6 @@ class Outputs:
     def _beat(self) -> None:
         before_s = self._clock.now_s()
         status = self._session.heartbeat()
-        self._time_base.add(before_s, self._session.ready_s(), status.timestamp_ticks)
+        sent_s = max(before_s, self._session.free_s())  # not later: what came back may have been read late
+        self._time_base.add(before_s, sent_s, status.timestamp_ticks)
         self._counters.heartbeats += 1

@@ -34,13 +34,17 @@ Where = Callable[[int, float], tuple[float, float] | None]
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """One start: when, where its foci are, and its repetition (count 0: until replaced)."""
+    """One start: when, where its foci are, and its repetition (count 0: until replaced).
+
+    `at_ticks` is the clock of the FPGA at which it starts, where the FPGA was given one; else the trigger pin rose.
+    """
 
     trigger_s: float
     emissions: tuple[Emission, ...]
     count: int
     period_s: float
     resident: bool
+    at_ticks: int | None = None
 
     def last_start_s(self, at_s: float) -> float:
         """When the emission of a repetition began that sounds, or sounded last, at a time after the trigger."""
@@ -58,6 +62,7 @@ class _Prepared:
     resident: bool
     ready_s: float
     start_s: float  # in host time
+    at_ticks: int | None
     decide_ns: int
     frame_ns: int
     wire_ns: int
@@ -219,6 +224,7 @@ class Playback:
             resident is not None,
             ready_s,
             max(ready_s, self.free_s + MARGIN_S, not_before_s) if at_s is None else self._time_base.host_s(start_s),
+            None if at_s is None else when_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - away_ns,
             session.wire_ns - wire_before_ns,
@@ -330,7 +336,7 @@ class Playback:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]
             )
-            played = Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident)
+            played = Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks)
             if prepared.count == ENDLESS:
                 self._running = played
             if self._played is not None:

@@ -74,6 +74,10 @@ class SimulatedLink:
         """When the frames sent so far have gone and been judged."""
         return self.time_s(self._free_tick + TRIGGER_AFTER_TICKS)
 
+    def tick(self, time_s: float) -> int:
+        """The gateware's tick at a time on the loop's clock."""
+        return round((time_s - self._start_s) * self.clock_hz)
+
     def time_s(self, tick: int) -> float:
         """A tick of the gateware on the loop's clock."""
         return self._start_s + tick / self.clock_hz
@@ -101,4 +105,4 @@ class SimulatedLink:
         return self.gateware.take_capture()
 
     def _tick_now(self) -> int:
-        return round((self._now_s() - self._start_s) * self.clock_hz)
+        return self.tick(self._now_s())

@@ -196,12 +196,12 @@ def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissi
 
 
 def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
-    """Every focus tick of the capture with what the loop wanted there: the emissions of the last trigger before it began."""
-    triggers_s = [played.trigger_s for played in run.played]
+    """Every focus tick of the capture with what the loop wanted there: the emissions of the last start before it began."""
+    starts_ticks = [run.link.tick(played.trigger_s) if played.at_ticks is None else played.at_ticks for played in run.played]
+    most_ticks = round(0.99 * run.board.waveform.duration_s * run.link.clock_hz)
     meant = []
     for tick in run.capture.focus_ticks.tolist():
-        began_s = run.link.time_s(tick) - 0.99 * run.board.waveform.duration_s
-        meant.append((tick, run.played[bisect_right(triggers_s, began_s) - 1].emissions))
+        meant.append((tick, run.played[bisect_right(starts_ticks, tick - most_ticks) - 1].emissions))
     return meant
 
 
