@@ -452,3 +452,24 @@ def test_spots_of_different_rates_each_keep_their_own_beat(perform):
         assert np.diff(ticks)[1:] == pytest.approx(period_ticks, abs=400_000)  # 5 ms: an upload while the other one sounds
         assert ticks[-1] - ticks[1] == pytest.approx((len(ticks) - 2) * period_ticks, abs=400_000), "no drift"
     assert any(len(emissions) == 2 for _, emissions in meant), "due at once, they are composed"
+
+
+def test_answers_that_are_read_late_do_not_move_the_fpgas_time(board, bank_file, tmp_path, cell, evemu_text):
+    clock, played = VirtualClock(), []
+    with Bank.open(bank_file, board) as bank:
+        reports = [(0.0, {0: cell[1]}), (0.3, {0: None})]
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, played=played.append)
+        exchange = link.gateware.exchange
+
+        def slow(select_tick, release_tick, mosi, miso):
+            """Takes half a millisecond of the host's time for each short frame."""
+            exchange(select_tick, release_tick, mosi, miso)
+            if len(mosi) == FRAME_BYTES:
+                clock._now_s += 0.5e-3
+
+        link.gateware.exchange = slow
+        loop.run()
+        link.close()
+    assert counters.scheduled == len(played) > 10
+    for start in played:
+        assert link.time_s(start.at_ticks) == pytest.approx(start.trigger_s, abs=50e-6)
