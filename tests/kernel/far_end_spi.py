@@ -106,6 +106,11 @@ class _Gateware:
     def _tick(self, at_s):
         return max(round((at_s - self._start_s) * self._clock_hz), self._free_tick)
 
+    def _now(self):
+        """The tick to go to; a line that changed before and was not read yet will be taken to change then."""
+        self._free_tick = self._tick(time.monotonic())
+        return self._free_tick
+
     def line(self, at_s, name, level):
         """A line of the host has been given a level."""
         role, tick = self._roles.get(name), self._tick(at_s)
@@ -140,12 +145,11 @@ class _Gateware:
 
     def reset(self, dark_s):
         """The FPGA loses its supply now, and is configured again so much of its time later."""
-        self._gateware.restart(self._tick(time.monotonic()), round(dark_s * self._bits_hz))
+        self._gateware.restart(self._now(), round(dark_s * self._bits_hz))
 
     def pins(self):
         """What the pins have come to, and the emissions that ran to their end so far."""
-        self._gateware.advance(self._tick(time.monotonic()))
-        self._free_tick = max(self._free_tick, self._gateware.now)  # a line may have changed while this was asked for
+        self._gateware.advance(self._now())
         capture = self._gateware.take_capture()
         self._captures.append(capture)
         if capture.ticks.size:
