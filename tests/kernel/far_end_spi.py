@@ -17,6 +17,7 @@ import numpy as np
 
 from controller.board import data_folder
 from controller.fpga.build_hash import build_hash
+from controller.fpga.capture import Capture
 from controller.fpga.gateware import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, Parameters, Permit, frame_ticks
 from controller.fpga.model import GatewareModel
 from controller.fpga.restarting import RestartingGateware
@@ -94,6 +95,8 @@ class _Gateware:
         self._hv = 0
         self._word = 0
         self._focus = 0
+        self._captures = []
+        self._damaged = 0
         self.wire = "good"
         self.modes = set()
         self._gateware.permit(0, True, Permit.TEMPERATURE)
@@ -102,6 +105,11 @@ class _Gateware:
 
     def _tick(self, at_s):
         return max(round((at_s - self._start_s) * self._clock_hz), self._free_tick)
+
+    def _now(self):
+        """The tick to go to; a line that changed before and was not read yet will be taken to change then."""
+        self._free_tick = self._tick(time.monotonic())
+        return self._free_tick
 
     def line(self, at_s, name, level):
         """A line of the host has been given a level."""
@@ -120,25 +128,44 @@ class _Gateware:
             return None
         self.modes.add(mode)
         sent = request[HEADER.size : HEADER.size + size]
+        if self._damaged:
+            self._damaged -= 1
+            sent = bytes([*sent[:-1], sent[-1] ^ 1])
         answer = bytearray(size)
         ticks = max(round(8 * size * self._bits_hz / speed_hz), frame_ticks(size)) + 2 * LEAD_TICKS
         select_tick = max(self._tick(time.monotonic()) - ticks, self._free_tick)  # its time on the wire has passed already
         self._free_tick = select_tick + ticks + SELECT_HIGH_TICKS
         self._gateware.exchange(select_tick, select_tick + ticks, sent, memoryview(answer))
+        time.sleep(max(self._start_s + self._free_tick / self._clock_hz - time.monotonic(), 0))  # a slow SCK takes its time
         return WIRES[self.wire](bytes(answer), sent)
+
+    def damage(self, frames):
+        """Of the next so many frames to the FPGA, the last bit will be wrong."""
+        self._damaged = frames
 
     def reset(self, dark_s):
         """The FPGA loses its supply now, and is configured again so much of its time later."""
-        self._gateware.restart(self._tick(time.monotonic()), round(dark_s * self._bits_hz))
+        self._gateware.restart(self._now(), round(dark_s * self._bits_hz))
 
     def pins(self):
         """What the pins have come to, and the emissions that ran to their end so far."""
-        self._gateware.advance(self._tick(time.monotonic()))
+        self._gateware.advance(self._now())
         capture = self._gateware.take_capture()
+        self._captures.append(capture)
         if capture.ticks.size:
             self._hv, self._word = int(capture.hv[-1]), int(capture.words[-1])
         self._focus += capture.focus_ticks.size
         return {"hv": self._hv, "word": self._word, "focus": self._focus, "modes": self.modes}
+
+    def emissions(self, words, word_ticks):
+        """Drive words on the channel pins in each emission that ended since this was last asked for, as bytes."""
+        self.pins()
+        ticks = np.concatenate([capture.ticks for capture in self._captures]).astype(np.int64)
+        levels = np.concatenate([capture.words for capture in self._captures])
+        foci = np.concatenate([capture.focus_ticks for capture in self._captures]).astype(np.int64)
+        before = np.arange(-words, 0) * word_ticks
+        self._captures = [Capture(ticks[-words:], levels[-words:], levels[-words:], foci[:0])]
+        return [levels[np.searchsorted(ticks, focus + before, side="right") - 1].astype("<u4").tobytes() for focus in foci]
 
 
 class FarEnd:
@@ -181,6 +208,10 @@ class FarEnd:
     def pins(self):
         """Levels and emissions so far: hv, word, focus."""
         return self.ask("pins")
+
+    def emissions(self, board):
+        """Drive words of each emission that ended since the last call, as they were on the channel pins."""
+        return self.ask("emissions", board.waveform.samples, board.bit_ticks)
 
     def close(self):
         """Nobody is at the far end any more: MISO is MOSI."""

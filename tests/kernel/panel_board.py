@@ -13,12 +13,13 @@ def table(text, name, lines):
     return replaced
 
 
-def write(touch, link="", heartbeat_ms=250.0):
-    """Give the board a touch panel, other lines of its link, and time for a slow machine."""
+def write(touch, link="", **limits):
+    """Give the board a touch panel, other lines of its link, other limits, and time for a slow machine."""
     text = table(BOARD.read_text(), "touch", f"x_mm_from_axes = [210.0, 0.0, 0.0]\ny_mm_from_axes = [0.0, 148.0, 0.0]\n{touch}")
     text = table(text, "link", link) if link else text
-    text, count = re.subn(r"^heartbeat_timeout_ms = .*", f"heartbeat_timeout_ms = {heartbeat_ms}", text, flags=re.MULTILINE)
-    assert count == 1
+    for name, value in {"heartbeat_timeout_ms": 250.0, **limits}.items():
+        text, count = re.subn(rf"^{name} = .*", f"{name} = {value}", text, flags=re.MULTILINE)
+        assert count == 1, name
     if "[application_socket]" not in text:
         text += '\n[application_socket]\npath = "/run/haptic-panel/panel.sock"\n'
     BOARD.write_text(text)

@@ -8,11 +8,19 @@ as_root=()
 [ "$(id -u)" = 0 ] || as_root=(sudo)
 tree=$(mktemp -d)
 name=haptic-panel-$$
-trap '"${as_root[@]}" rm -rf --one-file-system "$tree" "/run/systemd/nspawn/propagate/$name"' EXIT
+machine=
+trap 'test -z "$machine" || "${as_root[@]}" kill $machine 2>/dev/null && wait $machine || true; "${as_root[@]}" rm -rf --one-file-system "$tree" "/run/systemd/nspawn/propagate/$name"' EXIT
+trap 'exit 99' HUP INT TERM
 "$here/make_tree.sh" "$1" "$tree" "${@:2}"
 binds=()
 while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
-"${as_root[@]}" env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 timeout -s TERM -k 20 "${LIMIT_S:-900}" \
+exec 3> >(exec sed -u 's/\r//g' | tee "$tree/log")
+printer=$!
+"${as_root[@]}" setpriv --pdeathsig TERM env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 timeout -s TERM -k 20 "${LIMIT_S:-900}" \
   systemd-nspawn -q -b -D "$tree" -M "$name" --register=no --keep-unit --console=interactive --private-network "${binds[@]}" \
-  systemd.show_status=false </dev/null 2>&1 | sed -u 's/\r//g' | tee "$tree/log" || true
+  systemd.show_status=false </dev/null >&3 2>&1 3>&- &
+machine=$!
+exec 3>&-
+wait $machine || true
+wait $printer || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$tree/log" | tail -n 1 | grep . || echo 99)"

@@ -12,7 +12,11 @@ python=$1
 shift
 guest=$("$here/build_guest.sh")
 run=$(mktemp -d)
-trap 'rm -rf "$run"' EXIT
+machine= gateware=
+trap 'kill $machine $gateware 2>/dev/null || true; rm -rf "$run"' EXIT
+trap 'exit 99' HUP INT TERM
+PYTHONPATH=$(realpath "$here/../..") setpriv --pdeathsig TERM "$python" "$here/host_gateware.py" "$run/gateware" &
+gateware=$!
 {
   echo '#!/bin/sh'
   echo 'exec >/dev/ttyS0 2>&1'
@@ -44,11 +48,19 @@ else
 fi
 chmod -R a+rX "$run"
 chmod +x "$run/init"
+until [ -S "$run/gateware" ]; do kill -0 "$gateware"; sleep 0.05; done
 # -icount: each instruction takes 2 ns of the guest's time, however busy this machine is
-timeout -s KILL "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -rtc clock=vm -cpu max -smp 1 -m 1024 -nodefaults -no-user-config \
+exec 3> >(exec sed -u 's/\r//g' | tee "$run/log")
+printer=$!
+setpriv --pdeathsig TERM timeout -k 5 "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -rtc clock=vm -cpu max -smp 1 -m 1024 -nodefaults -no-user-config \
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
+  -device virtio-serial -chardev socket,id=gateware,path="$run/gateware" -device virtserialport,chardev=gateware,name=gateware \
   -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 \
     systemd.show_status=false guest_init=$run/init" \
-  </dev/null 2>&1 | sed -u 's/\r//g' | tee "$run/log" || true
+  </dev/null >&3 2>&1 3>&- &
+machine=$!
+exec 3>&-
+wait $machine || true
+wait $printer || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$run/log" | tail -n 1 | grep . || echo 99)"

@@ -5,8 +5,14 @@ import subprocess
 import time
 from pathlib import Path
 
+import panel_board
+
+from controller.bank.reader import Bank
+from controller.board import load_board
+
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"
+BANK = Path("/var/lib/haptic-panel/banks/simulated-scene.bank")
 PATIENCE_S = 120.0  # in a virtual machine without help of the processor, beside other work
 
 
@@ -74,3 +80,21 @@ def fresh_start():
     subprocess.run(["systemctl", "reset-failed", UNIT], check=False, capture_output=True)
     run("systemctl", "start", UNIT)
     return main_pid()
+
+
+def cell(number):
+    """A cell's place in m, and its drive words."""
+    with Bank.open(BANK, load_board(panel_board.BOARD)) as bank:
+        return bank.grid.place(number), bytes(bank.words(number))
+
+
+def wait_for_emission(far_end, words, tap):
+    """Tap until just these drive words were on the channel pins of the FPGA."""
+    board = load_board(panel_board.BOARD)
+    far_end.emissions(board)
+
+    def played():
+        tap()
+        return words in far_end.emissions(board)
+
+    wait_for("the bank's entry on the pins", played)

@@ -14,7 +14,21 @@ from evdev import AbsInfo, UInput
 from evdev import ecodes as e
 from far_end_spi import FarEnd
 from gpio_lines import GpioLines
-from service_under_test import UNIT, fresh_start, install, journal, main_pid, restarted, run, said, shown, status_of, wait_for
+from service_under_test import (
+    UNIT,
+    cell,
+    fresh_start,
+    install,
+    journal,
+    main_pid,
+    restarted,
+    run,
+    said,
+    shown,
+    status_of,
+    wait_for,
+    wait_for_emission,
+)
 
 from controller.board import load_board
 
@@ -30,6 +44,7 @@ permit_line = "PERMIT"
 """
 NAME = "test panel"
 WIDTH, HEIGHT = 2100, 1480  # tenths of a millimetre
+CELL = 45  # of the background; another than the beacon's, which is played all the time
 
 
 PROBE = """import sys
@@ -60,10 +75,12 @@ class Panel:
         self._touches = 0
         run("udevadm", "settle")
 
-    def tap(self, x, y):
-        """A finger comes, and goes."""
+    def tap(self, x_m, y_m):
+        """A finger comes, is seen twice, and goes."""
         self._touches += 1
+        x, y = round(x_m * 1e4), round(y_m * 1e4)
         self._write((e.ABS_MT_TRACKING_ID, self._touches), (e.ABS_MT_POSITION_X, x), (e.ABS_MT_POSITION_Y, y), down=1)
+        self._write((e.ABS_MT_POSITION_X, x + 1), down=1)
         self._write((e.ABS_MT_TRACKING_ID, -1), down=0)
 
     def close(self):
@@ -85,7 +102,7 @@ class Bench:
         panel_board.write(f'kind = "linux_input"\ndevice = "{NAME}"', LINK)
         self.lines = GpioLines("panel-lines", LINES)
         self.panel = Panel()
-        self.far_end = FarEnd(load_board(panel_board.BOARD.parent).link, LINES)
+        self.far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
 
     def outputs_are(self, on):
         """Wait until the FPGA's outputs are on, or off."""
@@ -98,14 +115,9 @@ class Bench:
         return pid
 
     def finger_is_felt(self):
-        """Tap until an emission has reached its focus at the FPGA's pins."""
-        before = self.far_end.pins()["focus"]
-
-        def felt():
-            self.panel.tap(1000, 700)
-            return self.far_end.pins()["focus"] > before
-
-        wait_for("an emission", felt)
+        """Tap on a cell until its entry in the bank has been on the FPGA's pins, bit for bit."""
+        place, words = cell(CELL)
+        wait_for_emission(self.far_end, words, lambda: self.panel.tap(*place))
 
 
 def bench(made=[]):  # noqa: B006
@@ -196,7 +208,7 @@ def test_an_fpga_that_is_gone_is_told_at_the_start():
         assert "status=69/UNAVAILABLE" in journal()
         assert "our own bytes came back" in journal()
     finally:
-        bench().far_end = FarEnd(load_board(panel_board.BOARD.parent).link, LINES)
+        bench().far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
 
 
 def test_killed_it_leaves_the_outputs_off_until_it_is_back():

@@ -47,15 +47,19 @@ def results_of(output):
 def run(file):
     """The exit code of a file, what each of its tests printed, and all that was printed."""
     runner, *options = RUNNERS[file.split("_")[0]]
-    done = subprocess.run(
-        [HERE / runner, *options, sys.executable, HERE / file],
+    with subprocess.Popen(
+        ["setpriv", "--pdeathsig", "TERM", HERE / runner, *options, sys.executable, HERE / file],  # it ends when these tests do
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        check=False,
         env=os.environ | {"PYTHONPATH": ""},
-    )
-    return done.returncode, results_of(done.stdout), done.stdout
+    ) as machine:
+        try:
+            output, _ = machine.communicate()
+        except BaseException:
+            machine.terminate()
+            raise
+    return machine.returncode, results_of(output), output
 
 
 FILES = sorted(path.name for kind in RUNNERS for path in HERE.glob(f"{kind}_*.py"))

@@ -1,0 +1,91 @@
+"""The compiled Verilog computed by this machine for a guest, where it would be 25 times slower: two ends of a virtual serial port.
+
+usage: host_gateware.py SOCKET     serves whoever is at the far end of QEMU's virtio-serial, until that is gone
+"""
+
+import multiprocessing.connection
+import os
+import sys
+from functools import cache
+from pathlib import Path
+
+NAME = "gateware"  # of the port
+
+
+@cache
+def port():
+    """The guest's end; one process has it open at a time."""
+    (name,) = (port for port in Path("/sys/class/virtio-ports").iterdir() if (port / "name").read_text().strip() == NAME)
+    return multiprocessing.connection.Connection(os.open(f"/dev/{name.name}", os.O_RDWR))
+
+
+def ask(what, *arguments):
+    """Have the host do something, and its answer."""
+    port().send((what, arguments))
+    answer = port().recv()
+    if isinstance(answer, Exception):
+        raise answer
+    return answer
+
+
+class HostGateware:
+    """A `Gateware` just out of reset: `RtlGateware` on the host. Each that is made takes the place of the one before."""
+
+    def __init__(self, parameters):
+        self.now = ask("open", parameters)
+
+    def advance(self, tick):
+        self.now = ask("advance", tick)
+
+    def permit(self, tick, level, which):
+        ask("permit", tick, level, which)
+
+    def trigger(self, tick, high_ticks):
+        ask("trigger", tick, high_ticks)
+
+    def exchange(self, select_tick, release_tick, mosi, miso):
+        self.now, miso[:] = ask("exchange", select_tick, release_tick, bytes(mosi))
+
+    def take_capture(self):
+        return ask("take_capture")
+
+
+class Served:
+    """What the host does of it."""
+
+    def open(self, parameters):
+        from controller.offline.rtl_gateware import RtlGateware
+
+        self._gateware = RtlGateware(parameters)
+        return self._gateware.now
+
+    def advance(self, tick):
+        self._gateware.advance(tick)
+        return self._gateware.now
+
+    def exchange(self, select_tick, release_tick, mosi):
+        miso = bytearray(len(mosi))
+        self._gateware.exchange(select_tick, release_tick, mosi, memoryview(miso))
+        return self._gateware.now, bytes(miso)
+
+    def __getattr__(self, name):
+        return getattr(self._gateware, name)
+
+
+def main():
+    served = Served()
+    with multiprocessing.connection.Listener(sys.argv[1], "AF_UNIX") as listener, listener.accept() as guest:
+        while True:
+            try:
+                what, arguments = guest.recv()
+            except EOFError:
+                return
+            try:
+                answer = getattr(served, what)(*arguments)
+            except Exception as error:
+                answer = error
+            guest.send(answer)
+
+
+if __name__ == "__main__":
+    main()
