@@ -136,6 +136,7 @@ def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording]
 
     def _note(_: float) -> None:
         counters, wall_s = assembly.counters, time.perf_counter()
+        link.take_capture()  # what the simulated pins did is no memory of the loop's
         hour = _hour(counters, counters.emissions - int(state["emissions"]), wall_s - state["wall_s"])
         state["emissions"], state["wall_s"] = counters.emissions, wall_s
         counters.upload_latency, counters.resident_latency = Stages(), Stages()
