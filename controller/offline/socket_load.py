@@ -198,7 +198,7 @@ def _report(
 
 def _resident_bytes(pid: int) -> int:
     status = Path(f"/proc/{pid}/status").read_text(encoding="ascii")
-    return int(status.partition("VmRSS:")[2].split()[0]) * 1024
+    return int(status.partition("RssAnon:")[2].split()[0]) * 1024  # the bank's pages are the file's
 
 
 def run(options: argparse.Namespace) -> dict[str, Any]:
