@@ -12,7 +12,7 @@ import threading
 from pathlib import Path
 
 import panel_board
-from service_under_test import (
+from the_service import (
     CHECKOUT,
     UNIT,
     fresh_start,

@@ -14,7 +14,7 @@ import far_end_spi
 import panel_board
 from gpio_lines import GpioLines
 from host_gateware import HostGateware
-from service_under_test import cell, fresh_start, install, main_pid, said, wait_for, wait_for_emission
+from the_service import cell, fresh_start, install, main_pid, said, wait_for, wait_for_emission
 
 from controller.board import load_board
 

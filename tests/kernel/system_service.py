@@ -14,7 +14,7 @@ from evdev import AbsInfo, UInput
 from evdev import ecodes as e
 from far_end_spi import FarEnd
 from gpio_lines import GpioLines
-from service_under_test import (
+from the_service import (
     UNIT,
     cell,
     fresh_start,
