@@ -117,7 +117,7 @@ class Housekeeping:
         if counters.scenes_refused != self._refused:
             self._refused = counters.scenes_refused
             self._say(f"the scene stays as it was: {counters.scene_refused}")
-        if self._read_s <= now_s:
+        if self._read_s <= now_s and not loop.state:  # an FPGA that is lost takes no other bit clock
             self._follow_temperature(loop, now_s)
 
     def _follow_temperature(self, loop: Watched, now_s: float) -> None:

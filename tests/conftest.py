@@ -14,16 +14,17 @@ from controller.touch.recording import Recording
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
 
-# What takes long goes on in processes of its own: it begins first, and is asked for in its turn or at the end.
-ORDER = {
-    "test_the_benches_begin": 0,
-    "test_the_commands_of_the_readmes_begin": 0,
-    "test_every_command_of_every_readme_works": 2,
-}
+# What takes long goes on in processes of its own: it begins first, and is asked for at the end.
+FIRST = {"test_the_benches_begin", "test_the_commands_of_the_readmes_begin"}
+LAST = ("test_rtl.py", "test_every_command_of_every_readme_works")  # in this order
 
 
 def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: ORDER.get(item.name, 1))
+    def place(item):
+        names = (item.name.partition("[")[0], item.path.name)
+        return -1 if names[0] in FIRST else next((place for place, name in enumerate(LAST, 1) if name in names), 0)
+
+    items.sort(key=place)
 
 
 PITCH_M = 10e-3  # 20 x 13 cells: built in a second
