@@ -76,6 +76,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             change=change,
             progress=housekeeping.progress,
         )
+        assembly.selection.prepare()
         housekeeping.watch(assembly.loop, assembly.counters, touch if isinstance(touch, LiveSource) else None)
         for warning in enter_realtime(board.realtime):
             tell(warning)

@@ -1,7 +1,7 @@
 """The device loop: touch reports and commands in, emissions out; one thread, and nothing but the selector blocks.
 
 Each turn reads at most one touch report and a bounded number of commands, asks the scene what is due, and hands
-it to the playback. The longest call that blocks is one message on the wire (`Playback.upload_s`).
+it to the playback. The longest call that blocks while all is well is one message on the wire (`Playback.upload_s`).
 """
 
 from __future__ import annotations

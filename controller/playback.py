@@ -151,7 +151,6 @@ class Playback:
         *,
         count: int = 1,
         period_s: float = 0.0,
-        not_before_s: float = -NEVER,
         at_s: float | None = None,
         ahead: bool = True,
     ) -> float | None:
@@ -165,8 +164,6 @@ class Playback:
             When the work for it began (perf_counter_ns).
         count, period_s
             Repetitions by the FPGA, start to start; count 0 repeats until replaced.
-        not_before_s
-            Earliest start by the trigger pin, in host time.
         at_s : float, optional
             FPGA time at which the FPGA shall start it by itself, or as soon after as can be.
         ahead : bool
@@ -180,12 +177,12 @@ class Playback:
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
         running = self._running
-        start_s = self._start_s(self._command_s, not_before_s, at_s)
+        start_s = self._start_s(self._command_s, at_s)
         points = self._aim(emissions, start_s, ahead)
         key = self._selection.key(points)
         resident = self._slots.find(key)
         if resident is None:
-            start_s = self._start_s(self.upload_s, not_before_s, at_s)
+            start_s = self._start_s(self.upload_s, at_s)
             points = self._aim(emissions, start_s, ahead)
             key = self._selection.key(points)
         start = Start.TRIGGER if at_s is None else Start.TIME
@@ -199,9 +196,7 @@ class Playback:
                 self._counters.near += resident != key
         except BankError as error:
             if ahead and any(emission.finger is not None for emission in emissions):
-                return self.prepare(
-                    emissions, started_ns, count=count, period_s=period_s, not_before_s=not_before_s, at_s=at_s, ahead=False
-                )
+                return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
             self._counters.skipped.bad_entries += 1
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return None
@@ -223,7 +218,7 @@ class Playback:
             period_s,
             resident is not None,
             ready_s,
-            max(ready_s, self.free_s + MARGIN_S, not_before_s) if at_s is None else self._time_base.host_s(start_s),
+            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._time_base.host_s(start_s),
             None if at_s is None else when_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - away_ns,
@@ -288,11 +283,11 @@ class Playback:
         self._running = None
         self.free_s = -NEVER
 
-    def _start_s(self, wire_s: float, not_before_s: float, at_s: float | None) -> float:
+    def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
         arrived_s = self._session.ready_s() + wire_s
         if at_s is None:
-            return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S, not_before_s))
+            return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S))
         return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:

@@ -114,10 +114,12 @@ class SceneChanger:
             return Prepared(ticket, said)
         try:
             bank = Bank.open(self._bank.path, self._board)
+            selection = Selection(bank, self._board.bank.snap_mm * 1e-3, self._board.idle_word)
+            selection.prepare()
         except ControllerError as error:
             return Prepared(ticket, None, reason=str(error))
         self._bank, self._bank_is = bank, bank_is
-        return Prepared(ticket, said, Selection(bank, self._board.bank.snap_mm * 1e-3, self._board.idle_word))
+        return Prepared(ticket, said, selection)
 
 
 def _identity(path: Path) -> tuple[int, ...]:

@@ -152,6 +152,21 @@ def test_touches_are_played_until_it_is_told_to_stop(service, panel):
     assert (figures["outages"], figures["host_silent"]) == (0, 0)
 
 
+def virtual_bytes(pid):
+    """All that is mapped."""
+    with open(f"/proc/{pid}/status") as status:  # noqa: PTH123 - the kernel's
+        return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmSize:"))
+
+
+def test_the_memory_for_composing_is_taken_before_the_outputs_are_on(service):
+    before = virtual_bytes(service.process.pid)
+    with service.client() as client:
+        numbers = [client.start_play("click", at_mm=place) for place in ((40, 50), (90, 60), (150, 90))]
+        assert [client.wait(number).outcome for number in numbers] == ["played"] * 3
+    assert virtual_bytes(service.process.pid) - before < 16 << 20, "the linear algebra alone takes 32 MB at its first sum"
+    assert service.end()[0]["emissions"] < 3, "some were composed"
+
+
 def test_a_command_is_played_and_answered(service):
     with service.client() as client:
         assert client.play("click", at_mm=(100, 70)).outcome == "played"

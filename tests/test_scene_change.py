@@ -71,7 +71,8 @@ def test_a_bank_that_took_the_place_of_the_old_one_is_opened(changer, bank_file,
     shutil.copy(bank_file, folder / "new.bank")
     (folder / "new.bank").replace(folder / "own.bank")
     changer.begin(None, 0)
-    assert prepared(changer).selection is not None
+    selection = prepared(changer).selection
+    assert selection.composes, "the memory for composing is taken before it plays"
     changer.begin(None, 0)
     assert prepared(changer).selection is None, "once"
 

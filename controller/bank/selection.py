@@ -47,9 +47,19 @@ class Selection:
         return self._composer is not None
 
     def prepare(self) -> None:
-        """Take the memory for composing now, where it must not be taken later."""
+        """Take the memory for composing now, that of the linear algebra (32 MB) included, where it must not be taken later.
+
+        Raises
+        ------
+        BankError
+            If the bank's first entry is damaged.
+        """
         if self._composer is None:
             self._composer = Composer(self._bank, self._idle_word)
+        cells = self._bank.cells.nonzero()[0]
+        if cells.size:
+            x_m, y_m = self._bank.grid.points()[cells[0]].tolist()
+            self._composer.compose([(x_m, y_m, 1.0), (x_m, y_m, 0.5)])
 
     def key(self, points: Sequence[Point]) -> Key:
         """Name of the waveform for these points (x_m, y_m, amplitude); equal keys have equal words.
