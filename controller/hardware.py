@@ -119,9 +119,9 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
     return LiveSource(open_panel(board), board)
 
 
-def tracked(source: TouchSource, board: Board) -> Tracker:
-    """A source behind the board's tracker."""
-    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m)
+def tracked(source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None) -> Tracker:
+    """A source behind the board's tracker; for `bridged` see there."""
+    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged)
 
 
 def open_thermometer(board: Board) -> Thermometer | None:

@@ -12,6 +12,7 @@ What a contact goes through:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import hypot, inf
 from typing import Any
@@ -70,6 +71,8 @@ class Tracker:
         The board's touch table.
     length_m, width_m : float
         Of the plate: predicted places are held to it.
+    bridged : callable, optional
+        Told of a finger that was lost and found again: its number, and that of the source's contact which it is now.
 
     Attributes
     ----------
@@ -79,10 +82,18 @@ class Tracker:
         The panel's report period and its jitter, as measured.
     """
 
-    def __init__(self, source: TouchSource, settings: TouchPanel, length_m: float, width_m: float) -> None:
+    def __init__(
+        self,
+        source: TouchSource,
+        settings: TouchPanel,
+        length_m: float,
+        width_m: float,
+        bridged: Callable[[int, int], None] | None = None,
+    ) -> None:
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
+        self._bridged = bridged
         self._lag_s = settings.lag_s
         self._max_size_m = settings.max_size_m
         self._confirm_reports = settings.confirm_reports
@@ -214,6 +225,8 @@ class Tracker:
                 lost.lost_s = inf
                 self._contacts[finger] = lost
                 self.tracking.bridged += 1
+                if self._bridged is not None:
+                    self._bridged(lost.finger, finger)
                 return lost
         contact = _Contact(finger, x_m, y_m, time_s, suspect=self._guard.suspects(time_s))
         contact.size_m = size_m
