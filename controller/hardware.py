@@ -19,6 +19,7 @@ from controller.fpga.simulated_link import SimulatedLink
 from controller.fpga.spi_link import SpiLink
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
+from controller.touch.prediction import Motion
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.source import TouchSource
@@ -119,9 +120,11 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
     return LiveSource(open_panel(board), board)
 
 
-def tracked(source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None) -> Tracker:
-    """A source behind the board's tracker; for `bridged` see there."""
-    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged)
+def tracked(
+    source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None, motion: type[Motion] = Motion
+) -> Tracker:
+    """A source behind the board's tracker; for `bridged` and `motion` see there."""
+    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged, motion)
 
 
 def open_thermometer(board: Board) -> Thermometer | None:
