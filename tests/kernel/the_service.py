@@ -12,7 +12,7 @@ from controller.board import load_board
 
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"
-BANK = Path("/var/lib/haptic-panel/banks/simulated-scene.bank")
+BANK = Path("/var/lib/haptic-panel/banks/panel.bank")
 PATIENCE_S = 120.0  # in a virtual machine without help of the processor, beside other work
 
 
