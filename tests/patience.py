@@ -100,7 +100,10 @@ def communicate(process, seconds=60.0):
 
 
 def end_when_silent(pid, log, seconds):
-    """End a process once so much time was spared without a byte more in its log, by force a while later; returns when it has ended."""
+    """End a process once so much time was spared without a byte more in its log; return when it has ended.
+
+    It is asked first, and killed if it could have followed and has not.
+    """
     patience, size, way = Patience(seconds, pid), -1, signal.SIGTERM
     while _running(pid):
         if log.stat().st_size != size and way == signal.SIGTERM:
