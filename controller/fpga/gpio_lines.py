@@ -72,7 +72,7 @@ class GpioLines:
         try:
             return bool(self._request.get_value(self._configured) is Value.ACTIVE)
         except OSError as error:
-            raise LinkError(f"the configured line {self._configured!r} failed ({error.strerror}): is its GPIO chip gone?") from error
+            raise LinkError(f"line {self._configured!r} (configured) failed ({error.strerror}): is its GPIO chip gone?") from error
 
     def close(self) -> None:
         """Permit off, trigger low, lines free for others."""

@@ -94,7 +94,8 @@ class SpiLink:
         if not self.lines.configured():
             self.close()
             raise LinkError(
-                f"the FPGA is not configured: its line {settings.configured_line!r} is low; load the gateware, or look at its supply and its clock"
+                f"the FPGA is not configured: its line {settings.configured_line!r} is low;"
+                " load the gateware, or look at its supply and its clock"
             )
         self.lines.permit(True)
         self._permitted = True
