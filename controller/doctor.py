@@ -187,7 +187,7 @@ def _buffer() -> str:
 
 def _lines(link: LinkSettings) -> str:
     path = find_chip(link.gpio_chip, LinkError)
-    wanted = [name for name in (link.trigger_line, link.ready_line, link.permit_line) if name]
+    wanted = [name for name in (link.trigger_line, link.configured_line, link.permit_line) if name]
     with gpiod.Chip(str(path)) as chip:
         for name in wanted:
             try:
