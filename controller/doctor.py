@@ -253,7 +253,7 @@ def _lines(link: LinkSettings) -> str:
     from controller.gpio_chip import find_chip
 
     path = find_chip(link.gpio_chip, LinkError)
-    wanted = [name for name in (link.trigger_line, link.ready_line, link.permit_line) if name]
+    wanted = [name for name in (link.trigger_line, link.configured_line, link.permit_line) if name]
     with gpiod.Chip(str(path)) as chip:
         for name in wanted:
             try:

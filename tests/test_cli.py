@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from patience import communicate
 
 from controller.bank.inspection import bank_info
 from controller.bank.location import bank_path
@@ -453,7 +454,7 @@ def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_cac
     assert process.stderr is not None
     assert "playing" in process.stderr.readline(), "the loop runs from here on"
     process.send_signal(number)
-    out, err = process.communicate(timeout=30)
+    out, err = communicate(process)
     assert process.returncode == 0, err
     assert "emissions" in out
     assert "outputs off" in out
