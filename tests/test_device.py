@@ -13,6 +13,7 @@ import sys
 import tty
 
 import pytest
+from patience import communicate
 
 from controller.client import PanelClient
 from controller.errors import ControllerError
@@ -73,7 +74,7 @@ class Service:
     def end(self, number=signal.SIGTERM):
         """Figures and exit code."""
         self.process.send_signal(number)
-        out, err = self.process.communicate(timeout=60)
+        out, err = communicate(self.process)
         self.log.append(err)
         return json.loads(out) if out else None, self.process.returncode
 
@@ -266,10 +267,10 @@ def test_a_bank_truncated_under_the_service_ends_it_and_is_refused_by_the_next(s
     os.truncate(bank, 4096)
     with contextlib.suppress(ControllerError), service.client() as client:
         client.play("click", at_mm=(50, 50))
-    service.process.communicate(timeout=60)
+    communicate(service.process)
     assert service.process.returncode == -signal.SIGBUS
     again = Service(folder, bank)
-    _, err = again.process.communicate(timeout=60)
+    _, err = communicate(again.process)
     assert again.process.returncode == 78
     assert err.count("\n") == 1
     assert "truncated" in err or "size" in err or "short" in err, err
@@ -291,7 +292,7 @@ def test_a_process_stopped_for_a_while_finds_its_outputs_off_and_comes_back(serv
 
 def test_a_board_without_its_devices_says_which_and_what_to_do(folder, bank):
     again = Service(folder, bank)
-    out, err = again.process.communicate(timeout=60)
+    out, err = communicate(again.process)
     assert again.process.returncode == 69
     assert (out, err.count("\n")) == ("", 1)
     assert "tty" in err
@@ -306,7 +307,7 @@ def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, pane
             if "the outputs are on" in line:
                 break
         process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=60)
+        _, err = communicate(process)
     assert process.returncode == 1
     assert "No space left" in err
     assert "Traceback" not in err

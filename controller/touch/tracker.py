@@ -105,6 +105,7 @@ class Tracker:
         self._guard = GhostGuard(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
         self._fingers: dict[int, _Contact] = {}  # played, by the loop's number
+        self._released: dict[int, _Contact] = {}  # of the last read: what they feel as they are lifted is decided after it
         self._lost: list[_Contact] = []
         self._reports = source.counts.reports
         self._now_s = -inf
@@ -147,6 +148,8 @@ class Tracker:
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
         self._now_s = now_s
+        if self._released:
+            self._released.clear()
         samples = self._source.read(now_s)
         known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         reports = self._source.counts.reports
@@ -181,11 +184,14 @@ class Tracker:
         )
 
     def confirmed(self, finger: int) -> bool:
-        """Whether a second report, or silence for as long, has shown that the contact stays."""
-        contact = self._fingers.get(finger)
+        """Whether a second report, or silence for as long, has shown that the contact stays, or that it stayed.
+
+        Of a finger that was released this can be asked until the next `read`.
+        """
+        contact = self._fingers.get(finger) or self._released.get(finger)
         if contact is None:
             return False
-        stayed_s = self._now_s - contact.first_s
+        stayed_s = min(self._now_s, contact.lost_s) - contact.first_s  # a lost one may come back, but did not stay
         return contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
@@ -259,10 +265,11 @@ class Tracker:
         self.tracking.palms += 1
         if contact.played:
             contact.played = False
+            contact.lost_s = time_s
             self._release(contact, time_s, given)
 
     def _release(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
-        del self._fingers[contact.finger]
+        self._released[contact.finger] = self._fingers.pop(contact.finger)
         given.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:

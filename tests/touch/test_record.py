@@ -10,6 +10,7 @@ import sys
 import threading
 
 import pytest
+from patience import communicate
 from peers.elo_panel import INITIAL, UNTOUCH, touch
 
 from controller.cli import main
@@ -105,7 +106,7 @@ def test_ctrl_c_ends_a_recording_that_is_whole(port, board, tmp_path):
     while reports_of(file) < 5:
         assert recorder.poll() is None
     recorder.send_signal(signal.SIGINT)
-    out, errors = recorder.communicate(timeout=60)
+    out, errors = communicate(recorder)
     assert recorder.returncode == 0
     assert errors == ""
     assert "Elo SmartSet" in out
