@@ -146,7 +146,8 @@ def _left_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64]) -> N
             f"without touch {freedom.argmin() + 1} the others lie on one line, so nothing tells whether it was missed:"
             " put the targets near the plate's corners"
         )
-    return np.hypot(*off_mm.T) / freedom
+    left_out: NDArray[np.float64] = np.hypot(*off_mm.T) / freedom
+    return left_out
 
 
 def _check_axes(found: NDArray[np.float64], plate: Plate) -> None:
