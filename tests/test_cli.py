@@ -163,7 +163,7 @@ def test_the_demo_has_several_fingers_and_lasts_about_ten_seconds(board):
 
 
 def test_a_recording_without_any_touch_plays_nothing_and_is_fine(capsys, small_board, tmp_path):
-    for content in (b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"E: 0.0 0000 0000 0\nE: 1.0 0000 0000 0\n"):
+    for content in (b"N: a panel\nA: 00 0 210\n", b"E: 0.0 0000 0000 0\nE: 1.0 0000 0000 0\n"):
         (tmp_path / "still.evemu").write_bytes(content)
         replay = ("run", "--board", small_board, "--replay", tmp_path / "still.evemu", "--speed", "max")
         figures = json.loads(printed(capsys, *replay, "--json").out)
@@ -172,6 +172,13 @@ def test_a_recording_without_any_touch_plays_nothing_and_is_fine(capsys, small_b
         out, err = printed(capsys, *replay, "--plot", tmp_path / "none.png")
         assert "0 emissions" in out
         assert "nothing to draw" in err
+
+
+def test_what_is_no_recording_is_told_and_not_replayed(capsys, small_board, tmp_path):
+    (tmp_path / "junk").write_bytes(b"\x00\xff\xfe garbage\n" * 5)
+    replay = ("--replay", tmp_path / "junk")
+    assert "junk: is no touch recording" in told_off(capsys, "run", "--board", small_board, "--speed", "max", *replay)
+    assert "junk: is no touch recording" in told_off(capsys, "calibrate-touch", "--board", small_board, *replay)
 
 
 def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
@@ -341,6 +348,22 @@ def test_a_bank_that_lacks_cells_of_a_scene_gets_them_and_keeps_its_own(capsys, 
     assert f"building the bank {path}: it lacks {20 * 13 - few} cells" in err
     _, err = printed(capsys, *run)
     assert err == "", "the first scene still has its cells"
+
+
+def test_a_changed_pitch_of_the_board_is_told_by_the_service_and_not_passed_over(capsys, small_board):
+    """A panel in the field does not replace its bank by itself; played from the old one, the change would do nothing."""
+    file = small_board / "board.toml"
+    text = file.read_text().replace('kind = "recording"', 'kind = "linux_input"\ndevice = "nowhere"').replace("recording =", "# ")
+    file.write_text(text)
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    printed(capsys, "bank", "build", "--board", small_board)
+    assert "nowhere" in told_off(capsys, "run", "--board", small_board, code=69)
+    file.write_text(text.replace("pitch_mm = 10.0", "pitch_mm = 12.0"))
+    said = told_off(capsys, "run", "--board", small_board)
+    assert f"{path}: its cells are 10 mm apart, bank.pitch_mm of the board is 12; rebuild it: haptic-panel bank build" in said
+    out, _ = printed(capsys, "doctor", "--board", small_board, code=1)
+    assert re.search(r"NOT OK  bank +.*its cells are 10 mm apart", out)
 
 
 def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys, small_board):
