@@ -17,6 +17,7 @@ import tty
 from pathlib import Path
 
 import pytest
+from patience import communicate
 
 from controller.board import load_board
 from controller.client import PanelClient
@@ -84,7 +85,7 @@ class Service:
     def end(self, number=signal.SIGTERM):
         """Figures and exit code."""
         self.process.send_signal(number)
-        out, err = self.process.communicate(timeout=60)
+        out, err = communicate(self.process)
         self.log.append(err)
         return json.loads(out) if out else None, self.process.returncode
 
@@ -165,14 +166,21 @@ def at_a_serial_port(folder):
 
 @contextlib.contextmanager
 def an_fpga(board, path, build=None):
-    """The gateware's model at that port, while the context lasts; its permits are given."""
+    """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
     link = board.link
     model = GatewareModel(Parameters.of(link.clock_hz, link.slots, gateware_hash() if build is None else build))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
-    with PseudoTerminal(panel.receive) as terminal:
+    levels = []
+
+    def answer(data):
+        while levels:
+            model.permit(model.now + 1, levels.pop(0))
+        return panel.receive(data)
+
+    with PseudoTerminal(answer) as terminal:
         path.symlink_to(terminal.device)
         try:
-            yield model
+            yield levels.append
         finally:
             path.unlink()
 
@@ -337,10 +345,10 @@ def test_a_bank_truncated_under_the_service_ends_it_and_is_refused_by_the_next(s
     os.truncate(bank, 4096)
     with contextlib.suppress(ControllerError), service.client() as client:
         client.play("click", at_mm=(50, 50))
-    service.process.communicate(timeout=60)
+    communicate(service.process)
     assert service.process.returncode == -signal.SIGBUS
     again = Service(folder, bank)
-    _, err = again.process.communicate(timeout=60)
+    _, err = communicate(again.process)
     assert again.process.returncode == 78
     assert err.count("\n") == 1
     assert "truncated" in err or "size" in err or "short" in err, err
@@ -397,12 +405,12 @@ def test_an_fpga_that_is_absent_at_the_start_is_waited_for_lost_and_taken_again(
 
 def test_without_a_permit_it_says_so_and_serves(folder, panel, bank, manager):
     board = at_a_serial_port(folder)
-    with an_fpga(board, folder / "fpga") as gateware:
-        gateware.permit(0, False)
+    with an_fpga(board, folder / "fpga") as permit:
+        permit(False)
         service = Service(folder, bank, environment=manager.environment)
         assert "run permit is not given" in service.says("outputs off: no permit")
         assert manager.hears("READY", "1")["STATUS"].startswith("no permit")
-        gateware.permit(gateware.now + 1000, True)
+        permit(True)
         service.says("the outputs are on")
         figures, code = service.end()
     assert (code, figures["outages"]) == (0, 0)
@@ -412,7 +420,7 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     board = at_a_serial_port(folder)
     with an_fpga(board, folder / "fpga", build=7):
         service = Service(folder, bank, environment=manager.environment)
-        _, err = service.process.communicate(timeout=60)
+        _, err = communicate(service.process)
     assert service.process.returncode == 69
     assert "BUILD_HASH is 0x00000007" in err
     assert err.splitlines()[-1].startswith("haptic-panel: ")
@@ -429,7 +437,7 @@ def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, pane
             if "the outputs are on" in line:
                 break
         process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=60)
+        _, err = communicate(process)
     assert process.returncode == 1
     assert "No space left" in err
     assert "Traceback" not in err

