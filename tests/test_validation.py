@@ -49,7 +49,7 @@ def changed(tables, *path, to):
         (
             ("touch", "kind"),
             "gt912",
-            "touch.kind = 'gt912': must be one of 'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'; did you mean gt911",
+            "touch.kind = 'gt912': must be one of 'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'; did you mean",
         ),
         (("link", "slots"), 17, "link.slots = 17: must be a whole number from 1 to 16"),
         (("plate", "edge"), "free", "plate.edge = 'free': must be 'simply_supported'"),
