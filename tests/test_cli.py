@@ -358,7 +358,6 @@ def test_a_changed_pitch_of_the_board_is_told_by_the_service_and_not_passed_over
     path = bank_path(load_board(small_board))
     path.unlink(missing_ok=True)
     printed(capsys, "bank", "build", "--board", small_board)
-    assert "nowhere" in told_off(capsys, "run", "--board", small_board, code=69)
     file.write_text(text.replace("pitch_mm = 10.0", "pitch_mm = 12.0"))
     said = told_off(capsys, "run", "--board", small_board)
     assert f"{path}: its cells are 10 mm apart, bank.pitch_mm of the board is 12; rebuild it: haptic-panel bank build" in said
