@@ -12,6 +12,7 @@ What a contact goes through:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import hypot, inf
 from typing import Any
@@ -49,10 +50,10 @@ class _Contact:
 
     __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "suspect")
 
-    def __init__(self, finger: int, x_m: float, y_m: float, time_s: float, *, suspect: bool) -> None:
+    def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
         self.finger = finger  # as the loop knows it: the source's number of its first contact
-        self.motion = Motion(x_m, y_m, time_s)
-        self.first_s = time_s
+        self.motion = motion
+        self.first_s = motion.time_s
         self.reports = 1
         self.size_m = 0.0
         self.suspect = suspect
@@ -72,6 +73,10 @@ class Tracker:
         The board's touch table.
     length_m, width_m : float
         Of the plate: predicted places are held to it.
+    bridged : callable, optional
+        Told of a finger that was lost and found again: its number, and that of the source's contact which it is now.
+    motion : type of Motion
+        Another way to predict, to compare with.
 
     Attributes
     ----------
@@ -81,10 +86,20 @@ class Tracker:
         The panel's report period and its jitter, as measured.
     """
 
-    def __init__(self, source: TouchSource, settings: TouchPanel, length_m: float, width_m: float) -> None:
+    def __init__(
+        self,
+        source: TouchSource,
+        settings: TouchPanel,
+        length_m: float,
+        width_m: float,
+        bridged: Callable[[int, int], None] | None = None,
+        motion: type[Motion] = Motion,
+    ) -> None:
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
+        self._bridged = bridged
+        self._motion = motion
         self._lag_s = settings.lag_s
         self._max_size_m = settings.max_size_m
         self._confirm_reports = settings.confirm_reports
@@ -97,6 +112,7 @@ class Tracker:
         self._lost: list[_Contact] = []
         self._reports = source.counts.reports
         self._now_s = -inf
+        self._known_s = -inf
         self._due_s = inf  # when something is to be decided without a report
 
     @property
@@ -140,11 +156,11 @@ class Tracker:
         if now_s >= self._listening.again_s:
             self._listening.again_s = inf
         samples = self._source.read(now_s)
+        known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         reports = self._source.counts.reports
         told = reports != self._reports
         if not samples and not told and now_s < self._due_s:
             return ()
-        known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         given: list[TouchSample] = []
         for sample in samples:
             self._take(sample, given)
@@ -165,7 +181,7 @@ class Tracker:
         if contact.lost_s != inf:
             x_m, y_m = contact.motion.x_m, contact.motion.y_m
         else:
-            x_m, y_m = contact.motion.place(at_s, self._lag_s, self.rate.period_s)
+            x_m, y_m = contact.motion.place(at_s, self._known_s, self._lag_s, self.rate.period_s)
         length_m, width_m = self._length_m, self._width_m
         return (
             0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
@@ -237,8 +253,10 @@ class Tracker:
                 lost.lost_s = inf
                 self._contacts[finger] = lost
                 self.tracking.bridged += 1
+                if self._bridged is not None:
+                    self._bridged(lost.finger, finger)
                 return lost
-        contact = _Contact(finger, x_m, y_m, time_s, suspect=self._guard.suspects(time_s))
+        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
         contact.size_m = size_m
         contact.refused = palm
         self.tracking.palms += palm
