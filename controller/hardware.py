@@ -7,14 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.board import Board, data_folder
-from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch
-from controller.errors import TouchError
+from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, RecordingTouch, SerialTouch
+from controller.errors import ConfigError, TouchError
+from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
 from controller.fpga.gateware import GatewareFactory, Parameters
 from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
+from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
 from controller.touch.prediction import Motion
@@ -26,6 +28,7 @@ from controller.touch.tracker import Tracker
 if TYPE_CHECKING:
     from controller.temperature import Thermometer
 
+NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
 
@@ -70,6 +73,12 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
     return open_simulated(board, now_s)
 
 
+def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
+    """Link and session of an FPGA that may not be there yet; nothing is asked of it before `bring_up`."""
+    link = AwaitedLink(lambda: open_link(board, now_s), now_s)
+    return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
+
+
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:
     """Bring up what is at the other end of a link, checked to run the gateware that belongs to this software.
 
@@ -104,7 +113,7 @@ def open_panel(board: Board) -> EventReader:
         from controller.touch.serial_panel import SerialPanel
 
         return SerialPanel(touch)
-    raise TouchError(f"board {board.name!r} has no touch panel: give its [touch] a kind, or replay a recording")
+    raise TouchError(NO_PANEL.format(board.name))
 
 
 def open_input(device: str, *, grab: bool = False) -> EventReader:
@@ -131,6 +140,19 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
     if replay is not None:
         return RecordingSource(replay, replay.axes(board), start_s)
     return LiveSource(open_panel(board), board)
+
+
+def await_panel(board: Board) -> AwaitedReader:
+    """Driver of a board's touch panel, which may not be there yet.
+
+    Raises
+    ------
+    ConfigError
+        If the board has none.
+    """
+    if isinstance(board.touch, RecordingTouch):
+        raise ConfigError(NO_PANEL.format(board.name))
+    return AwaitedReader(lambda: open_panel(board))
 
 
 def tracked(
