@@ -30,13 +30,14 @@ from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
 from controller.hardware import open_session, open_simulated, tracked
 from controller.housekeeping import Housekeeping
+from controller.log import Priority, tell
 from controller.offline.bank_builder import build_bank
 from controller.prepare_scene import populate
 from controller.records import as_record
 from controller.scene import load_scene
 from controller.scene_change import SceneChanger
 from controller.scene_file import find_scene
-from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -70,7 +71,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
-        tell(warning)
+        tell(warning, Priority.WARNING)
     drain_s = clock.now_s()
 
     def progress(now_s: float) -> None:
