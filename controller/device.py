@@ -15,6 +15,7 @@ from controller.hardware import await_panel, await_session, open_thermometer, op
 from controller.housekeeping import Housekeeping
 from controller.log import LOG, Priority, tell
 from controller.prepare_scene import populate
+from controller.reloading import ReloadFile
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
 from controller.service import Notifier, Watchdog, enter_realtime
@@ -70,7 +71,9 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         thermometer = open_thermometer(board)
         if thermometer is not None:
             stack.callback(thermometer.close)
-        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier), thermometer)
+        housekeeping = Housekeeping(
+            board, session, notifier, Watchdog.from_environment(notifier), thermometer, ReloadFile.from_environment()
+        )
         assembly = assemble(
             board,
             scene,
