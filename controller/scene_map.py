@@ -87,11 +87,13 @@ class Meshes(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
             low_y + row * mesh_y - hair,
             low_y + (row + 1) * mesh_y + hair,
         )
-        met = [area.shape.meets(boxes) for area in areas]
+        met = np.zeros((MESHES * MESHES, len(areas)), bool)
+        for index, area in enumerate(areas):
+            met[:, index] = area.shape.meets(boxes)
         known: dict[tuple[int, ...], tuple[int, ...]] = {}
         meshes = []
-        for mesh in range(MESHES * MESHES):
-            candidates = tuple(index for index, meets in enumerate(met) if meets[mesh])
+        for regions in met:
+            candidates = tuple(regions.nonzero()[0].tolist())
             meshes.append(known.setdefault(candidates, candidates))
         return cls(low_x, low_y, 1 / mesh_x, 1 / mesh_y, tuple(meshes))
 

@@ -8,7 +8,7 @@ part of a spacing away from it.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
@@ -26,7 +26,7 @@ class Spacing(NamedTuple):
     """What a region does as a finger moves. `axis`: 0 lines across x, 1 across y, None the way; `origin_m`: one of the lines."""
 
     spacing_m: Annotated[float, Meta(ge=1e-5, le=1)]
-    axis: Literal[0, 1] | None
+    axis: Annotated[int, Meta(ge=0, le=1)] | None
     origin_m: Annotated[float, Meta(ge=-1, le=4)]
     amplitude: Loudness
 
