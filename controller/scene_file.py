@@ -99,19 +99,23 @@ class SceneRead(NamedTuple):
     playable: Effects
 
 
-def find_scene(board: Board, name_or_path: str) -> Path:
-    """File of a scene: a path, else `<name>.toml` beside the board's file.
+def find_scene(board: Board, name_or_path: str | None = None) -> Path:
+    """File of a scene: the board's own, or a path, else `<name>.toml` beside the board's file.
 
     Raises
     ------
     ConfigError
         If there is none, listing the scenes that exist.
     """
-    for file in (Path(name_or_path), board.folder / name_or_path, board.folder / f"{name_or_path}.toml"):
+    name = name_or_path or board.scene
+    here: tuple[Path, ...] = (
+        (Path(name),) if name_or_path else ()
+    )  # what the board names is never meant of the folder one happens to be in
+    for file in (*here, board.beside(name), board.beside(f"{name}.toml")):
         if file.is_file() and file.name != "board.toml":
             return file
     known = sorted(file.stem for file in board.folder.glob("*.toml") if file.name != "board.toml")
-    raise ConfigError(f"scene {name_or_path!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
+    raise ConfigError(f"scene {name!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
 
 
 def read_scene(file: Path, board: Board) -> SceneRead:

@@ -148,3 +148,15 @@ def test_what_cannot_be_recorded_is_said_in_one_line(tmp_path, capsys):
 def test_a_file_that_cannot_be_made_is_named(tmp_path, out):
     with pytest.raises(TouchError, match="cannot be written"):
         open_recording(tmp_path / out)
+
+
+def test_only_a_recording_is_written_over(tmp_path):
+    notes = tmp_path / "board.toml"
+    notes.write_text('name = "panel"\n')
+    with pytest.raises(TouchError, match="is no recording: it is left as it is"):
+        open_recording(notes)
+    assert notes.read_text() == 'name = "panel"\n'
+    for old in ("", "# EVEMU 1.3\nN: a panel\n"):
+        notes.write_text(old)
+        open_recording(notes).close()
+        assert notes.read_text() == ""
