@@ -304,6 +304,15 @@ def test_sighup_reads_the_scene_again(service, folder, panel):
     assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 0)
 
 
+def test_what_prepares_scenes_may_die_and_the_panel_plays_on(service, folder, panel):
+    (helper,) = Path(f"/proc/{service.process.pid}/task/{service.process.pid}/children").read_text().split()
+    os.kill(int(helper), signal.SIGKILL)
+    with service.client() as client:
+        client.load_scene("texture")
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["outages"]) == (0, 1, 0)
+
+
 def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
     (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
     service.process.send_signal(signal.SIGHUP)
