@@ -52,7 +52,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         link = open_link(board, clock.now_s)
         stack.callback(link.close)
         session = open_session(link, board, clock.now_s)
-        start_s = clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S
+        start_s = clock.now_s() + board.limits.arming_s + REPLAY_AFTER_S
         touch = open_touch(board, replay, start_s)
         stack.callback(touch.close)
         source = tracked(touch, board)

@@ -61,7 +61,7 @@ class Panel:
 
     def __init__(self):
         self.clock = VirtualClock()
-        parameters = Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD)
+        parameters = Parameters.of(BOARD, BUILD)
         self.gateware = RestartingGateware(GatewareModel, parameters)
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
@@ -153,7 +153,7 @@ def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
 def test_a_reset_before_arming_never_arms_without_the_boards_limits(ran_s, away_s):
     clock = VirtualClock()
     clock._now_s = 5.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     clock._now_s += ran_s
     session = Session(link, BOARD, BUILD, clock.now_s)

@@ -102,7 +102,7 @@ class Bench:
         panel_board.write(f'kind = "linux_input"\ndevice = "{NAME}"', LINK)
         self.lines = GpioLines("panel-lines", LINES)
         self.panel = Panel()
-        self.far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        self.far_end = FarEnd(load_board(panel_board.BOARD), LINES)
 
     def outputs_are(self, on):
         """Wait until the FPGA's outputs are on, or off."""
@@ -208,7 +208,7 @@ def test_an_fpga_that_is_gone_is_told_at_the_start():
         assert "status=69/UNAVAILABLE" in journal()
         assert "our own bytes came back" in journal()
     finally:
-        bench().far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        bench().far_end = FarEnd(load_board(panel_board.BOARD), LINES)
 
 
 def test_killed_it_leaves_the_outputs_off_until_it_is_back():
