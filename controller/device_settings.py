@@ -114,7 +114,7 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     baud: Annotated[int, Meta(ge=9600, le=12_000_000)] = 1_000_000
     gpio_chip: str = ""  # label of the chip with the lines below
     trigger_line: str = ""
-    ready_line: str = ""  # input: the gateware is configured; may be left out
+    configured_line: str = ""  # input: high while the FPGA is configured, has its clock and is out of reset; may be left out
     permit_line: str = ""  # output: run permit given by this host while it plays; may be left out where a switch gives it
 
     def __post_init__(self) -> None:

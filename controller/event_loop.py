@@ -88,9 +88,14 @@ class EventLoop:
         self._stopped = False
 
     @property
-    def state(self) -> str:
-        """Empty while the outputs are on or being armed, else why they are off."""
-        return self._outputs.cause
+    def outputs(self) -> Outputs:
+        """Whether the outputs are on, and why not."""
+        return self._outputs
+
+    @property
+    def repeating(self) -> bool:
+        """Whether the FPGA plays something again and again by itself."""
+        return self._playback.repeating
 
     @property
     def reloading(self) -> bool:
@@ -134,8 +139,11 @@ class EventLoop:
                     if self._clock.now_s() < next_s:
                         self._clock.wait(selector, next_s)
                     try:
+                        if self._outputs.on and not self._outputs.wanted:
+                            self._interrupted()
+                            self._outputs.disarm()
                         if self._outputs.advance(self._clock.now_s()):
-                            self._performance.spots_from(self._panel_s())
+                            self._performance.interrupted(self._panel_s())  # what began while they were off, in another time
                             ready()
                             ready = _nothing
                         next_s = self._turn()
@@ -151,6 +159,10 @@ class EventLoop:
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
+
+    def switch(self, on: bool) -> None:
+        """Have the outputs armed or disarmed from now on; see `PanelControl`."""
+        self._outputs.wanted = on
 
     def load_scene(self, ticket: int, name: str) -> None:
         """Take over another scene for a command; see `PanelControl`."""
@@ -175,12 +187,16 @@ class EventLoop:
         return self._time_base.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
-        """The outputs are off: nothing that was under way is taken up again."""
+        """The outputs are off, unasked."""
+        self._interrupted()
+        self._outputs.failed(error, self._clock.now_s())
+
+    def _interrupted(self) -> None:
+        """Nothing that was under way is taken up again."""
         self._playback.forget()
         self._performance.interrupted(self._panel_s())
         now_s = self._clock.now_s()
         self._source.emitted(now_s, now_s)  # whatever sounded has ended
-        self._outputs.failed(error, now_s)
 
     def _watch(self, selector: selectors.BaseSelector) -> None:
         """Keep the selector on the files of today: a panel that was plugged in again has another one."""
@@ -329,6 +345,8 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         commands_s = NEVER if self._commands is None else self._commands.next_time_s()
         trigger_at_s = self._playback.trigger_at_s
+        if self._outputs.on and not self._outputs.wanted:
+            return now_s
         if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
             return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()

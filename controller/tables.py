@@ -23,6 +23,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"{recording['contacts']} contacts, at most {recording['max_fingers']} at once",
         f"{figures['emissions']} emissions from {figures['triggers']} triggers ({figures['uploads']} uploads, "
         f"{figures['resident']} resident), {figures['bytes_sent']:,} bytes sent, {figures['heartbeats']} heartbeats",
+        f"bank: {figures['bank']}",
         f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
         "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
@@ -54,6 +55,7 @@ def service_table(figures: dict[str, Any]) -> str:
     lines = [
         f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
         f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
+        f"bank: {figures['bank']}",
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
         "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),

@@ -81,7 +81,7 @@ def made_of(name, *, of="board.toml"):
     """What the Makefile hands to the top, {parameter: value}, from a board.toml."""
     command = [sys.executable, "-m", "controller.fpga.gateware", of, RTL]
     done = subprocess.run(command, cwd=BOARDS / name, capture_output=True, text=True, check=True)
-    return {parameter: int(value) for parameter, value in re.findall(r"-set (\w+) 32'd(\d+)", done.stdout)}
+    return {parameter: int(value) for parameter, value in re.findall(r"(\w+)=32'd(\d+)", done.stdout)}
 
 
 @pytest.mark.parametrize("name", HARDWARE)

@@ -67,7 +67,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
 
     if options.plot or options.speed == "max":
         raise ConfigError("--plot and --speed max are for simulated panels: add --link model to simulate this board")
-    scene_file = find_scene(board, options.scene or board.scene)
+    scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     replay = None
     if options.replay or isinstance(board.touch, RecordingTouch):
@@ -75,7 +75,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
             print(f"haptic-panel: {scene_file}: {warning}", file=sys.stderr)
-        figures = serve(board, scene, str(scene_file), bank, replay)
+        figures = {"bank": str(bank.path)} | serve(board, scene, str(scene_file), bank, replay)
     show(options, figures, service_table)
     return 0
 
@@ -88,7 +88,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     picture = picture_path(options)
     board = simulated(board)
-    scene_file = find_scene(board, options.scene or board.scene)
+    scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
     gateware, real_time = gateware_factory(options)
@@ -109,7 +109,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         judged = simulated_run.judge(done, progress_bar("plate"))
     if judged.left_out:
         print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
-    figures = {"link": options.link or "model"} | simulated_run.report(done, judged.foci)
+    figures = {"link": options.link or "model", "bank": str(bank.path)} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
     figures["warnings"] = [*overdone, *figures["warnings"]]

@@ -167,13 +167,13 @@ class InputTiming:
 
 
 def main(board_toml: str, folder: str) -> None:
-    """Print the parameters of a board's bitstream as options of Yosys' `chparam`: what its Makefile passes on."""
+    """Print the parameters of a board's bitstream, `NAME=32'dVALUE`: what its Makefile passes on."""
     try:
         parameters = Parameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
     except (ConfigError, OSError) as error:
         sys.exit(str(error))
     built_in = parameters.verilog().items() - {("BOARD", parameters.board)}  # its letters are top.v's
-    sys.stdout.write(" ".join(f"-set {name} 32'd{value}" for name, value in sorted(built_in)) + "\n")
+    sys.stdout.write(" ".join(f"{name}=32'd{value}" for name, value in sorted(built_in)) + "\n")
 
 
 if __name__ == "__main__":

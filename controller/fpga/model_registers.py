@@ -42,7 +42,7 @@ class RegisterFile:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
         most = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest)
-        self._values = {
+        self._values: dict[Register, int] = {
             Register.IDENTITY: IDENTITY_MAGIC,
             Register.PROTOCOL: PROTOCOL_VERSION,
             Register.BUILD_HASH: p.build_hash,

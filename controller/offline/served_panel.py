@@ -26,12 +26,13 @@ from controller.clocks import MonotonicClock
 from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
 from controller.hardware import open_session, open_simulated, tracked
+from controller.housekeeping import Housekeeping
 from controller.offline.bank_builder import build_bank
 from controller.prepare_scene import populate
 from controller.scene import load_scene
 from controller.scene_change import SceneChanger
 from controller.scene_file import find_scene
-from controller.service import enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime, tell
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -54,7 +55,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
         For how long the two fingers are down.
     """
     clock = MonotonicClock()
-    scene = load_scene(find_scene(board, board.scene), board)
+    scene = load_scene(find_scene(board), board)
     populate(bank, scene, board.scene)
     recording = Recording(_to_and_fro(touched_s), "two fingers to and fro")
     commands = CommandSocket(board, settings)
@@ -68,12 +69,17 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
 
     def progress(now_s: float) -> None:
         nonlocal drain_s
+        housekeeping.progress(now_s)
         if now_s >= drain_s:
             drain_s = now_s + DRAIN_S
             link.take_capture()
 
+    notifier = Notifier("")
+    housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
     try:
-        assemble(board, scene, bank, clock, session, source, commands=commands, change=change, progress=progress).loop.run()
+        assembly = assemble(board, scene, bank, clock, session, source, commands=commands, change=change, progress=progress)
+        housekeeping.watch(assembly.loop, assembly.counters, None, commands.changed)
+        assembly.loop.run()
     finally:
         change.close()
         commands.close()

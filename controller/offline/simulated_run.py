@@ -73,7 +73,7 @@ class Run:
     board: Board
     recording: Recording
     source: RecordingSource
-    tracks: dict[int, Track]
+    tracks: dict[int, Track]  # by the loop's numbers: of all contacts that were the finger
     counters: Counters
     capture: Capture
     played: list[Played]
@@ -121,7 +121,8 @@ def play(
     if not tracks:  # without any touch nothing is played, spots included
         scene = Scene(())
     source = RecordingSource(recording, axes, start_s)
-    tracker = tracked(source, board)
+    contacts = {finger: [track] for finger, track in tracks.items()}
+    tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
     assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append)
     assembly.loop.run(ready)
     link.close()
@@ -129,7 +130,7 @@ def play(
         board=board,
         recording=recording,
         source=source,
-        tracks=tracks,
+        tracks={finger: Track.joined(finger, parts) for finger, parts in contacts.items()},
         counters=assembly.counters,
         capture=link.take_capture(),
         played=played,

@@ -53,7 +53,10 @@ class TrackedTouch(TouchSource, Protocol):
         """
 
     def confirmed(self, finger: int) -> bool:
-        """Whether the panel has confirmed the contact; the emissions of one that is not are capped."""
+        """Whether the panel has confirmed the contact; the emissions of one that is not are capped.
+
+        It is known of a finger that was released too, until the next `read`: lifting it may be felt.
+        """
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
         """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost.

@@ -12,6 +12,7 @@ What a contact goes through:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import hypot, inf
 from typing import Any
@@ -47,10 +48,10 @@ class _Contact:
 
     __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "stayed_since_s", "suspect")
 
-    def __init__(self, finger: int, x_m: float, y_m: float, time_s: float, *, suspect: bool) -> None:
+    def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
         self.finger = finger  # as the loop knows it: the source's number of its first contact
-        self.motion = Motion(x_m, y_m, time_s)
-        self.first_s = self.stayed_since_s = time_s
+        self.motion = motion
+        self.first_s = self.stayed_since_s = motion.time_s
         self.reports = 1
         self.size_m = 0.0
         self.suspect = suspect
@@ -70,6 +71,10 @@ class Tracker:
         The board's touch table.
     length_m, width_m : float
         Of the plate: predicted places are held to it.
+    bridged : callable, optional
+        Told of a finger that was lost and found again: its number, and that of the source's contact which it is now.
+    motion : type of Motion
+        Another way to predict, to compare with.
 
     Attributes
     ----------
@@ -79,10 +84,20 @@ class Tracker:
         The panel's report period and its jitter, as measured.
     """
 
-    def __init__(self, source: TouchSource, settings: TouchPanel, length_m: float, width_m: float) -> None:
+    def __init__(
+        self,
+        source: TouchSource,
+        settings: TouchPanel,
+        length_m: float,
+        width_m: float,
+        bridged: Callable[[int, int], None] | None = None,
+        motion: type[Motion] = Motion,
+    ) -> None:
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
+        self._bridged = bridged
+        self._motion = motion
         self._lag_s = settings.lag_s
         self._max_size_m = settings.max_size_m
         self._confirm_reports = settings.confirm_reports
@@ -90,9 +105,11 @@ class Tracker:
         self._guard = GhostGuard(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
         self._fingers: dict[int, _Contact] = {}  # played, by the loop's number
+        self._released: dict[int, _Contact] = {}  # of the last read: what they feel as they are lifted is decided after it
         self._lost: list[_Contact] = []
         self._reports = source.counts.reports
         self._now_s = -inf
+        self._known_s = -inf
         self._due_s = inf  # when something is to be decided without a report
 
     @property
@@ -131,12 +148,14 @@ class Tracker:
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
         self._now_s = now_s
+        if self._released:
+            self._released.clear()
         samples = self._source.read(now_s)
+        known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         reports = self._source.counts.reports
         told = reports != self._reports
         if not samples and not told and now_s < self._due_s:
             return ()
-        known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         given: list[TouchSample] = []
         for sample in samples:
             self._take(sample, given)
@@ -157,7 +176,7 @@ class Tracker:
         if contact.lost_s != inf:
             x_m, y_m = contact.motion.x_m, contact.motion.y_m
         else:
-            x_m, y_m = contact.motion.place(at_s, self._lag_s, self.rate.period_s)
+            x_m, y_m = contact.motion.place(at_s, self._known_s, self._lag_s, self.rate.period_s)
         length_m, width_m = self._length_m, self._width_m
         return (
             0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
@@ -165,11 +184,14 @@ class Tracker:
         )
 
     def confirmed(self, finger: int) -> bool:
-        """Whether a second report, or silence for as long, has shown that the contact stays."""
-        contact = self._fingers.get(finger)
+        """Whether a second report, or silence for as long, has shown that the contact stays, or that it stayed.
+
+        Of a finger that was released this can be asked until the next `read`.
+        """
+        contact = self._fingers.get(finger) or self._released.get(finger)
         if contact is None:
             return False
-        stayed_s = self._now_s - contact.first_s
+        stayed_s = min(self._now_s, contact.lost_s) - contact.first_s  # a lost one may come back, but did not stay
         return contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
@@ -214,8 +236,10 @@ class Tracker:
                 lost.lost_s = inf
                 self._contacts[finger] = lost
                 self.tracking.bridged += 1
+                if self._bridged is not None:
+                    self._bridged(lost.finger, finger)
                 return lost
-        contact = _Contact(finger, x_m, y_m, time_s, suspect=self._guard.suspects(time_s))
+        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
         contact.size_m = size_m
         contact.refused = palm
         self.tracking.palms += palm
@@ -241,10 +265,11 @@ class Tracker:
         self.tracking.palms += 1
         if contact.played:
             contact.played = False
+            contact.lost_s = time_s
             self._release(contact, time_s, given)
 
     def _release(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
-        del self._fingers[contact.finger]
+        self._released[contact.finger] = self._fingers.pop(contact.finger)
         given.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:

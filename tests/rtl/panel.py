@@ -56,6 +56,7 @@ __all__ = [
     "FRAME_TICKS",
     "IDLE_WORD",
     "JUDGED_TICKS",
+    "PAD_TICKS",
     "PARAMETERS",
     "RAMP_SAMPLES",
     "RAMP_TICKS",
@@ -72,7 +73,7 @@ PHASE_PS = CLOCK_PS // 2 + 500  # within a tick: inputs move half a nanosecond b
 SCK_HALF_NS = SCK_TICKS * CLOCK_NS // 2  # half of the clock, the fastest allowed
 SCK_TO_RELEASE_NS = SCK_TO_RELEASE_TICKS * CLOCK_NS
 ALIVE_HALF_TICKS = CLOCK_HZ // 40_000  # as in haptic_core.v
-PAD_TICKS = 1  # from the state to ready_o and fault_o, which have a register each
+PAD_TICKS = 1  # from the state to waiting_o and fault_o, which have a register each
 BAUD = 1_000_000  # what haptic_core.v has by itself
 UART_BIT_TICKS = CLOCK_HZ // BAUD
 UART_BYTE_TICKS = 3 + UART_BIT_TICKS // 2 - 1 + 9 * UART_BIT_TICKS + 2  # from the start bit's fall to select_o or release_o
@@ -99,7 +100,7 @@ class Panel:
         self.inputs = []  # (tick, name of the model's method, its arguments after the tick)
         self.answers = []  # what came back, in the order of the exchanges
         self.words, self.levels, self.alive = [], [], []  # (tick, value) of channel_o, hv_enable_o and hv_alive_o
-        self.readies, self.faults, self.foci = [], [], []  # of ready_o, fault_o and focus_o
+        self.waits, self.faults, self.foci = [], [], []  # of waiting_o, fault_o and focus_o
         self._frame = bytearray(frames.LOAD_FRAME_BYTES)
 
     @classmethod
@@ -143,7 +144,7 @@ class Panel:
             dut.channel_o: self.words,
             dut.hv_enable_o: self.levels,
             dut.hv_alive_o: self.alive,
-            dut.ready_o: self.readies,
+            dut.waiting_o: self.waits,
             dut.fault_o: self.faults,
             dut.focus_o: self.foci,
         }
@@ -211,7 +212,7 @@ class Panel:
         await Timer(INPUT_TICKS * CLOCK_NS, "ns")
         enabled = bool(dut.hv_enable_o.value)
         await Timer(PAD_TICKS * CLOCK_NS, "ns")
-        pins, fault = {State.READY: bool(dut.ready_o.value), State.HV_ENABLE: enabled}, bool(dut.fault_o.value)
+        pins, fault = {State.WAITING: bool(dut.waiting_o.value), State.HV_ENABLE: enabled}, bool(dut.fault_o.value)
         await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS - PAD_TICKS) * CLOCK_NS, "ns")
         for number, following in enumerate(sent[1:], 1):  # mode 0: MOSI moves with the fall of SCK
             answer = answer << 1 | int(miso.value)

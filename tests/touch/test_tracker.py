@@ -84,6 +84,16 @@ def test_of_two_lost_fingers_each_is_found_at_its_own_place():
     assert t.tracking.bridged == 2
 
 
+def test_a_contact_lost_before_it_was_confirmed_is_not_confirmed_by_the_time_it_has_to_come_back():
+    t = tracker((1.0, [touch(0, 100)]), (1.004, []), (1.1, []))
+    t.read(1.0)
+    t.read(1.004)
+    assert not t.read(1.018)
+    assert not t.confirmed(0)
+    assert in_short(played(t, 1.05)) == [(0, 100, 1.004, False)]
+    assert not t.confirmed(0)
+
+
 def test_a_contact_is_a_finger_from_its_nth_report_on():
     t = tracker(*reports(100, 101, 102, 103, None), confirm_reports=3)
     assert in_short(played(t)) == [(0, 102, 1.02, True), (0, 103, 1.03, True), (0, 103, 1.04, False)]
@@ -135,7 +145,10 @@ def test_the_place_of_a_lost_finger_is_the_last_one_and_that_of_a_released_one_i
     played(t)
     assert t.place(0, 1.05) is None
     assert t.place(7, 1.05) is None
+    assert t.confirmed(0), "what it feels as it is lifted is still to be decided"
+    t.read(1.06)
     assert not t.confirmed(0)
+    assert not t.confirmed(7)
 
 
 def test_predicted_places_are_held_to_the_plate():
