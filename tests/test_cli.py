@@ -16,9 +16,12 @@ from controller.bank.location import bank_path
 from controller.bank.reader import Bank
 from controller.board import find_board, load_board
 from controller.cli import main
+from controller.fpga import bring_up
+from controller.latency import Counters
+from controller.offline import simulated_run
 from controller.offline.bank_builder import build_bank
 from controller.offline.rtl_build import verilator_root
-from controller.offline.simulated_run import judge, report
+from controller.offline.simulated_run import judge, report, spoiled
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -434,6 +437,52 @@ def test_a_recording_without_touch_is_silent_even_on_a_scene_with_a_spot(capsys,
     (tmp_path / "still.evemu").write_text("E: 0.0 0000 0000 0\nE: 3.0 0000 0000 0\n")
     figures = json.loads(printed(capsys, "run", "--replay", tmp_path / "still.evemu", "--speed", "max", "--json").out)
     assert figures["emissions"] == 0
+
+
+def test_a_check_of_the_gateware_ends_with_a_verdict(capsys, small_board, monkeypatch):
+    check = ("gateware", "check", "--board", small_board, "--bits", "1e4", "--channel", "3")
+    table = printed(capsys, *check).out.splitlines()
+    assert table[-1].startswith("PASS: ")
+    assert re.search(r"^clock_hz +80000000 +80000000  ok$", "\n".join(table), re.MULTILINE)
+    monkeypatch.setattr(bring_up, "memory_errors", lambda *_: 1)
+    out, err = printed(capsys, *check, code=1)
+    assert out.splitlines()[-1] == "FAIL: 1 of 4 slots do not keep what they are given: check the FPGA's supply"
+    assert "1 of 4 slots" in err
+    identified = bring_up.identify
+    monkeypatch.setattr(bring_up, "memory_errors", lambda *_: 0)
+    monkeypatch.setattr(bring_up, "identify", lambda session: identified(session) | {"fault": 8})
+    out, _ = printed(capsys, *check, code=1)
+    assert re.search(r"^fault +8 +0  WRONG$", out, re.MULTILINE)
+    assert out.splitlines()[-1] == "FAIL: fault is 8, not 0"
+    figures = json.loads(printed(capsys, *check, "--json", code=1).out)
+    assert (figures["good"], figures["expected"]["fault"]) == (False, 0)
+
+
+def test_a_check_of_a_bank_ends_with_a_verdict(capsys, bank_file, tmp_path):
+    assert printed(capsys, "bank", "verify", bank_file).out.splitlines()[-1] == "PASS: every bit is as it was written"
+    (tmp_path / "bad.bank").write_bytes(bank_file.read_bytes()[:-1])
+    assert "FAIL: " in told_off(capsys, "bank", "verify", tmp_path / "bad.bank")
+
+
+def test_a_demo_that_a_busy_machine_spoiled_says_so_instead_of_figures():
+    counters = Counters()
+    counters.upload_latency.host.record(9_900_000)
+    assert spoiled(counters, real_time=True) == ""
+    counters.upload_latency.host.record(40_400_000)
+    said = spoiled(counters, real_time=True)
+    assert "the host was late by 40 ms" in said
+    assert spoiled(counters, real_time=False) == "", "in virtual time a busy machine changes nothing"
+    counters = Counters(host_silent=2)
+    assert "the host fell silent 2 times" in spoiled(counters, real_time=True)
+
+
+def test_the_table_of_a_spoiled_run_has_no_figures_of_foci(capsys, small_board, monkeypatch):
+    run = ("run", "--board", small_board, "--speed", "max")
+    assert "relative amplitude" in printed(capsys, *run).out
+    monkeypatch.setattr(simulated_run, "spoiled", lambda *_: "the host was late by 40 ms")
+    out, _ = printed(capsys, *run)
+    assert "relative amplitude" not in out
+    assert out.splitlines()[-1].endswith("left out: the host was late by 40 ms")
 
 
 def test_a_folder_that_cannot_be_written_is_named(capsys, small_board):

@@ -84,8 +84,18 @@ def bank_tell(options: argparse.Namespace) -> int:
 
 def bank_check(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
-    show(options, verify_bank(_bank_file(options)), plain_table)
+    file = _bank_file(options)
+    try:
+        found = verify_bank(file, progress_bar("bytes"))
+    except BankError as error:
+        raise BankError(f"FAIL: {error}") from error
+    show(options, found, _verify_table)
     return 0
+
+
+def _verify_table(figures: dict[str, Any]) -> str:
+    told = f"{figures['cells']:,} cells, {figures['bytes']:,} bytes"
+    return f"bank: {figures['path']}, {told}\nPASS: every bit is as it was written"
 
 
 def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path, *, keep: bool = False) -> Bank:

@@ -57,11 +57,10 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
-    parameters = Parameters.of(board, build_hash)
-    limits = {register: (read(register), getattr(parameters, register.name.lower())) for register in LIMITS}
+    built = {register: (read(register), value) for register, value in limits(board).items()}
     other = [
         f"{register.name} is {found}, not {value} ({LIMITS[register]})"
-        for register, (found, value) in limits.items()
+        for register, (found, value) in built.items()
         if found != value
     ]
     if other:
@@ -69,6 +68,12 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"
             f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
         )
+
+
+def limits(board: Board) -> dict[Register, int]:
+    """Registers with the limits that the gateware has to be built with."""
+    parameters = Parameters.of(board, 0)
+    return {register: getattr(parameters, register.name.lower()) for register in LIMITS}
 
 
 def settings(board: Board) -> dict[Register, int]:
