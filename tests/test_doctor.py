@@ -206,7 +206,7 @@ def examined(board, model, channels=range(32)):
 
 
 def model_of(board, build=5):
-    return GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, build))
+    return GatewareModel(Parameters.of(board, build))
 
 
 def test_a_good_link_has_a_proposal_a_bound_and_no_complaint(board):
