@@ -449,6 +449,13 @@ def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(benc
         bench.ft5x06()
 
 
+def test_a_firmware_that_leaves_some_of_its_identity_empty_is_taken(bench):
+    chip = bench.put(Ft5x06Chip(chip_id=0))
+    chip.registers[0xA6] = 0
+    assert chip.registers[0xA8]
+    assert bench.ft5x06().present
+
+
 def test_an_ft5x06_that_lost_its_power_is_set_to_work_again_and_an_empty_one_in_its_place_is_not(bench):
     bench.put(Ft5x06Chip())
     source = bench.ft5x06()
