@@ -13,10 +13,11 @@ from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
 from controller.hardware import await_panel, await_session, open_thermometer, open_touch, tracked
 from controller.housekeeping import Housekeeping
+from controller.log import LOG, Priority, tell
 from controller.prepare_scene import populate
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
-from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.source import TouchSource
@@ -84,7 +85,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            tell(warning)
+            tell(warning, Priority.WARNING)
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
         try:
             assembly.loop.run()
@@ -100,6 +101,7 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "board": board.name,
         "state": housekeeping.condition.state.value,
         "cause": housekeeping.condition.cause,
+        "log_lines_lost": LOG.lost,
         "warnings": in_words(source.warnings),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),

@@ -68,6 +68,7 @@ class Service:
         self.process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | (environment or {})
         )
+        self.log_end = self.process.stderr.fileno()
         self.log = []
         self.socket = folder / "panel.sock"
 
@@ -426,6 +427,24 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     assert err.splitlines()[-1].startswith("haptic-panel: ")
     assert "Traceback" not in err
     assert "READY=1" not in manager.heard()
+
+
+def test_a_log_that_nobody_reads_does_not_hold_up_the_loop(folder, panel, bank):
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    log = os.open(f"/proc/self/fd/{service.log_end}", os.O_WRONLY | os.O_NONBLOCK)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(log, b"x" * 4096)
+    os.close(log)
+    panel.unplug()
+    with service.client() as client:
+        while client.figures()["state"] != "waiting for panel":
+            assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    panel.plug()
+    figures, code = service.end()
+    assert (code, figures["log_lines_lost"]) == (0, 1)
+    assert (figures["host_silent"], figures["outages"]) == (0, 0)
 
 
 def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, panel, bank):

@@ -247,15 +247,15 @@ class Tracker:
         """Contact for a number of the source that is new: a lost finger found again, or one that waits."""
         finger, x_m, y_m, time_s, _, size_m = sample
         palm = size_m > self._max_size_m
-        for lost in self._lost:
-            if not palm and hypot(x_m - lost.motion.x_m, y_m - lost.motion.y_m) <= NEAR_M and time_s <= self._bridged_until_s(lost):
-                self._lost.remove(lost)
-                lost.lost_s = inf
-                self._contacts[finger] = lost
-                self.tracking.bridged += 1
-                if self._bridged is not None:
-                    self._bridged(lost.finger, finger)
-                return lost
+        found = None if palm or not self._lost else self._found_again(x_m, y_m, time_s)
+        if found is not None:
+            self._lost.remove(found)
+            found.lost_s = inf
+            self._contacts[finger] = found
+            self.tracking.bridged += 1
+            if self._bridged is not None:
+                self._bridged(found.finger, finger)
+            return found
         contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
         contact.size_m = size_m
         contact.refused = palm
@@ -263,6 +263,16 @@ class Tracker:
         self.tracking.held_back += contact.suspect and not palm
         self._contacts[finger] = contact
         return contact
+
+    def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
+        """The lost finger that a new contact is: of those that would be near by now, the nearest."""
+        found, nearest_m = None, NEAR_M
+        for lost in self._lost:
+            at_x_m, at_y_m = lost.motion.place(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
+            off_m = hypot(x_m - at_x_m, y_m - at_y_m)
+            if off_m <= nearest_m and time_s <= self._bridged_until_s(lost):
+                found, nearest_m = lost, off_m
+        return found
 
     def _lift(self, contact: _Contact, time_s: float) -> None:
         if contact.refused:
