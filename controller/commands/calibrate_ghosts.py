@@ -21,7 +21,7 @@ from controller.hardware import open_link, open_panel, open_session
 from controller.playback import Played
 from controller.scene import Scene, load_scene
 from controller.scene_file import find_scene
-from controller.touch.board_lines import value_line, write_value
+from controller.touch.board_lines import check_writable, value_line, write_value
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
 from controller.touch.kept_events import KeptEvents, emission_event, recording_text, store
@@ -35,6 +35,9 @@ SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what th
 def calibrate_ghosts(options: argparse.Namespace) -> int:
     """Play, watch the panel, and print or write what follows; or judge a recording of that."""
     board = load_board(find_board(options.board))
+    file = board.folder / "board.toml"
+    if options.write:
+        check_writable(file)
     if options.replay:
         recording = Recording.open(Path(options.replay))
     else:
@@ -43,7 +46,6 @@ def calibrate_ghosts(options: argparse.Namespace) -> int:
             store(Path(options.out), text)
         recording = Recording(text, options.out or "this measurement")
     found = ghost_figures(recording, board)
-    file = board.folder / "board.toml"
     if options.write:
         write_value(file, "ghost_ms", found.ghost_ms)
     show(options, _figures(board, found, file if options.write else None), _table)

@@ -14,7 +14,7 @@ from controller.commands.output import show
 from controller.device_settings import RecordingTouch
 from controller.errors import ConfigError
 from controller.hardware import open_panel
-from controller.touch.board_lines import value_line, write_value
+from controller.touch.board_lines import check_writable, value_line, write_value
 from controller.touch.event_reader import Event
 from controller.touch.kept_events import KeptEvents, recording_text, store
 from controller.touch.lag_figures import LagFigures, lag_figures
@@ -30,6 +30,9 @@ SIMULATED_LAG_S = 12e-3  # of the simulated board's panel
 def calibrate_lag(options: argparse.Namespace) -> int:
     """Watch finger and mouse, and print or write what follows; or judge a recording of that."""
     board = load_board(find_board(options.board))
+    file = board.folder / "board.toml"
+    if options.write:
+        check_writable(file)
     if options.replay:
         recording = Recording.open(Path(options.replay))
     else:
@@ -38,7 +41,6 @@ def calibrate_lag(options: argparse.Namespace) -> int:
             store(Path(options.out), text)
         recording = Recording(text, options.out or "this measurement")
     found = lag_figures(recording, board)
-    file = board.folder / "board.toml"
     if options.write:
         write_value(file, "lag_ms", found.lag_ms)
     show(options, _figures(board, found, file if options.write else None), _table)

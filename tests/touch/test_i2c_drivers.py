@@ -1,6 +1,8 @@
 """GT911 and FT5x06 driven over the kernel's interfaces, their far ends (peers) built from the data sheets, in virtual time."""
 
+import contextlib
 import errno
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -14,6 +16,7 @@ from controller.board import find_board, load_board
 from controller.device_settings import Ft5x06Touch, Gt911Touch
 from controller.errors import TouchError
 from controller.touch import i2c_bus, i2c_reader, panel_lines
+from controller.touch.event_codes import ABS_MT_TOUCH_MAJOR
 from controller.touch.ft5x06 import open_ft5x06
 from controller.touch.gt911 import PRODUCTS, open_gt911
 from controller.touch.live_source import LiveSource
@@ -62,6 +65,14 @@ class Bench:
     def touch(self, held, pulse=True, **more):
         if self.chip.touch(held, **more) is not False and pulse:
             self.lines.pulse()
+
+    def open_buses(self):
+        """How often the bus is open."""
+        found = 0
+        for fd in Path("/proc/self/fd").iterdir():
+            with contextlib.suppress(OSError):  # the one of the listing itself
+                found += fd.readlink() == self._path
+        return found
 
     def read(self, source):
         """Samples of what there is to read now, as (finger, x in mm, y in mm, contact)."""
@@ -316,6 +327,8 @@ def test_a_panel_that_went_is_tried_every_half_second_and_started_step_by_step_w
     while bench.now_s < began_s + 1.2:
         assert bench.until_due(source)[1] == []
         assert not source.present
+        if source.next_time_s() > bench.now_s + 0.4:  # it waits for the next attempt
+            assert bench.lines.driven == {"RST": True}
     bench.chip.silent = False
     bench.chip.configuration = Gt911Chip(width=1050, height=1480).configuration
     bench.chip.product = b"1158"
@@ -337,6 +350,7 @@ def test_what_keeps_a_bus_from_being_opened_is_said(bench, tmp_path, monkeypatch
     bench.put(Gt911Chip(), functions=0x10000)
     with pytest.raises(TouchError, match="cannot do plain I2C"):
         bench.gt911()
+    assert bench.open_buses() == 0
     with pytest.raises(TouchError, match=r"there is no I2C bus .*i2c-9"):
         bench.gt911(bus=str(tmp_path / "i2c-9"))
 
@@ -355,6 +369,7 @@ def test_a_chip_that_does_not_answer_at_the_start_is_named_and_everything_given_
             opened(reset_line="RST")
         assert bench.lines.driven == {}
         assert bench.lines.listening is None
+        assert bench.open_buses() == 0
     bench.put(Ft5x06Chip())
     with pytest.raises(TouchError, match="has no line 'NONE'"):
         bench.ft5x06(interrupt_line="NONE")
@@ -366,13 +381,17 @@ def test_a_chip_that_does_not_answer_at_the_start_is_named_and_everything_given_
 def test_an_ft5x06_is_reset_set_to_pulses_and_read(bench):
     bench.put(Ft5x06Chip())
     source = bench.ft5x06(reset_line="RST")
-    (low_s, *_), (high_s, *_) = bench.lines.history
+    (low_s, *low), (high_s, *high) = bench.lines.history
+    assert (low, high) == (["RST", False], ["RST", True])
     assert high_s - low_s >= 5e-3
     assert bench.now_s - high_s >= 0.3
     assert bench.chip.registers[0xA4] == 1  # a pulse for each report
     assert bench.chip.registers[0x00] == 0
     assert bench.lines.listening is Edge.FALLING
     assert source._reader.description.name == "FT5x06 chip 55"
+    assert source._reader.description.version == 0x0A
+    assert ABS_MT_TOUCH_MAJOR not in source._reader.description.axes
+    assert bench.open_buses() == 1
     bench.touch({number: (200 * number + 1, 100 * number + 1) for number in range(10)})
     assert [place[1:3] for place in bench.read(source)] == [(20 * k + 0.1, 10 * k + 0.1) for k in range(10)]
     bench.touch({5: (1011, 501)})
@@ -403,6 +422,7 @@ def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(benc
     with pytest.raises(TouchError, match=f"at 0x38 .* no FocalTech chip .* all 0x{byte:02X}"):
         bench.ft5x06()
     assert bench.lines.listening is None
+    assert bench.open_buses() == 0
     bench.put(Ft5x06Chip()).registers[:] = bytes([byte]) * 256
     with pytest.raises(TouchError, match="no FocalTech chip"):
         bench.ft5x06()
