@@ -266,6 +266,9 @@ class EventLoop:
         if prepared.scene is not None:
             if prepared.selection is not None:
                 self._playback.reselect(prepared.selection)
+            if self._playback.repeating:  # the spots of the scene before
+                self._playback.stop()
+                self._source.emitted(now_s, now_s)
             self._performance.swap(prepared.scene, self._time_base.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
@@ -300,9 +303,11 @@ class EventLoop:
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         bad = self._counters.skipped.bad_entries
+        repeating = self._playback.repeating
         try:
             start_s = self._playback.prepare(emissions, started_ns, **how)
         except ControllerError:  # they wait no longer, and what is under way ends with the outputs
+            self._counters.skipped.outputs_off += len(emissions)
             self._performance.left_out(emissions, Outcome.REFUSED, self._panel_s())
             raise
         if start_s is not None:
@@ -312,6 +317,9 @@ class EventLoop:
             self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
             self._performance.started(emissions, start_s)
             return
+        if repeating and not self._playback.repeating:
+            now_s = self._clock.now_s()
+            self._source.emitted(now_s, now_s)
         outcome = Outcome.SKIPPED if self._counters.skipped.bad_entries > bad else Outcome.REFUSED
         self._performance.left_out(emissions, outcome, self._panel_s())
 

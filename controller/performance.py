@@ -87,9 +87,11 @@ class Performance:
             self._states[finger] = state
         if emissions:
             self._add(emissions)
-        elif state is not None and state.region == OUTSIDE:
+        elif state is None:
+            self._lifted(finger, sample.time_s)
+        elif state.region == OUTSIDE:
             self._counters.skipped.outside_region += 1
-        elif state is not None:
+        else:
             self._counters.skipped.between_emissions += 1
         if state is None:  # what it felt as it was lifted is counted too
             self._given.pop(finger, None)
@@ -139,7 +141,9 @@ class Performance:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
         self.spots_from(next_s)
         spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
-        return list(together([*emissions, *spots], NEVER)[0])
+        played = list(together([*emissions, *spots], NEVER)[0])
+        self._counters.due += len(played) - len(emissions)
+        return played
 
     def spots_from(self, start_s: float) -> None:
         """The spots' beat begins anew."""
@@ -228,6 +232,13 @@ class Performance:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
+    def _lifted(self, finger: int, now_s: float) -> None:
+        """What still waits for a finger that is gone would be felt by nobody."""
+        waiting = self._due.pop(finger, None)
+        if waiting is not None:
+            self._counters.skipped.lifted += 1
+            self.left_out([waiting], Outcome.SKIPPED, now_s)
+
     def _unfelt(self, state: FingerState | None, outcome: Outcome, now_s: float) -> None:
         """Commands that end before their first emission."""
         if state is not None:
@@ -249,6 +260,7 @@ class Performance:
         """Go on with another scene: fingers that are down feel it from their next move on."""
         waiting = list(self._due.values())
         self._due.clear()
+        self._counters.skipped.scene_changed += len(waiting)
         self.left_out(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
         self._states = {owner: taken_over(scene, state) for owner, state in self._states.items()}
@@ -260,6 +272,7 @@ class Performance:
         self._spot_beats = dict.fromkeys(self.scene.spots, 0)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
+        self._counters.due += len(emissions)
         for emission in emissions:
             finger = emission.finger
             if finger is not None:

@@ -122,6 +122,8 @@ class Playback:
         self._counters = counters
         self._played = played
         self._slots = SlotCache(slots, selection.lone)
+        self._latest: int | None = None  # slot of the last play
+        self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
         self._prepared: _Prepared | None = None
         self._running: Played | None = None  # an endless repetition
 
@@ -176,40 +178,36 @@ class Playback:
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
-        running = self._running
-        start_s = self._start_s(self._command_s, at_s)
-        points = self._aim(emissions, start_s, ahead)
-        key = self._selection.key(points)
-        resident = self._slots.find(key)
-        if resident is None:
-            start_s = self._start_s(self.upload_s, at_s)
+        for wire_s in (self._command_s, self.upload_s):  # an upload starts later, and so meets a finger elsewhere
+            start_s = self._start_s(wire_s, at_s)
             points = self._aim(emissions, start_s, ahead)
             key = self._selection.key(points)
+            resident = self._slots.find(key)
+            if resident is not None:  # there, too, something may be resident: never is a key looked up but not this one
+                break
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
         try:
             if resident is None:
                 self._upload(key, count, period_s, start, when_ticks)
             else:
-                slot = self._slots.use(resident)
-                session.play(slot, count, period_s, stop=running is not None, start=start, when_ticks=when_ticks)
+                self._play(resident, count, period_s, start, when_ticks)
                 self._counters.near += resident != key
         except BankError as error:
             if ahead and any(emission.finger is not None for emission in emissions):
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
-            self._counters.skipped.bad_entries += 1
+            self._counters.skipped.bad_entries += len(emissions)
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return None
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s)
-            self._counters.skipped.refused += 1
+            if resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot is dropped: sent anew
+                return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
+            self._counters.skipped.refused += len(emissions)
             return None
         ready_s = session.ready_s()
-        if running is not None:  # stopped at the latest after the emission that sounds now
-            self.free_s = max(self.free_s, running.last_start_s(ready_s) + self._busy_s)
-            self._running = None
         away_ns = session.away_ns - away_before_ns
         prepared = _Prepared(
             emissions,
@@ -236,20 +234,18 @@ class Playback:
     def prefetch(self, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send the waveform of a point ahead; False if it is there already, or cannot be had."""
         key = self._selection.key(((x_m, y_m, amplitude),))
-        if self._slots.find(key) is not None:
+        if self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             words = self._selection.words(key)
-            slot = self._slots.take()
-            try:
-                self._session.upload(slot, words)
-            except Refused:
-                self._slots.empty(slot)
-                return False
-        except BankError:
+            slot = self._take()
+            self._session.upload(slot, words)
+        except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
+        self._ahead.add(slot)
         self._counters.prefetched += 1
+        self._counters.prefetch_wasted += 1  # until it is played
         return True
 
     def pin(self, points: Sequence[tuple[float, float, float]]) -> None:
@@ -265,6 +261,19 @@ class Playback:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.lone)
+        self._ahead.clear()
+
+    def stop(self) -> None:
+        """End an endless repetition with the emission that sounds.
+
+        Raises
+        ------
+        LinkError, FaultError
+            As the session says.
+        """
+        if self._running is not None:
+            self._session.stop()
+            self._stopped()
 
     def trigger(self) -> None:
         """Play what is prepared, now."""
@@ -279,6 +288,9 @@ class Playback:
     def forget(self) -> None:
         """Take it that the FPGA holds and plays nothing: after a fault."""
         self._slots.forget()
+        self._ahead.clear()
+        if self._prepared is not None:
+            self._counters.skipped.outputs_off += len(self._prepared.emissions)
         self._prepared = None
         self._running = None
         self.free_s = -NEVER
@@ -300,25 +312,55 @@ class Playback:
             points.append((x_m, y_m, emission.amplitude))
         return points
 
+    def _play(self, resident: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
+        """Have a resident waveform accepted for playing."""
+        slot = self._slots.use(resident)
+        stop = self._running is not None
+        try:
+            self._session.play(slot, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
+        except Refused as refusal:
+            if refusal.result is Result.SLOT_DAMAGED:
+                self._slots.drop(slot)
+            raise
+        finally:
+            self._stopped()
+        self._latest = slot
+        if slot in self._ahead:
+            self._ahead.remove(slot)
+            self._counters.prefetch_wasted -= 1
+
     def _upload(self, key: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
         words = self._selection.words(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
-        slot = self._slots.take()
+        slot = self._take()
         stop = self._running is not None
         try:
             self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
-        except Refused:
-            self._slots.empty(slot)
-            raise
+        finally:
+            self._stopped()
+        self._latest = slot
         self._slots.keep(key, slot)
+
+    def _take(self) -> int:
+        """A slot to send a waveform to; not that of the play before, which sounds, waits or is repeated, while there is another."""
+        slot = self._slots.take(self._latest)
+        self._ahead.discard(slot)
+        return slot
+
+    def _stopped(self) -> None:
+        """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
+        if self._running is not None:
+            self.free_s = max(self.free_s, self._running.last_start_s(self._session.ready_s()) + self._busy_s)
+            self._running = None
 
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
         self.free_s = start_s + self._busy_s
         counters = self._counters
         counters.emissions += 1
+        counters.foci += len(prepared.emissions)
         stages = counters.resident_latency if prepared.resident else counters.upload_latency
         wait_ns = round((start_s - prepared.ready_s) * 1e9)
         stages.record(prepared.decide_ns, prepared.frame_ns, prepared.wire_ns, wait_ns, trigger_ns)

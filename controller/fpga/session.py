@@ -326,6 +326,10 @@ class Session:
             self.exchange.stop()  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
             raise
 
+    def stop(self) -> None:
+        """End what sounds with its emission, and forget what waits."""
+        self.exchange.insist(lambda _: self._commanded(Control.STOP))
+
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
         return self._link.trigger()
