@@ -228,8 +228,9 @@ class EventLoop:
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
-            elif trigger_at_s is None and self._performance.due and self._session.free_s() <= now_s and not self._held(now_s):
-                self._play(now_s, started_ns)
+            elif trigger_at_s is None and self._performance.due:
+                if self._open_s() <= now_s and not self._held(now_s):
+                    self._play(now_s, started_ns)
             elif trigger_at_s is None and self._moving is not None:
                 self._prefetch(now_s)
         elif self._performance.due:
@@ -296,6 +297,10 @@ class EventLoop:
         beats = [emission.time_s for emission in emissions if emission.period_s]
         self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
 
+    def _open_s(self) -> float:
+        """Since or until when the next emission may be handed over: the wire is free, and the one before has begun."""
+        return max(self._session.free_s(), self._playback.begins_s)
+
     def _held(self, now_s: float) -> bool:
         """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
         panel_s = self._time_base.fpga_s(now_s)
@@ -337,11 +342,14 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         commands_s = NEVER if self._commands is None else self._commands.next_time_s()
         trigger_at_s = self._playback.trigger_at_s
-        if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
-            return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()
         next_s = self._performance.next_s()
         times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
+        if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
+            open_s = max(now_s, self._open_s())
+            if open_s <= max(now_s, self._session.free_s()):
+                return min(open_s, self._outputs.next_s())
+            times.append(open_s)
         if next_s != NEVER:
             times.append(self._time_base.host_s(next_s) - self._lead_s)
         if not times and self._source.fileno() is None and self._commands is None:

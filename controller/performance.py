@@ -87,14 +87,13 @@ class Performance:
             self._states[finger] = state
         if emissions:
             self._add(emissions)
-        elif state is None:
-            self._lifted(finger, sample.time_s)
-        elif state.region == OUTSIDE:
+        elif state is not None and state.region == OUTSIDE:
             self._counters.skipped.outside_region += 1
-        else:
+        elif state is not None:
             self._counters.skipped.between_emissions += 1
-        if state is None:  # what it felt as it was lifted is counted too
-            self._given.pop(finger, None)
+        if state is None:
+            self._lifted(finger, emissions, sample.time_s)
+            self._given.pop(finger, None)  # what it felt as it was lifted is counted too
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """A command plays an effect at a point, or for a finger.
@@ -232,10 +231,11 @@ class Performance:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
-    def _lifted(self, finger: int, now_s: float) -> None:
-        """What still waits for a finger that is gone would be felt by nobody."""
-        waiting = self._due.pop(finger, None)
-        if waiting is not None:
+    def _lifted(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
+        """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
+        waiting = self._due.get(finger)
+        if waiting is not None and waiting not in last:
+            del self._due[finger]
             self._counters.skipped.lifted += 1
             self.left_out([waiting], Outcome.SKIPPED, now_s)
 

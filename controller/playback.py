@@ -46,9 +46,17 @@ class Played:
     resident: bool
     at_ticks: int | None = None
 
-    def last_start_s(self, at_s: float) -> float:
-        """When the emission of a repetition began that sounds, or sounded last, at a time after the trigger."""
-        return self.trigger_s + math.floor((at_s - self.trigger_s) / self.period_s) * self.period_s
+
+@dataclass(frozen=True, slots=True)
+class _Repetition:
+    """An endless repetition, in FPGA time, in which it keeps its period for hours."""
+
+    first_s: float
+    period_s: float
+
+    def last_s(self, at_s: float) -> float:
+        """When the emission began that sounds, or sounded last, at a time after the first."""
+        return self.first_s + math.floor((at_s - self.first_s) / self.period_s) * self.period_s
 
 
 @dataclass(slots=True)
@@ -109,6 +117,7 @@ class Playback:
         played: Callable[[Played], None] | None = None,
     ) -> None:
         self.free_s = -NEVER  # when the plate may play again
+        self.begins_s = -NEVER  # when what was started last begins: until then nothing else is handed over, or plays would pile up
         self.duration_s = duration_s
         self.upload_s = upload_s
         self._session = session
@@ -125,7 +134,8 @@ class Playback:
         self._latest: int | None = None  # slot of the last play
         self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
         self._prepared: _Prepared | None = None
-        self._running: Played | None = None  # an endless repetition
+        self._running: _Repetition | None = None
+        self._free_fpga_s = -NEVER  # `free_s` in the FPGA's time; what was started there is known there to the clock
 
     @property
     def trigger_at_s(self) -> float | None:
@@ -144,7 +154,9 @@ class Playback:
 
     def next_repetition_s(self, at_s: float) -> float:
         """When the endless repetition next starts an emission, after a time; never without one."""
-        return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s
+        if self._running is None:
+            return NEVER
+        return self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
 
     def prepare(
         self,
@@ -293,14 +305,18 @@ class Playback:
             self._counters.skipped.outputs_off += len(self._prepared.emissions)
         self._prepared = None
         self._running = None
-        self.free_s = -NEVER
+        self.free_s = self.begins_s = self._free_fpga_s = -NEVER
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._session.ready_s() + wire_s
-        if at_s is None:
-            return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S))
-        return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
+        arrived_s = self._time_base.fpga_s(self._session.ready_s() + wire_s)
+        if at_s is not None:
+            arrived_s += HANDOVER_S
+        free_s = self._free_fpga_s
+        if self._running is not None:  # it is stopped by the command: what it has begun by then sounds to its end
+            free_s = max(free_s, self._running.last_s(arrived_s) + self._busy_s)
+        start_s = max(arrived_s, free_s + MARGIN_S)
+        return start_s if at_s is None else max(start_s, at_s)
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
         """Where each emission meets its finger, at T or where it was, and how strong it is."""
@@ -352,12 +368,24 @@ class Playback:
     def _stopped(self) -> None:
         """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
         if self._running is not None:
-            self.free_s = max(self.free_s, self._running.last_start_s(self._session.ready_s()) + self._busy_s)
+            time_base = self._time_base
+            last_s = self._running.last_s(time_base.fpga_s(self._session.ready_s()))
+            self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
+            self.free_s = max(self.free_s, time_base.host_s(last_s) + time_base.error_s + self._busy_s)
             self._running = None
 
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
-        self.free_s = start_s + self._busy_s
+        time_base = self._time_base
+        self.begins_s = start_s
+        if prepared.at_ticks is None:
+            fpga_s = time_base.fpga_s(start_s)
+            self.free_s = start_s + self._busy_s
+            self._free_fpga_s = fpga_s + self._busy_s + time_base.error_s
+        else:
+            fpga_s = prepared.at_ticks / time_base.clock_hz
+            self.free_s = start_s + self._busy_s + time_base.error_s
+            self._free_fpga_s = fpga_s + self._busy_s
         counters = self._counters
         counters.emissions += 1
         counters.foci += len(prepared.emissions)
@@ -369,12 +397,10 @@ class Playback:
             counters.skipped.uploads += 1
         else:
             counters.uploads += 1
-        if prepared.count == ENDLESS or self._played is not None:
+        if prepared.count == ENDLESS:
+            self._running = _Repetition(fpga_s, self._session.played_period_s(prepared.period_s))
+        if self._played is not None:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]
             )
-            played = Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks)
-            if prepared.count == ENDLESS:
-                self._running = played
-            if self._played is not None:
-                self._played(played)
+            self._played(Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks))
