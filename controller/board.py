@@ -7,6 +7,7 @@ type or impossible is a ConfigError naming file, key and value.
 from __future__ import annotations
 
 import hashlib
+import os
 import sys
 import sysconfig
 from pathlib import Path
@@ -168,9 +169,30 @@ class Board(Record, frozen=True):
 
     @property
     def called(self) -> str:
-        """What to give as --board: its name where that finds it, else its folder."""
-        known = any((place / self.name).resolve() == self.folder.resolve() for place in board_places())
-        return self.name if known else str(self.folder)
+        """What to give as --board: the name of its folder where that finds it, else the folder."""
+        found = next((place / self.key for place in board_places() if (place / self.key / "board.toml").is_file()), None)
+        return self.key if found is not None and found.resolve() == self.folder.resolve() else str(self.folder)
+
+    @property
+    def key(self) -> str:
+        """Name of its folder: what it is looked up by, and its bank with it, when it is the copy of another board."""
+        return Path(os.path.abspath(self.folder)).name or self.name  # noqa: PTH100 - a link keeps its name
+
+    @property
+    def is_the_systems(self) -> bool:
+        """Whether it lies where the service looks for its board."""
+        return Path(os.path.abspath(self.folder)).parent.resolve() == SYSTEM_BOARDS.resolve()  # noqa: PTH100
+
+    def beside(self, name: str) -> Path:
+        """File that this board names: in its folder, or that of another board, wherever boards are looked up.
+
+        A copied board finds `../simulated/scene.toml` where it was copied from.
+        """
+        file = self.folder / name
+        if file.exists() or Path(name).parts[:1] != ("..",):
+            return file
+        elsewhere = (place / Path(*Path(name).parts[1:]) for place in board_places())
+        return next((other for other in elsewhere if other.exists()), file)
 
     @property
     def idle_word(self) -> int:

@@ -12,10 +12,11 @@ from collections.abc import Callable, Sequence
 
 from controller import __version__
 from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, run
-from controller.errors import ControllerError
+from controller.errors import ConfigError, ControllerError
+from controller.installation import missing_package
+from controller.log import Priority, line
 
 COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch)  # in the order of --help
-OFFLINE_HINT = "this command needs the offline tools: pip install 'haptic-panel[offline]'"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -26,24 +27,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return command(options)
     except ControllerError as error:
-        print(f"haptic-panel: {error}", file=sys.stderr)
+        print(line(str(error), Priority.ERROR), file=sys.stderr)
         return error.exit_code
     except ModuleNotFoundError as error:
-        if error.name in {"scipy", "matplotlib", "tqdm", "threadpoolctl"}:
-            print(f"haptic-panel: {OFFLINE_HINT} ({error.name} is missing)", file=sys.stderr)
-            return 69
-        raise
+        missing = missing_package(error.name)
+        if missing is None:
+            raise
+        print(line(missing, Priority.ERROR), file=sys.stderr)
+        return ConfigError.exit_code
     except BrokenPipeError:
         sys.stderr.close()
         return 1
     except OSError as error:
-        print(f"haptic-panel: {error}", file=sys.stderr)
+        print(line(str(error), Priority.ERROR), file=sys.stderr)
         return 1
     except MemoryError:
-        print("haptic-panel: not enough memory for what was asked", file=sys.stderr)
+        print(line("not enough memory for what was asked", Priority.ERROR), file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("haptic-panel: interrupted", file=sys.stderr)
+        print(line("interrupted", Priority.ERROR), file=sys.stderr)
         return 130
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import Any, Protocol
 
+from controller.panel_state import Condition
 from controller.touch.samples import TouchSample
 
 
@@ -28,6 +29,12 @@ class PanelControl(Protocol):
         ------
         ControllerError
             If it cannot be: the effect or the finger is unknown. No outcome follows then.
+        """
+
+    def switch(self, on: bool) -> None:
+        """Have the outputs disarmed, or armed again as soon as the FPGA allows it; `changed` tells when they are.
+
+        A panel that was disarmed stays so, whatever else happens to it, until it is switched on.
         """
 
     def load_scene(self, ticket: int, name: str) -> None:
@@ -60,6 +67,9 @@ class CommandSource(Protocol):
 
     def loaded(self, ticket: int, reason: str) -> None:
         """Answer a command to load a scene; an empty reason: it was taken over."""
+
+    def changed(self, condition: Condition) -> None:
+        """Take note of how the panel is now: called once at the start, then whenever something of it has changed."""
 
     def close(self) -> None:
         """Let all clients go."""

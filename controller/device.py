@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
@@ -11,14 +10,17 @@ from controller.assembly import Assembly, assemble
 from controller.bank.reader import Bank
 from controller.board import Board
 from controller.clocks import MonotonicClock
-from controller.hardware import open_link, open_session, open_thermometer, open_touch, tracked
+from controller.errors import ControllerError
+from controller.hardware import await_panel, await_session, open_thermometer, open_touch, tracked
 from controller.housekeeping import Housekeeping
+from controller.log import LOG, Priority, tell
 from controller.prepare_scene import populate
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
-from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
+from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
 from controller.touch.warnings import in_words
 
@@ -40,8 +42,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
     Raises
     ------
-    LinkError, TouchError
-        If the FPGA or the panel is not there at the start.
+    UnfitFpga
+        If the FPGA is another one than this software and the board need. One that is absent is waited for, as is the panel.
     FaultError
         If the FPGA has switched off for a reason that the host may not clear.
     """
@@ -49,11 +51,15 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     with ExitStack() as stack:
         notifier = stack.enter_context(Notifier.from_environment())
         cells = populate(bank, scene, scene_name)  # before memory is locked and anything is armed
-        link = open_link(board, clock.now_s)
+        link, session = await_session(board, clock.now_s)
         stack.callback(link.close)
-        session = open_session(link, board, clock.now_s)
-        start_s = clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S
-        touch = open_touch(board, replay, start_s)
+        panel = None
+        touch: TouchSource
+        if replay is None:
+            panel = await_panel(board)
+            touch = LiveSource(panel, board)
+        else:
+            touch = open_touch(board, replay, clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S)
         stack.callback(touch.close)
         source = tracked(touch, board)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
@@ -77,26 +83,25 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             progress=housekeeping.progress,
         )
         assembly.selection.prepare()
-        housekeeping.watch(assembly.loop, assembly.counters, touch if isinstance(touch, LiveSource) else None)
+        housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            tell(warning)
+            tell(warning, Priority.WARNING)
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
-        assembly.loop.run(_ready(notifier, board))
+        try:
+            assembly.loop.run()
+        except ControllerError as error:
+            notifier.stopping(f"{assembly.loop.outputs.state.value}: {error}")
+            raise
         notifier.stopping("outputs are off")
         return _figures(board, assembly, housekeeping, source)
-
-
-def _ready(notifier: Notifier, board: Board) -> Callable[[], None]:
-    def ready() -> None:
-        tell("the outputs are on")
-        notifier.ready(f"playing on board {board.name!r}")
-
-    return ready
 
 
 def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, source: Tracker) -> dict[str, Any]:
     said = {
         "board": board.name,
+        "state": housekeeping.condition.state.value,
+        "cause": housekeeping.condition.cause,
+        "log_lines_lost": LOG.lost,
         "warnings": in_words(source.warnings),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),

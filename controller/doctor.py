@@ -2,38 +2,40 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
+import pwd
 import resource
 import stat
-from collections.abc import Callable, Sequence
+import subprocess
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-import gpiod
 import msgspec
 import numpy as np
 
-from controller.bank.location import bank_path
+from controller.bank.file_format import MODELLED
+from controller.bank.inspection import wrong_pitch
+from controller.bank.location import SERVICE, bank_path, service_user
 from controller.bank.reader import Bank
 from controller.board import Board
 from controller.clocks import Clock
 from controller.device_settings import LinkSettings, LinuxInputTouch, Realtime, RecordingTouch
-from controller.errors import ConfigError, ControllerError, LinkError
+from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga import bring_up
 from controller.fpga.capture import Capture
 from controller.fpga.frames import UPLOAD_BYTES
-from controller.fpga.gpio_lines import CONSUMER
 from controller.fpga.link import Link
-from controller.fpga.link_check import counted, error_rate_bound, measured_hz, proposed_hz, sweep
+from controller.fpga.link_check import ClockedLink, counted, error_rate_bound, measured_hz, proposed_hz, sweep
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
-from controller.fpga.spi_link import SpiLink, read_bufsiz
-from controller.gpio_chip import find_chip
 from controller.hardware import open_link, open_panel
+from controller.installation import missing_package
+from controller.prepare_scene import populate
 from controller.scene import load_scene
 from controller.scene_file import find_scene
-from controller.temperature import Thermometer
 from controller.touch.recording import Recording
 
 SWEEP_SHARE = 0.1  # of the bits, at each speed of the sweep
@@ -47,12 +49,26 @@ class Finding:
     about: str
     good: bool
     said: str
+    warns: bool = False  # nothing is wrong, and yet it is not what one may expect
+
+
+@dataclass(frozen=True, slots=True)
+class _Allowed:
+    """What a user may ask of the kernel: the highest real-time priority, and bytes of memory to lock."""
+
+    whose: str
+    priority: float
+    memory_bytes: float
 
 
 def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
-    """Look at everything that a board names, without moving anything or disturbing a service that runs."""
+    """Look at everything that a board names, without moving anything or disturbing a service that runs.
+
+    Root, asking about the service's board, looks as the service's user: with its rights, and its unit's limits.
+    """
     link = board.link
-    checks: list[tuple[str, Callable[[], str]]] = []
+    user = service_user() if os.geteuid() == 0 and board.is_the_systems else None
+    checks: list[tuple[str, Callable[[], str | Finding]]] = [("user", lambda: _user(board, user))]
     if link.kind == "spi":
         checks += [
             ("SPI device", lambda: _node(link.device)),
@@ -63,11 +79,16 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         checks.append(("serial port", lambda: _opened(open_link(board, now_s), link.device)))
     checks += [("touch panel", lambda: _touch(board)), ("scene", lambda: _scene(board)), ("bank", lambda: _bank(board))]
     if board.temperature is not None:
-        temperature = board.temperature
-        checks.append(("temperature", lambda: _temperature(Thermometer(temperature))))
+        checks.append(("temperature", lambda: _temperature(board)))
     if link.kind != "simulated":
-        checks += [("priority", lambda: _priority(board.realtime)), ("locked memory", lambda: _memory(board.realtime))]
-    return [_tried(about, check) for about, check in checks]
+        checks.append(("responses", lambda: _responses(board)))
+        allowed = _unit_allows if user else _this_process_may
+        checks += [
+            ("priority", lambda: _priority(board.realtime, allowed())),
+            ("locked memory", lambda: _memory(board.realtime, allowed())),
+        ]
+    with _rights_of(user):
+        return [_tried(about, check) for about, check in checks]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,11 +122,12 @@ def examine_link(
     findings: list[Finding] = []
     figures: dict[str, Any] = {}
     take_capture: Callable[[], Capture] | None = link.take_capture if isinstance(link, SimulatedLink) else None
+    clocked = link if isinstance(link, ClockedLink) else None
     try:
         session = open_session()
         findings.append(Finding("identity and settings", True, "the gateware of this software; each setting was read back"))
-        if isinstance(link, SpiLink | SimulatedLink):
-            findings.append(_swept(board, session, link, max(bits * SWEEP_SHARE, 1), figures, progress))
+        if clocked is not None:
+            findings.append(_swept(board, session, clocked, max(bits * SWEEP_SHARE, 1), figures, progress))
             if not findings[-1].good:
                 return LinkExamined(findings, figures)
         done = bring_up.check(session, board, clock, bits, channels, progress=progress, take_capture=take_capture)
@@ -118,7 +140,10 @@ def examine_link(
     findings.append(
         Finding("bits", not errors, f"{errors} errors in {sent:,} bits: fewer than {bound:.1e} of them are wrong (95 %)")
     )
-    if isinstance(link, SpiLink):
+    if clocked is not None and not isinstance(link, SimulatedLink):
+        from controller.fpga.spi_link import SpiLink
+
+        assert isinstance(link, SpiLink)
         figures["sck_measured_hz"] = _finite(measured_hz(session, link))
         figures["effective_hz"] = link.effective_hz
     findings += [Finding("board", False, complaint) for complaint in done.complaints]
@@ -132,7 +157,7 @@ def examine_link(
 def _swept(
     board: Board,
     session: Session,
-    link: SpiLink | SimulatedLink,
+    link: ClockedLink,
     bits: float,
     figures: dict[str, Any],
     progress: Callable[[int, int], None],
@@ -152,11 +177,45 @@ def _swept(
     return Finding("SCK", True, f"{sck_hz / 1e6:g} MHz as the board says; no error from {speeds[0].sck_hz / 1e6:g} MHz on")
 
 
-def _tried(about: str, check: Callable[[], str]) -> Finding:
+def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
     try:
-        return Finding(about, True, check())
+        found = check()
+        return found if isinstance(found, Finding) else Finding(about, True, found)
     except (ControllerError, OSError) as error:
         return Finding(about, False, str(error))
+    except ModuleNotFoundError as error:
+        return Finding(about, False, missing_package(error.name) or f"{error}: may this user read where it is installed?")
+
+
+@contextlib.contextmanager
+def _rights_of(user: pwd.struct_passwd | None) -> Iterator[None]:
+    """This process with the rights of another user for a while; None: with its own."""
+    if user is None:
+        yield
+        return
+    own = os.getgroups(), os.getegid(), os.geteuid()
+    os.setgroups(os.getgrouplist(user.pw_name, user.pw_gid))
+    os.setegid(user.pw_gid)
+    os.seteuid(user.pw_uid)
+    try:
+        yield
+    finally:
+        os.seteuid(own[2])
+        os.setegid(own[1])
+        os.setgroups(own[0])
+
+
+def _user(board: Board, user: pwd.struct_passwd | None) -> str:
+    """As whom everything is looked at."""
+    if user is not None:
+        return f"looked at as {user.pw_name}, as which the service runs"
+    if os.geteuid() == 0 and board.is_the_systems:
+        raise ConfigError(f"there is no user {SERVICE}, as which the service runs: install it (systemd/README.md)")
+    try:
+        name = pwd.getpwuid(os.geteuid()).pw_name
+    except KeyError:
+        name = str(os.geteuid())
+    return f"looked at as {name}" + ("" if name == SERVICE or not board.is_the_systems else f"; the service runs as {SERVICE}")
 
 
 def _opened(link: Link, device: str) -> str:
@@ -171,12 +230,14 @@ def _node(device: str) -> str:
         raise LinkError(f"there is no {device} ({error.strerror}): switch SPI on, on a Raspberry Pi by dtparam=spi=on") from None
     if not stat.S_ISCHR(mode):
         raise LinkError(f"{device} is no device: was it made by hand?")
-    if not os.access(device, os.R_OK | os.W_OK):
+    if not os.access(device, os.R_OK | os.W_OK, effective_ids=True):
         raise LinkError(f"{device} may not be opened by this user: add it to the group that owns the device (on Debian: spi)")
     return f"{device} may be opened"
 
 
 def _buffer() -> str:
+    from controller.fpga.spi_link import read_bufsiz
+
     bufsiz = read_bufsiz()
     if bufsiz >= 2 * UPLOAD_BYTES:
         return f"{bufsiz} bytes: an upload is one message"
@@ -186,8 +247,13 @@ def _buffer() -> str:
 
 
 def _lines(link: LinkSettings) -> str:
+    import gpiod
+
+    from controller.fpga.gpio_lines import CONSUMER
+    from controller.gpio_chip import find_chip
+
     path = find_chip(link.gpio_chip, LinkError)
-    wanted = [name for name in (link.trigger_line, link.ready_line, link.permit_line) if name]
+    wanted = [name for name in (link.trigger_line, link.configured_line, link.permit_line) if name]
     with gpiod.Chip(str(path)) as chip:
         for name in wanted:
             try:
@@ -202,7 +268,7 @@ def _lines(link: LinkSettings) -> str:
 def _touch(board: Board) -> str:
     touch = board.touch
     if isinstance(touch, RecordingTouch):
-        file = board.folder / touch.recording
+        file = board.beside(touch.recording)
         return f"recording {Recording.open(file).name}"
     if isinstance(touch, LinuxInputTouch):
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
@@ -214,20 +280,35 @@ def _touch(board: Board) -> str:
 
 
 def _scene(board: Board) -> str:
-    file = find_scene(board, board.scene)
+    file = find_scene(board)
     load_scene(file, board)
     return str(file)
 
 
 def _bank(board: Board) -> str:
-    path = bank_path(board.name, find_scene(board, board.scene).stem)
-    if not path.exists():
-        raise ConfigError(f"there is no {path} yet: haptic-panel bank build --board {board.called} --scene {board.scene}")
-    with Bank.open(path, board):
-        return str(path)
+    path, scene_file = bank_path(board), find_scene(board)
+    with Bank.open(path, board) as bank:
+        if wrong := wrong_pitch(bank, board):
+            raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
+        cells = populate(bank, load_scene(scene_file, board), str(scene_file))
+    return f"{path}, {cells:,} cells of the scene"
 
 
-def _temperature(thermometer: Thermometer) -> str:
+def _responses(board: Board) -> str | Finding:
+    """What the bank was computed from."""
+    with Bank.open(bank_path(board)) as bank:
+        source = bank.header.parameters.get("responses", MODELLED)
+    if source != MODELLED:
+        return f"the bank's responses are {source}"
+    said = "the bank was computed from a model of the plate: it moves the panel, but a real one is not focused by it (README.md)"
+    return Finding("responses", True, said, warns=True)
+
+
+def _temperature(board: Board) -> str:
+    from controller.temperature import Thermometer
+
+    assert board.temperature is not None
+    thermometer = Thermometer(board.temperature)
     thermometer.scale(0.0)
     thermometer.close()
     if thermometer.cause:
@@ -235,24 +316,47 @@ def _temperature(thermometer: Thermometer) -> str:
     return f"{thermometer.temperature_c:g} °C"
 
 
-def _priority(realtime: Realtime) -> str:
-    allowed, _ = resource.getrlimit(resource.RLIMIT_RTPRIO)
-    if os.geteuid() != 0 and allowed != resource.RLIM_INFINITY and allowed < realtime.priority:
+def _this_process_may() -> _Allowed:
+    priority, memory_bytes = (
+        math.inf if os.geteuid() == 0 or soft == resource.RLIM_INFINITY else soft
+        for soft, _ in map(resource.getrlimit, (resource.RLIMIT_RTPRIO, resource.RLIMIT_MEMLOCK))
+    )
+    return _Allowed("this user", priority, memory_bytes)
+
+
+def _unit_allows() -> _Allowed:
+    """As the service's unit says: its process has other limits than a shell."""
+    names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
+    asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
+    try:
+        said = subprocess.run(asked, capture_output=True, text=True, check=True, timeout=10).stdout
+    except (OSError, subprocess.SubprocessError) as error:
+        raise ConfigError(f"systemctl does not tell the limits of {SERVICE}.service ({error})") from None
+    told = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
+    if told.get("LoadState") != "loaded":
+        raise ConfigError(f"{SERVICE}.service is not installed (systemd/README.md)")
+    priority, memory_bytes = (math.inf if told[name] == "infinity" else float(told[name]) for name in names[1:])
+    return _Allowed("the unit", priority, memory_bytes)
+
+
+def _priority(realtime: Realtime, allowed: _Allowed) -> str:
+    if allowed.priority < realtime.priority:
         raise ConfigError(
-            f"this user may ask for {allowed}, the board for {realtime.priority}: LimitRTPRIO= in the unit, or limits.conf"
+            f"{allowed.whose} may ask for {allowed.priority:g}, the board for {realtime.priority}:"
+            " LimitRTPRIO= in the unit, or limits.conf"
         )
     if realtime.cpu is not None and realtime.cpu not in os.sched_getaffinity(0):
         raise ConfigError(f"there is no core {realtime.cpu} for this user: set realtime.cpu to one of those there are")
     return f"SCHED_FIFO {realtime.priority} is permitted" if realtime.priority else "none is asked for"
 
 
-def _memory(realtime: Realtime) -> str:
-    allowed, _ = resource.getrlimit(resource.RLIMIT_MEMLOCK)
+def _memory(realtime: Realtime, allowed: _Allowed) -> str:
     if not realtime.lock_memory:
         return "not asked for"
-    if os.geteuid() != 0 and allowed != resource.RLIM_INFINITY and allowed < MEMORY_BYTES:
+    if allowed.memory_bytes < MEMORY_BYTES:
         raise ConfigError(
-            f"this user may lock {allowed >> 20} MiB, the service needs {MEMORY_BYTES >> 20}: LimitMEMLOCK= in the unit"
+            f"{allowed.whose} may lock {int(allowed.memory_bytes) >> 20} MiB, the service needs {MEMORY_BYTES >> 20}:"
+            " LimitMEMLOCK= in the unit"
         )
     return "permitted"
 

@@ -81,6 +81,8 @@ class EventLoop:
         self._outputs = Outputs(session, board, clock, time_base, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
+        self._quiet_until_s = -NEVER  # no emission begins before
+        self._listened = False  # and something waited for that
         self._report_ns = -1  # from the kernel's timestamp of the report just read to our read of it
         self._registered: dict[str, int] = {}
         self._wakeup: Wakeup | None = None
@@ -88,9 +90,14 @@ class EventLoop:
         self._stopped = False
 
     @property
-    def state(self) -> str:
-        """Empty while the outputs are on or being armed, else why they are off."""
-        return self._outputs.cause
+    def outputs(self) -> Outputs:
+        """Whether the outputs are on, and why not."""
+        return self._outputs
+
+    @property
+    def repeating(self) -> bool:
+        """Whether the FPGA plays something again and again by itself."""
+        return self._playback.repeating
 
     @property
     def reloading(self) -> bool:
@@ -134,8 +141,11 @@ class EventLoop:
                     if self._clock.now_s() < next_s:
                         self._clock.wait(selector, next_s)
                     try:
+                        if self._outputs.on and not self._outputs.wanted:
+                            self._interrupted()
+                            self._outputs.disarm()
                         if self._outputs.advance(self._clock.now_s()):
-                            self._performance.spots_from(self._panel_s())
+                            self._performance.interrupted(self._panel_s())  # what began while they were off, in another time
                             ready()
                             ready = _nothing
                         next_s = self._turn()
@@ -151,6 +161,10 @@ class EventLoop:
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
+
+    def switch(self, on: bool) -> None:
+        """Have the outputs armed or disarmed from now on; see `PanelControl`."""
+        self._outputs.wanted = on
 
     def load_scene(self, ticket: int, name: str) -> None:
         """Take over another scene for a command; see `PanelControl`."""
@@ -175,12 +189,16 @@ class EventLoop:
         return self._time_base.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
-        """The outputs are off: nothing that was under way is taken up again."""
+        """The outputs are off, unasked."""
+        self._interrupted()
+        self._outputs.failed(error, self._clock.now_s())
+
+    def _interrupted(self) -> None:
+        """Nothing that was under way is taken up again."""
         self._playback.forget()
         self._performance.interrupted(self._panel_s())
         now_s = self._clock.now_s()
         self._source.emitted(now_s, now_s)  # whatever sounded has ended
-        self._outputs.failed(error, now_s)
 
     def _watch(self, selector: selectors.BaseSelector) -> None:
         """Keep the selector on the files of today: a panel that was plugged in again has another one."""
@@ -215,6 +233,8 @@ class EventLoop:
         started_ns = time.perf_counter_ns()
         now_s = self._clock.now_s()
         self._progress(now_s)
+        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp make ghosts as well
+            self._source.emitted(now_s, self._session.ramp_end_s)
         self._read(now_s)
         if self._commands is not None:
             self._commands.serve(now_s, self)
@@ -222,14 +242,16 @@ class EventLoop:
             self._change_scene(now_s)
         panel_s = self._time_base.fpga_s(now_s)
         self._performance.advance(panel_s + self._lead_s + ROUNDING_S)
+        self._quiet_until_s = -NEVER
         if self._outputs.on:
             if not self._playback.repeating:
                 self._performance.add_spots(panel_s, panel_s + self._lead_s)
+            self._listen(now_s)
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
             elif trigger_at_s is None and self._performance.due:
-                if self._open_s() <= now_s and not self._held(now_s):
+                if self._may_play(now_s) and self._open_s() <= now_s:
                     self._play(now_s, started_ns)
             elif trigger_at_s is None and self._moving is not None:
                 self._prefetch(now_s)
@@ -282,7 +304,9 @@ class EventLoop:
     def _play(self, now_s: float, started_ns: int) -> None:
         """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
         performance, playback = self._performance, self._playback
-        emissions = performance.take(playback.duration_s, self._time_base.fpga_s(now_s))
+        within_s = NEVER if self._listened else playback.duration_s  # what was held back has become due together
+        emissions = performance.take(within_s, self._time_base.fpga_s(now_s))
+        self._listened = False
         period_s = performance.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
             self._prepare(emissions, started_ns, count=ENDLESS, period_s=period_s, at_s=emissions[0].time_s)
@@ -300,6 +324,26 @@ class EventLoop:
     def _open_s(self) -> float:
         """Since or until when the next emission may be handed over: the wire is free, and the one before has begun."""
         return max(self._session.free_s(), self._playback.begins_s)
+
+    def _listen(self, now_s: float) -> None:
+        """Let the panel have the silence that it asks for; what the FPGA repeats is stopped, and goes on in its beat."""
+        playback = self._playback
+        if not self._performance.due and not playback.repeating:
+            return
+        next_s = now_s if self._performance.due else playback.next_repetition_s(now_s)
+        self._quiet_until_s = self._source.quiet_until_s(now_s, next_s)
+        self._listened |= self._performance.due and self._quiet_until_s > now_s
+        if not playback.repeating or playback.next_repetition_s(now_s) >= self._quiet_until_s:
+            return
+        next_s = playback.next_repetition_s(self._quiet_until_s)
+        last_s = playback.stop_repeating(now_s)
+        if last_s is not None:
+            self._source.emitted(last_s, last_s + playback.duration_s)
+            self._performance.spots_from(self._time_base.fpga_s(next_s))
+
+    def _may_play(self, now_s: float) -> bool:
+        """Whether something is due and held back neither for the panel nor for a beat."""
+        return self._performance.due and self._quiet_until_s <= now_s and not self._held(now_s)
 
     def _held(self, now_s: float) -> bool:
         """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
@@ -342,10 +386,12 @@ class EventLoop:
     def _next_s(self, now_s: float) -> float | None:
         commands_s = NEVER if self._commands is None else self._commands.next_time_s()
         trigger_at_s = self._playback.trigger_at_s
+        if self._outputs.on and not self._outputs.wanted:
+            return now_s
         read_s = self._source.next_time_s()
         next_s = self._performance.next_s()
         times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
-        if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
+        if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
             open_s = max(now_s, self._open_s())
             if open_s <= max(now_s, self._session.free_s()):
                 return min(open_s, self._outputs.next_s())
@@ -357,6 +403,10 @@ class EventLoop:
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating and self._outputs.on:
             times.append(self._time_base.host_s(self._performance.next_spot_s()) - self._lead_s)
+        if self._quiet_until_s > now_s:
+            times.append(self._quiet_until_s)
+            if self._playback.repeating:
+                times.append(self._playback.next_repetition_s(now_s))
         times += [self._outputs.next_s(), commands_s]
         return min(times)
 

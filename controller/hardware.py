@@ -1,4 +1,4 @@
-"""The only place that chooses drivers for a board."""
+"""The only place that chooses drivers for a board; each is imported when it is opened: another computer may lack it."""
 
 from __future__ import annotations
 
@@ -7,18 +7,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.board import Board, data_folder
-from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch
-from controller.errors import TouchError
+from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, RecordingTouch, SerialTouch
+from controller.errors import ConfigError, TouchError
+from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
 from controller.fpga.gateware import GatewareFactory, Parameters
 from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
-from controller.fpga.serial_link import LATENCY_S, SerialLink
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
-from controller.fpga.spi_link import SpiLink
+from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
+from controller.touch.prediction import Motion
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.source import TouchSource
@@ -27,6 +28,7 @@ from controller.touch.tracker import Tracker
 if TYPE_CHECKING:
     from controller.temperature import Thermometer
 
+NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
 
 
@@ -61,10 +63,20 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
         If its device cannot be opened.
     """
     if board.link.kind == "spi":
+        from controller.fpga.spi_link import SpiLink
+
         return SpiLink(board.link, now_s)
     if board.link.kind == "serial":
+        from controller.fpga.serial_link import LATENCY_S, SerialLink
+
         return SerialLink(board.link.device, board.link.baud, now_s, UNHURRIED_S if unhurried else LATENCY_S)
     return open_simulated(board, now_s)
+
+
+def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
+    """Link and session of an FPGA that may not be there yet; nothing is asked of it before `bring_up`."""
+    link = AwaitedLink(lambda: open_link(board, now_s), now_s)
+    return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
 
 
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:
@@ -88,9 +100,7 @@ def open_panel(board: Board) -> EventReader:
     """
     touch = board.touch
     if isinstance(touch, LinuxInputTouch):
-        from controller.touch.linux_input import LinuxInput
-
-        return LinuxInput(touch.device, grab=touch.grab)
+        return open_input(touch.device, grab=touch.grab)
     if isinstance(touch, Ft5x06Touch):
         from controller.touch.ft5x06 import open_ft5x06
 
@@ -103,7 +113,20 @@ def open_panel(board: Board) -> EventReader:
         from controller.touch.serial_panel import SerialPanel
 
         return SerialPanel(touch)
-    raise TouchError(f"board {board.name!r} has no touch panel: give its [touch] a kind, or replay a recording")
+    raise TouchError(NO_PANEL.format(board.name))
+
+
+def open_input(device: str, *, grab: bool = False) -> EventReader:
+    """Input device of the kernel, by path or name.
+
+    Raises
+    ------
+    TouchError
+        If it is not there.
+    """
+    from controller.touch.linux_input import LinuxInput
+
+    return LinuxInput(device, grab=grab)
 
 
 def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
@@ -119,9 +142,24 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
     return LiveSource(open_panel(board), board)
 
 
-def tracked(source: TouchSource, board: Board) -> Tracker:
-    """A source behind the board's tracker."""
-    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m)
+def await_panel(board: Board) -> AwaitedReader:
+    """Driver of a board's touch panel, which may not be there yet.
+
+    Raises
+    ------
+    ConfigError
+        If the board has none.
+    """
+    if isinstance(board.touch, RecordingTouch):
+        raise ConfigError(NO_PANEL.format(board.name))
+    return AwaitedReader(lambda: open_panel(board))
+
+
+def tracked(
+    source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None, motion: type[Motion] = Motion
+) -> Tracker:
+    """A source behind the board's tracker; for `bridged` and `motion` see there."""
+    return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged, motion)
 
 
 def open_thermometer(board: Board) -> Thermometer | None:
@@ -135,4 +173,4 @@ def open_thermometer(board: Board) -> Thermometer | None:
 
 def recording_path(board: Board, given: str | None) -> Path:
     """File to replay: the one asked for, else the board's own."""
-    return board.folder / board.touch.recording if given is None else Path(given)
+    return board.beside(board.touch.recording) if given is None else Path(given)

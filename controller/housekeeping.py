@@ -9,11 +9,20 @@ from typing import Protocol
 from controller.board import Board
 from controller.fpga.session import Session
 from controller.latency import Counters
-from controller.service import Notifier, Watchdog, tell
+from controller.log import Priority, tell
+from controller.panel_state import Condition, PanelState
+from controller.service import Notifier, Watchdog
+
+PLAYING_S = 1.0  # since the last emission, for which the panel is said to be playing
+WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
 
 
 class Thermometer(Protocol):
     """The plate's temperature, as far as it is known."""
+
+    @property
+    def temperature_c(self) -> float:
+        """In °C; NaN while it is not."""
 
     @property
     def cause(self) -> str:
@@ -24,19 +33,43 @@ class Thermometer(Protocol):
 
 
 class Panel(Protocol):
-    """A touch panel, as far as it can be lost."""
+    """A touch panel, as far as it can be absent."""
 
     @property
     def present(self) -> bool:
         """Whether it is there."""
+
+    @property
+    def cause(self) -> str:
+        """Why it is not there; empty while that is not known yet."""
+
+
+class OutputsSeen(Protocol):
+    """Whether the outputs are on."""
+
+    @property
+    def on(self) -> bool:
+        """Whether plays are taken."""
+
+    @property
+    def state(self) -> PanelState:
+        """ARMED, or why not."""
+
+    @property
+    def cause(self) -> str:
+        """Why not, in words."""
 
 
 class Watched(Protocol):
     """What is told about: the loop."""
 
     @property
-    def state(self) -> str:
-        """Empty while the outputs are on, else why not."""
+    def outputs(self) -> OutputsSeen:
+        """The outputs of its FPGA."""
+
+    @property
+    def repeating(self) -> bool:
+        """Whether the FPGA plays something again and again by itself."""
 
     @property
     def reloading(self) -> bool:
@@ -56,7 +89,9 @@ class Housekeeping:
     session : Session
         Whose bit clock follows the plate's temperature.
     notifier : Notifier
-        Told of the state of the outputs when it changes.
+        Told of the state of the panel when it changes, and that the service is ready once there is one: it serves then,
+        whether or not the FPGA and the touch panel are there. Who starts after it, such as a user interface, shall not
+        wait for somebody to plug in a cable, and is told of the state itself.
     watchdog : Watchdog
     thermometer : Thermometer or None
         None: the plate is taken to be as warm as the bank says.
@@ -65,12 +100,15 @@ class Housekeeping:
     ----------
     scale : float
         Of the bit clock, as the FPGA plays it now.
+    condition : Condition
+        How the panel is.
     """
 
     def __init__(
         self, board: Board, session: Session, notifier: Notifier, watchdog: Watchdog, thermometer: Thermometer | None
     ) -> None:
         self.scale = 1.0
+        self.condition = Condition()
         self._session = session
         self._notifier = notifier
         self._watchdog = watchdog
@@ -79,19 +117,32 @@ class Housekeeping:
         self._period_s = board.temperature.period_s if board.temperature else math.inf
         self._loop: Watched | None = None
         self._panel: Panel | None = None
+        self._told: Callable[[Condition], None] = _nobody
         self._board_name = board.name
-        self._cause = ""
+        self._temperature_cause = ""
+        self._temperature_c: float | None = None
         self._reloading = False
-        self._state = ""
-        self._present = True
+        self._ready = False  # said so
+        self._scene_stays = ""
+        self._played_s = -math.inf
         self._counters: Counters | None = None
-        self._loaded = self._refused = 0
+        self._emissions = self._loaded = self._refused = 0
 
-    def watch(self, loop: Watched, counters: Counters, panel: Panel | None) -> None:
-        """The loop, the counters and the panel that are told about; no panel where a recording is replayed."""
+    def watch(
+        self, loop: Watched, counters: Counters, panel: Panel | None, told: Callable[[Condition], None] | None = None
+    ) -> None:
+        """The loop, the counters and the panel that are told about; no panel where a recording is replayed.
+
+        Parameters
+        ----------
+        told : callable, optional
+            Called with each new condition, the first one included.
+        """
         self._loop = loop
         self._counters = counters
         self._panel = panel
+        if told is not None:
+            self._told = told
 
     def progress(self, now_s: float) -> None:
         """One turn of the loop."""
@@ -99,34 +150,92 @@ class Housekeeping:
         loop, counters = self._loop, self._counters
         if loop is None or counters is None:
             return
-        if loop.state != self._state:
-            self._state = loop.state
-            self._say(f"outputs off: {self._state.removeprefix('outputs off: ')}" if self._state else "the outputs are on")
-        if self._panel is not None and self._panel.present != self._present:
-            self._present = self._panel.present
-            self._say("the touch panel is back" if self._present else "the touch panel is lost; it is looked for twice a second")
+        self._look(loop, counters, now_s)
         if loop.reloading != self._reloading:
             self._reloading = loop.reloading
             if self._reloading:
                 self._notifier.reloading("preparing another scene")
             else:
-                self._notifier.ready(f"playing on board {self._board_name!r}")
+                self._notifier.ready(self._status)
         if counters.scenes_loaded != self._loaded:
             self._loaded = counters.scenes_loaded
-            self._say("another scene is played, or the same read again")
+            self._scene_stays = ""
+            tell("another scene is played, or the same read again")
+            self._notifier.status(self._status)
         if counters.scenes_refused != self._refused:
             self._refused = counters.scenes_refused
-            self._say(f"the scene stays as it was: {counters.scene_refused}")
-        if self._read_s <= now_s and not loop.state:  # an FPGA that is lost takes no other bit clock
+            self._scene_stays = f"the scene stays as it was: {counters.scene_refused}"
+            tell(self._scene_stays, Priority.WARNING)
+            self._notifier.status(self._status)
+        if self._read_s <= now_s and loop.outputs.on:  # an FPGA that is lost takes no other bit clock
             self._follow_temperature(loop, now_s)
+
+    def _look(self, loop: Watched, counters: Counters, now_s: float) -> None:
+        """Tell of the panel's condition if it has changed."""
+        outputs, panel = loop.outputs, self._panel
+        on, state, cause = outputs.on, outputs.state, outputs.cause
+        present = panel is None or panel.present
+        if counters.emissions != self._emissions or loop.repeating:
+            self._emissions = counters.emissions
+            self._played_s = now_s
+        if on and panel is not None and not present:
+            state, cause = PanelState.WAITING_FOR_PANEL, panel.cause
+        elif on and now_s - self._played_s < PLAYING_S:
+            state = PanelState.PLAYING
+        before = self.condition
+        if (
+            self._ready
+            and state is before.state
+            and on == before.outputs_on
+            and present == before.panel_present
+            and self._temperature_c == before.temperature_c
+            and cause == before.cause
+        ):
+            return
+        if not cause and state not in WORKING:
+            return  # on its way: nothing is known yet
+        self.condition = Condition(state, cause, on, present, self._temperature_c)
+        self._log(before)
+        if not self._ready:
+            self._ready = True
+            self._notifier.ready(self._status)
+        elif (state, cause) != (before.state, before.cause):
+            self._notifier.status(self._status)
+        self._told(self.condition)
+
+    def _log(self, before: Condition) -> None:
+        """What of a new condition is for the log: not whether something is being played."""
+        now = self.condition
+        if now.outputs_on != before.outputs_on and now.outputs_on:
+            tell("the outputs are on")
+        if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
+            asked = now.state is PanelState.DISARMED
+            said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
+            tell(said, Priority.INFO if asked else Priority.WARNING)
+        if now.panel_present and not before.panel_present:
+            tell("the touch panel is back")
+        elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):
+            tell(f"{now.state.value}: {now.cause}", Priority.WARNING)
+
+    @property
+    def _status(self) -> str:
+        """One line for `systemctl status`."""
+        now = self.condition
+        said = f"{now.state.value} on board {self._board_name!r}" if now.state in WORKING else f"{now.state.value}: {now.cause}"
+        return f"{said}; {self._scene_stays}" if self._scene_stays else said
 
     def _follow_temperature(self, loop: Watched, now_s: float) -> None:
         assert self._thermometer is not None
         scale = self._thermometer.scale(now_s)
         self._read_s = now_s + self._period_s
-        if self._thermometer.cause != self._cause:
-            self._cause = self._thermometer.cause
-            self._say(self._cause or "the temperature sensor is read again")
+        temperature_c = self._thermometer.temperature_c
+        self._temperature_c = None if math.isnan(temperature_c) else temperature_c
+        if self._thermometer.cause != self._temperature_cause:
+            self._temperature_cause = self._thermometer.cause
+            if self._temperature_cause:
+                tell(self._temperature_cause, Priority.WARNING)
+            else:
+                tell("the temperature sensor is read again")
         if scale == self.scale:
             return
         if self._session.set_bit_period(scale):  # else something plays: the next turn but one
@@ -135,6 +244,6 @@ class Housekeeping:
         else:
             self._read_s = now_s
 
-    def _say(self, sentence: str) -> None:
-        tell(sentence)
-        self._notifier.status(sentence)
+
+def _nobody(_: Condition) -> None:
+    """Who is told where nobody is."""

@@ -7,19 +7,20 @@ again a few times only: on a machine that is too slow, fingers would feel nothin
 from __future__ import annotations
 
 from controller.board import Board
-from controller.clocks import NEVER, Clock
+from controller.clocks import Clock
 from controller.errors import ControllerError, FaultError
 from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
+from controller.panel_state import PanelState
 
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
 
 
 class Outputs:
-    """The outputs of one FPGA that has been brought up.
+    """The outputs of one FPGA, off at first; it need not be there yet.
 
     Parameters
     ----------
@@ -36,55 +37,57 @@ class Outputs:
     ----------
     on : bool
         Armed, and the ramp is over: plays are taken.
-    cause : str
-        Why they are off; empty while they are on or on their way.
     """
 
     def __init__(self, session: Session, board: Board, clock: Clock, time_base: TimeBase, counters: Counters) -> None:
         self.on = False
-        self.cause = ""
         self._session = session
         self._clock = clock
         self._time_base = time_base
         self._counters = counters
         self._recovery = Recovery(session, board)
-        self._recovering = False
-        self._ramp_end_s = -NEVER  # not armed yet
         self._off_since_s = clock.now_s()
         self._stalls = 0
         self._emissions_at_stall = 0
 
+    @property
+    def state(self) -> PanelState:
+        """ARMED, or why not; while they are on their way what was before."""
+        return PanelState.ARMED if self.on else self._recovery.state
+
+    @property
+    def cause(self) -> str:
+        """Why they are off; empty while they are on, or on their way for the first time."""
+        return "" if self.on else self._recovery.cause
+
+    @property
+    def wanted(self) -> bool:
+        """Whether they are to be on; where they are and should not be, call `disarm`."""
+        return self._recovery.wanted
+
+    @wanted.setter
+    def wanted(self, wanted: bool) -> None:
+        self._recovery.wanted = wanted
+
     def next_s(self) -> float:
         """When `advance` has something to do."""
-        if self._recovering:
-            return self._recovery.next_s
-        return self._session.heartbeat_due_s if self.on else min(self._session.heartbeat_due_s, self._ramp_end_s)
+        return self._session.heartbeat_due_s if self.on else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
-        """Do what is due: arm, end the ramp, give a heartbeat; True when the outputs have just come on.
+        """Do what is due: bring up, arm, end the ramp, give a heartbeat; True when the outputs have just come on.
 
         Raises
         ------
         ControllerError
             What the FPGA or the link says: give it to `failed`.
         """
-        if self._recovering:
-            if now_s < self._recovery.next_s:
-                return False
-            if not self._recovery.step(now_s):
-                self.cause = self._recovery.cause
-                return False
-            self._recovering = False
-        elif self._ramp_end_s == -NEVER:
-            self._ramp_end_s = self._session.arm()
-            return False
-        elif self.on or now_s < self._ramp_end_s:
+        if self.on:
             if self._session.heartbeat_due_s <= now_s:
                 self._beat()
             return False
-        else:
-            self._session.require_armed()
-        self.on, self.cause = True, ""
+        if now_s < self._recovery.next_s or not self._recovery.step(now_s):
+            return False
+        self.on = True
         self._counters.outputs_off_s += now_s - self._off_since_s
         self._beat()
         return True
@@ -100,7 +103,6 @@ class Outputs:
         if self.on:
             self._off_since_s = now_s
         self.on = False
-        self.cause = str(error)
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
             self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
@@ -110,15 +112,18 @@ class Outputs:
         else:
             self._counters.outages += 1
             self._counters.outage = str(error)
-        self._recovering = True
         self._recovery.begin(error, now_s)
 
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""
+        now_s = self._clock.now_s()
         if not self.on:
-            return self._clock.now_s()
+            return now_s
         self.on = False
-        return self._session.disarm()
+        self._off_since_s = now_s
+        off_s = self._session.disarm()
+        self._recovery.rest(off_s)
+        return off_s
 
     def _beat(self) -> None:
         before_s = self._clock.now_s()

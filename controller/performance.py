@@ -34,7 +34,7 @@ from controller.touch.samples import TouchSample
 
 MOST_WAITING = 32  # commands; of more the oldest is skipped
 LEAST_STEP_M = 0.5e-3  # a finger that moves less is at rest
-GLIMPSE_S = 5e-3  # over which a finger's velocity is seen; farther ahead `place` expects that it may have stopped
+GLIMPSE_S = 5e-3  # over which a finger's velocity is seen
 MOST_HELD_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
 SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
 

@@ -158,6 +158,14 @@ class Playback:
             return NEVER
         return self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
 
+    def stop_repeating(self, now_s: float) -> float | None:
+        """End the endless repetition; when its last emission began, or None if its first one has yet to."""
+        running = self._running
+        if running is None or now_s < self.begins_s:
+            return None
+        self.stop()
+        return self._time_base.host_s(running.last_s(self._time_base.fpga_s(self._session.ready_s())))
+
     def prepare(
         self,
         emissions: Sequence[Emission],
@@ -276,7 +284,7 @@ class Playback:
         self._ahead.clear()
 
     def stop(self) -> None:
-        """End an endless repetition with the emission that sounds.
+        """End an endless repetition with the emission that sounds, or before its first one.
 
         Raises
         ------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +12,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.errors import ConfigError
+from controller.validation import dotted, in_words
 
 T = TypeVar("T")
 
@@ -41,7 +41,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         raise ConfigError(f"{file}: not valid TOML: {error}") from error
     for path, value in _leaves(tables, ()):
         if isinstance(value, float) and not math.isfinite(value):
-            raise ConfigError(f"{file}: {_dotted(path)} = {value} is not a number one can work with")
+            raise ConfigError(f"{file}: {dotted(path)} = {value} is not a number one can work with")
     return as_record(f"{file}: ", tables, kind)
 
 
@@ -58,7 +58,7 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
     try:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
-        raise ConfigError(f"{before}{_in_words(str(error), tables)}") from error
+        raise ConfigError(f"{before}{in_words(str(error), tables, kind)}") from error
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:
@@ -71,25 +71,3 @@ def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str
             yield from _leaves(inner, (*path, index))
     else:
         yield path, value
-
-
-def _dotted(path: tuple[str | int, ...]) -> str:
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".")
-
-
-def _in_words(message: str, tables: dict[str, Any]) -> str:
-    """Msgspec's message with its `$.path` as a key of the file and the value found there."""
-    text, _, where = message.partition(" - at `$")
-    path: tuple[str | int, ...] = tuple(
-        int(index) if index else key for key, index in re.findall(r"\.([^.\[\]`]+)|\[(\d+)\]", where)
-    )
-    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", text)
-    if unknown:
-        path = (*path, unknown[1])
-        text = "unknown key"
-    value: Any = tables
-    for part in path:
-        value = value[part]
-    if not path or isinstance(value, dict | list):
-        return f"{_dotted(path)}: {text}" if path else text
-    return f"{_dotted(path)} = {value!r}: {text}"

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
 
 import msgspec
+import numpy as np
 from msgspec import Meta
+from numpy.typing import NDArray
 
 from controller.board import Board
 from controller.effects import (
@@ -97,19 +99,23 @@ class SceneRead(NamedTuple):
     playable: Effects
 
 
-def find_scene(board: Board, name_or_path: str) -> Path:
-    """File of a scene: a path, else `<name>.toml` beside the board's file.
+def find_scene(board: Board, name_or_path: str | None = None) -> Path:
+    """File of a scene: the board's own, or a path, else `<name>.toml` beside the board's file.
 
     Raises
     ------
     ConfigError
         If there is none, listing the scenes that exist.
     """
-    for file in (Path(name_or_path), board.folder / name_or_path, board.folder / f"{name_or_path}.toml"):
+    name = name_or_path or board.scene
+    here: tuple[Path, ...] = (
+        (Path(name),) if name_or_path else ()
+    )  # what the board names is never meant of the folder one happens to be in
+    for file in (*here, board.beside(name), board.beside(f"{name}.toml")):
         if file.is_file() and file.name != "board.toml":
             return file
     known = sorted(file.stem for file in board.folder.glob("*.toml") if file.name != "board.toml")
-    raise ConfigError(f"scene {name_or_path!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
+    raise ConfigError(f"scene {name!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
 
 
 def read_scene(file: Path, board: Board) -> SceneRead:
@@ -126,14 +132,16 @@ def read_scene(file: Path, board: Board) -> SceneRead:
         if silent(train_of(known[name])):
             raise ConfigError(f"{file}: effects.{name}.envelope is silent at every emission of the train")
     plate = Rectangle(0.0, 0.0, board.plate.length_m, board.plate.width_m)
-    names = [region.name for region in scene.regions]
+    numbers: dict[str, int] = {}  # of the regions by their names
+    bounds = np.empty((len(scene.regions), 4))
     found: list[RegionRead] = []
     for index, region in enumerate(scene.regions):
         key = f"{file}: regions[{index}]"
-        if region.name in names[:index]:
-            raise ConfigError(f"{key}.name = {region.name!r} is taken by regions[{names.index(region.name)}] already")
+        if region.name in numbers:
+            raise ConfigError(f"{key}.name = {region.name!r} is taken by regions[{numbers[region.name]}] already")
+        numbers[region.name] = index
         shape = _shape(region, plate)
-        low_x, low_y, high_x, high_y = shape.bounds
+        bounds[index] = low_x, low_y, high_x, high_y = shape.bounds
         off = max(-low_x, -low_y, high_x - plate.x_high, high_y - plate.y_high)
         if off > ROUNDING_M:
             size = f"{board.plate.length_mm:g} × {board.plate.width_mm:g} mm"
@@ -141,7 +149,7 @@ def read_scene(file: Path, board: Board) -> SceneRead:
         effects = tuple(resolved(f"{key}.effects[{number}]", effect, known, board) for number, effect in enumerate(region.effects))
         _check_together(key, region, effects, board)
         if any("always" not in effect.occasions for effect in effects):
-            _check_not_hidden(key, region, shape, found)
+            _check_not_hidden(key, region, shape, found, bounds[:index])
         found.append(RegionRead(region, shape, effects))
     return SceneRead(tuple(found), playable)
 
@@ -192,9 +200,16 @@ def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], 
             )
 
 
-def _check_not_hidden(key: str, region: Region, shape: Shape, earlier: list[RegionRead]) -> None:
-    """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt."""
-    for index, other in enumerate(earlier):
+def _check_not_hidden(key: str, region: Region, shape: Shape, earlier: list[RegionRead], bounds: NDArray[np.float64]) -> None:
+    """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt.
+
+    Only regions whose bounds, (region, 4), contain the shape's are looked at: thousands of regions are compared at once.
+    """
+    low_x, low_y, high_x, high_y = shape.bounds
+    low = (bounds[:, 0] <= low_x + ROUNDING_M) & (bounds[:, 1] <= low_y + ROUNDING_M)
+    high = (bounds[:, 2] >= high_x - ROUNDING_M) & (bounds[:, 3] >= high_y - ROUNDING_M)
+    for index in (low & high).nonzero()[0].tolist():
+        other = earlier[index]
         if _covers(other.shape, shape):
             raise ConfigError(
                 f"{key} ({region.name!r}) is never felt: regions[{index}] ({other.table.name!r}) covers it and comes first;"

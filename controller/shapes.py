@@ -131,18 +131,30 @@ class Polygon:
         """Which boxes have a point in common with it: those an edge meets, and those wholly inside."""
         x, y = (boxes.x_low + boxes.x_high) / 2, (boxes.y_low + boxes.y_high) / 2
         half_x, half_y = (boxes.x_high - boxes.x_low) / 2, (boxes.y_high - boxes.y_low) / 2
-        met = np.array([self.contains(*point) for point in zip(x.tolist(), y.tolist(), strict=True)], bool)
+        met = self._contain(x, y)
         for (ax, ay), (bx, by) in self.edges():
             dx, dy = bx - ax, by - ay
             aside = np.abs((x - ax) * dy - (y - ay) * dx) > half_x * abs(dy) + half_y * abs(dx)
             met |= ~aside & Rectangle(min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)).meets(boxes)
         return met
 
+    def _contain(self, x: Array, y: Array) -> NDArray[np.bool_]:
+        """`contains` of many points."""
+        inside = np.zeros(len(x), bool)
+        for (ax, ay), (bx, by) in self.edges():
+            if ay != by:
+                inside ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
+        return inside
+
     def crossing(self) -> tuple[int, int] | None:
         """Two edges that touch where they should not, by the number of their first corner; None if all is well."""
         edges = self.edges()
+        ends = np.array(edges, float)
+        low, high = ends.min(axis=1), ends.max(axis=1)  # (edge, 2): only edges whose boxes meet can touch
+        slack = 1e-9 * (np.abs(ends).max() + 1.0)
         for i, first in enumerate(edges):
-            for j in range(i + 1, len(edges)):
+            near = ((low[i + 1 :] <= high[i] + slack) & (high[i + 1 :] >= low[i] - slack)).all(axis=1)
+            for j in (near.nonzero()[0] + i + 1).tolist():
                 neighbours = j == i + 1 or (i == 0 and j == len(edges) - 1)
                 if _folded_back(*first, *edges[j]) if neighbours else _touch(*first, *edges[j]):
                     return i, j

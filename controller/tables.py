@@ -23,6 +23,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"{recording['contacts']} contacts, at most {recording['max_fingers']} at once",
         f"{figures['emissions']} emissions from {figures['triggers']} triggers ({figures['uploads']} uploads, "
         f"{figures['resident']} resident), {figures['bytes_sent']:,} bytes sent, {figures['heartbeats']} heartbeats",
+        f"bank: {figures['bank']}",
         f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
         *_became(figures),
@@ -33,6 +34,8 @@ def run_table(figures: dict[str, Any]) -> str:
         lines += [_latency_line(f"{stage}, {kind}", summary) for kind, summary in kinds.items()]
     reference = figures["reference_us"]["copy_and_crc32_of_one_waveform"]
     lines.append(_latency_line("copy + crc32 alone", reference))
+    if figures["spoiled"]:
+        return "\n".join([*lines, "", f"what the fingers felt is left out: {figures['spoiled']}"])
     for title, key in (("focus at the finger", "focus"), ("untracked spots", "untracked_spots")):
         values = figures[key]
         if values["count"]:
@@ -63,6 +66,7 @@ def service_table(figures: dict[str, Any]) -> str:
     lines = [
         f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
         f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
+        f"bank: {figures['bank']}",
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
         *_became(figures),
@@ -74,6 +78,35 @@ def service_table(figures: dict[str, Any]) -> str:
         _latency_line(f"{stage}, {kind}", latency[kind][stage]) for kind in ("uploads", "resident") for stage in latency[kind]
     ]
     return "\n".join(lines + [f"warning: {warning}" for warning in figures["warnings"]])
+
+
+def check_table(figures: dict[str, Any]) -> str:
+    """Table of a bring-up: each register beside what it should be, then what was tried, then the verdict."""
+    expected, errors = figures["expected"], figures["bit_errors"]
+    lines = [f"{'register':<20}{'read':>12}{'expected':>13}"]
+    for name, value in figures["registers"].items():
+        wanted = expected.get(name)
+        verdict = "" if wanted is None else "  ok" if wanted == value else "  WRONG"
+        lines.append(f"{name:<20}{_register(value):>12}{'' if wanted is None else _register(wanted):>13}{verdict}")
+    back = (
+        f"{errors['wrong_bits']} wrong of {errors['bits']:,} that came back" if errors["bits"] else "none come back over this link"
+    )
+    frames = f"of {errors['frames']} frames {errors['frames_refused']} refused, {errors['answers_damaged']} answers damaged"
+    moved = "" if figures["channels_moved"] is None else ", their pins seen"
+    return "\n".join(
+        [
+            *map(str.rstrip, lines),
+            "",
+            f"bits: {back}; {frames}",
+            f"slots: {figures['slots'] - figures['slots_damaged']} of {figures['slots']} keep what they are given",
+            f"channels: {len(figures['channels'])} chirped{moved}",
+            "FAIL: " + "; ".join(figures["complaints"]) if figures["complaints"] else "PASS: all that was tried is as it should be",
+        ]
+    )
+
+
+def _register(value: int) -> str:
+    return f"{value}" if value < 1_000_000_000 else f"0x{value:08X}"
 
 
 def plain_table(figures: dict[str, Any]) -> str:

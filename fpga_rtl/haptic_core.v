@@ -35,7 +35,7 @@ module haptic_core #(
     output wire        hv_enable_o,
     output wire        hv_alive_o,
     output wire        focus_o,            // high for one drive word from t = T
-    output wire        ready_o,            // a play waits for the trigger
+    output wire        waiting_o,          // a play waits for the trigger
     output wire        fault_o
 );
     localparam BUFFER_BITS = $clog2(SLOTS + 1);
@@ -218,7 +218,7 @@ module haptic_core #(
     wire [1:0]             head_start;
     wire [31:0]            head_period, head_mask, play_data, drive;
     wire [63:0]            head_when;
-    wire                   ramp_bit, ramp_done, playing, delayed, repeating, start, ended, ready;
+    wire                   ramp_bit, ramp_done, playing, delayed, repeating, start, ended, waiting;
 
     assign landing_busy = (queue_uses_landing && !head_live) || player_uses_landing;
     assign landing_live = head_live || player_live;
@@ -282,7 +282,7 @@ module haptic_core #(
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),
-        .repeating_o(repeating), .settled_o(settled), .quiet_o(quiet), .ready_o(ready),
+        .repeating_o(repeating), .settled_o(settled), .quiet_o(quiet), .waiting_o(waiting),
         .triggers_o(triggers), .ignored_o(ignored), .missed_o(missed),
         .trigger_time_o(trigger_time), .emission_time_o(emission_time)
     );
@@ -310,7 +310,7 @@ module haptic_core #(
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
 
-    assign ready_o = ready;
+    assign waiting_o = waiting;
     assign fault_o = fault != 16'd0;
 
     // The answer
@@ -327,8 +327,8 @@ module haptic_core #(
     assign state[`STATE_TEMPERATURE_GOOD] = temperature_ok;
     assign state[`STATE_CHECKING]         = checking;
     assign state[`STATE_DELAYED]          = delayed;
-    assign state[`STATE_READY]            = ready;
-    assign state[15:`STATE_READY+1]       = 3'd0;
+    assign state[`STATE_WAITING]          = waiting;
+    assign state[15:`STATE_WAITING+1]     = 3'd0;
 
     status_encoder status_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(select), .take_i(answer_take), .byte_o(answer),

@@ -57,7 +57,7 @@ module waveform_player #(
     output wire                   repeating_o,
     output wire                   settled_o,       // nothing sounds, and the idle word is a bit period old
     output wire                   quiet_o,         // nor waits in a delay or repeats
-    output wire                   ready_o,         // the head waits for a trigger
+    output wire                   waiting_o,       // the head waits for a trigger
     output wire [31:0]            triggers_o,
     output wire [31:0]            ignored_o,
     output wire [31:0]            missed_o,
@@ -267,7 +267,7 @@ module waveform_player #(
     assign repeating_o     = repeating;
     assign settled_o       = !playing_q && !resting;
     assign quiet_o         = !running && !resting;
-    assign ready_o         = head_i && head_start_i == `START_TRIGGER && room;
+    assign waiting_o       = head_i && head_start_i == `START_TRIGGER && room;
     assign triggers_o      = triggers_q;
     assign ignored_o       = ignored_q;
     assign missed_o        = missed_count_q;

@@ -9,15 +9,19 @@ import sys
 from pathlib import Path
 
 import pytest
+from patience import communicate
 
 from controller.bank.inspection import bank_info
 from controller.bank.location import bank_path
 from controller.bank.reader import Bank
-from controller.board import find_board
+from controller.board import find_board, load_board
 from controller.cli import main
+from controller.fpga import bring_up
+from controller.latency import Counters
+from controller.offline import simulated_run
 from controller.offline.bank_builder import build_bank
 from controller.offline.rtl_build import verilator_root
-from controller.offline.simulated_run import judge, report
+from controller.offline.simulated_run import judge, report, spoiled
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -162,7 +166,7 @@ def test_the_demo_has_several_fingers_and_lasts_about_ten_seconds(board):
 
 
 def test_a_recording_without_any_touch_plays_nothing_and_is_fine(capsys, small_board, tmp_path):
-    for content in (b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"E: 0.0 0000 0000 0\nE: 1.0 0000 0000 0\n"):
+    for content in (b"N: a panel\nA: 00 0 210\n", b"E: 0.0 0000 0000 0\nE: 1.0 0000 0000 0\n"):
         (tmp_path / "still.evemu").write_bytes(content)
         replay = ("run", "--board", small_board, "--replay", tmp_path / "still.evemu", "--speed", "max")
         figures = json.loads(printed(capsys, *replay, "--json").out)
@@ -171,6 +175,13 @@ def test_a_recording_without_any_touch_plays_nothing_and_is_fine(capsys, small_b
         out, err = printed(capsys, *replay, "--plot", tmp_path / "none.png")
         assert "0 emissions" in out
         assert "nothing to draw" in err
+
+
+def test_what_is_no_recording_is_told_and_not_replayed(capsys, small_board, tmp_path):
+    (tmp_path / "junk").write_bytes(b"\x00\xff\xfe garbage\n" * 5)
+    replay = ("--replay", tmp_path / "junk")
+    assert "junk: is no touch recording" in told_off(capsys, "run", "--board", small_board, "--speed", "max", *replay)
+    assert "junk: is no touch recording" in told_off(capsys, "calibrate-touch", "--board", small_board, *replay)
 
 
 def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
@@ -251,7 +262,7 @@ def test_a_bank_that_is_given_and_does_not_fit_is_refused_not_rebuilt(capsys, sm
 def test_the_boards_own_bank_is_simply_built_again(capsys, small_board, board, how):
     run = ("run", "--board", small_board, "--speed", "max", "--json")
     first = json.loads(printed(capsys, *run).out)
-    path = bank_path("small", "scene")
+    path = bank_path(load_board(small_board))
     good = path.read_bytes()
     match how:
         case "truncated":
@@ -316,10 +327,162 @@ def test_info_and_verify_without_a_file_take_the_bank_built_last(capsys, small_b
         assert json.loads(printed(capsys, "bank", "verify", "--board", small_board, "--json").out)["cells"] == cells
 
 
+def test_one_bank_of_a_board_serves_all_scenes_that_it_covers(capsys, small_board):
+    """What `bank build` writes is what `run` reads, and another scene builds nothing twice."""
+    path = bank_path(load_board(small_board))
+    assert f"bank: {path}" in printed(capsys, "bank", "build", "--board", small_board).out
+    (small_board / "other.toml").write_text(CLICK)
+    before = path.stat().st_ino
+    for scene in ((), ("--scene", "other")):
+        out, err = printed(capsys, "run", "--board", small_board, "--speed", "max", *scene)
+        assert "building" not in err
+        assert f"bank: {path}" in out
+    assert path.stat().st_ino == before
+
+
+def test_a_bank_that_lacks_cells_of_a_scene_gets_them_and_keeps_its_own(capsys, small_board):
+    run = ("run", "--board", small_board, "--speed", "max", "--json")
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    assert json.loads(printed(capsys, *run).out)["bank"] == str(path)
+    few = bank_info(path)["cells"]
+    (small_board / "other.toml").write_text(CLICK)
+    _, err = printed(capsys, *run, "--scene", "other")
+    assert f"building the bank {path}: it lacks {20 * 13 - few} cells" in err
+    _, err = printed(capsys, *run)
+    assert err == "", "the first scene still has its cells"
+
+
+def test_a_changed_pitch_of_the_board_is_told_by_the_service_and_not_passed_over(capsys, small_board):
+    """A panel in the field does not replace its bank by itself; played from the old one, the change would do nothing."""
+    file = small_board / "board.toml"
+    text = file.read_text().replace('kind = "recording"', 'kind = "linux_input"\ndevice = "nowhere"').replace("recording =", "# ")
+    file.write_text(text)
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    printed(capsys, "bank", "build", "--board", small_board)
+    file.write_text(text.replace("pitch_mm = 10.0", "pitch_mm = 12.0"))
+    said = told_off(capsys, "run", "--board", small_board)
+    assert f"{path}: its cells are 10 mm apart, bank.pitch_mm of the board is 12; rebuild it: haptic-panel bank build" in said
+    out, _ = printed(capsys, "doctor", "--board", small_board, code=1)
+    assert re.search(r"NOT OK  bank +.*its cells are 10 mm apart", out)
+
+
+def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys, small_board):
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    _, err = printed(capsys, "bank", "build", "--board", small_board, "--pitch-mm", "20")
+    assert f"run plays from {path} unless told --bank {path.with_name('small-20mm.bank')}" in err
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("content", [b"my notes\n", b"PK", b"\0" * 5000])
+def test_a_file_that_is_no_bank_is_never_written_over_and_nothing_advises_it(capsys, small_board, tmp_path, content):
+    notes = tmp_path / "notes.txt"
+    notes.write_bytes(content)
+    for action in ("info", "verify"):
+        said = told_off(capsys, "bank", action, notes)
+        assert "is not a bank" in said
+        assert "bank build" not in said
+    assert "no bank: it is left as it is" in told_off(capsys, "bank", "build", "--board", small_board, "--out", notes)
+    assert notes.read_bytes() == content
+    notes.write_bytes(b"HPNLBANK and then nonsense")
+    assert f"--out {notes}" in told_off(capsys, "bank", "info", notes), "what begins as a bank may be built again"
+    printed(capsys, "bank", "build", "--board", small_board, "--scene", "scene", "--out", notes)
+
+
+def without(packages, *arguments):
+    """A command in a process that cannot import some packages: exit code, stdout, stderr."""
+    code = (
+        f"import sys\nfor name in {packages}: sys.modules[name] = None\n"
+        "from controller.cli import main\nsys.exit(main(sys.argv[1:]))"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout, done.stderr
+
+
+DRIVERS = ["spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"]
+OFFLINE = ["scipy", "matplotlib", "tqdm", "threadpoolctl"]
+
+
+def test_any_computer_builds_banks_and_only_devices_need_their_drivers(small_board, tmp_path):
+    bank = tmp_path / "small.bank"
+    assert without(DRIVERS, "bank", "build", "--board", small_board, "--scene", "scene", "--out", bank)[0] == 0
+    assert without(DRIVERS, "bank", "info", bank)[0] == 0
+    assert without(DRIVERS, "focus", "--board", small_board, "--at", "100", "70")[0] == 0
+    code, _, said = without(DRIVERS, "record", "--device", "/dev/input/event0", "--out", tmp_path / "no.evemu")
+    assert (code, said.count("\n")) == (78, 1)
+    assert "evdev is missing, the driver" in said
+    code, out, _ = without(DRIVERS, "doctor", "--board", "ulx3s")
+    assert code == 1
+    assert "NOT OK  GPIO lines              gpiod is missing" in out
+
+
+def test_device_commands_need_no_offline_tools_and_no_line_fetches_what_is_not_ours(small_board, tmp_path):
+    bank = tmp_path / "small.bank"
+    main(["bank", "build", "--board", str(small_board), "--scene", "scene", "--out", str(bank), "--json"])
+    assert without(OFFLINE, "gateware", "check", "--board", small_board, "--bits", "1e4", "--channel", "3")[0] == 0
+    assert without(OFFLINE, "bank", "verify", bank)[0] == 0
+    assert without(OFFLINE, "doctor", "--board", small_board, "--link", "--bits", "1e4", "--no-chirps")[0] in (0, 1)
+    code, _, said = without(OFFLINE, "bank", "build", "--board", small_board, "--out", tmp_path / "other.bank")
+    assert (code, said.count("\n")) == (78, 1)
+    assert "or build it on another computer and copy it there" in said
+    assert "install haptic-panel" not in said
+    assert "'haptic-panel" not in said
+    assert re.search(r"pip install (-e )?'?(/|\./haptic_panel-\d)\S*\[offline\]", said), "from where it came, not by its name"
+
+
 def test_a_recording_without_touch_is_silent_even_on_a_scene_with_a_spot(capsys, tmp_path):
     (tmp_path / "still.evemu").write_text("E: 0.0 0000 0000 0\nE: 3.0 0000 0000 0\n")
     figures = json.loads(printed(capsys, "run", "--replay", tmp_path / "still.evemu", "--speed", "max", "--json").out)
     assert figures["emissions"] == 0
+
+
+def test_a_check_of_the_gateware_ends_with_a_verdict(capsys, small_board, monkeypatch):
+    check = ("gateware", "check", "--board", small_board, "--bits", "1e4", "--channel", "3")
+    table = printed(capsys, *check).out.splitlines()
+    assert table[-1].startswith("PASS: ")
+    assert re.search(r"^clock_hz +80000000 +80000000  ok$", "\n".join(table), re.MULTILINE)
+    monkeypatch.setattr(bring_up, "memory_errors", lambda *_: 1)
+    out, err = printed(capsys, *check, code=1)
+    assert out.splitlines()[-1] == "FAIL: 1 of 4 slots do not keep what they are given: check the FPGA's supply"
+    assert "1 of 4 slots" in err
+    identified = bring_up.identify
+    monkeypatch.setattr(bring_up, "memory_errors", lambda *_: 0)
+    monkeypatch.setattr(bring_up, "identify", lambda session: identified(session) | {"fault": 8})
+    out, _ = printed(capsys, *check, code=1)
+    assert re.search(r"^fault +8 +0  WRONG$", out, re.MULTILINE)
+    assert out.splitlines()[-1] == "FAIL: fault is 8, not 0"
+    figures = json.loads(printed(capsys, *check, "--json", code=1).out)
+    assert (figures["good"], figures["expected"]["fault"]) == (False, 0)
+
+
+def test_a_check_of_a_bank_ends_with_a_verdict(capsys, bank_file, tmp_path):
+    assert printed(capsys, "bank", "verify", bank_file).out.splitlines()[-1] == "PASS: every bit is as it was written"
+    (tmp_path / "bad.bank").write_bytes(bank_file.read_bytes()[:-1])
+    assert "FAIL: " in told_off(capsys, "bank", "verify", tmp_path / "bad.bank")
+
+
+def test_a_demo_that_a_busy_machine_spoiled_says_so_instead_of_figures():
+    counters = Counters()
+    counters.upload_latency.host.record(9_900_000)
+    assert spoiled(counters, real_time=True) == ""
+    counters.upload_latency.host.record(40_400_000)
+    said = spoiled(counters, real_time=True)
+    assert "the host was late by 40 ms" in said
+    assert spoiled(counters, real_time=False) == "", "in virtual time a busy machine changes nothing"
+    counters = Counters(host_silent=2)
+    assert "the host fell silent 2 times" in spoiled(counters, real_time=True)
+
+
+def test_the_table_of_a_spoiled_run_has_no_figures_of_foci(capsys, small_board, monkeypatch):
+    run = ("run", "--board", small_board, "--speed", "max")
+    assert "relative amplitude" in printed(capsys, *run).out
+    monkeypatch.setattr(simulated_run, "spoiled", lambda *_: "the host was late by 40 ms")
+    out, _ = printed(capsys, *run)
+    assert "relative amplitude" not in out
+    assert out.splitlines()[-1].endswith("left out: the host was late by 40 ms")
 
 
 def test_a_folder_that_cannot_be_written_is_named(capsys, small_board):
@@ -362,7 +525,7 @@ def test_a_signal_ends_a_run_with_outputs_off_and_the_table(small_board, own_cac
     assert process.stderr is not None
     assert "playing" in process.stderr.readline(), "the loop runs from here on"
     process.send_signal(number)
-    out, err = process.communicate(timeout=30)
+    out, err = communicate(process)
     assert process.returncode == 0, err
     assert "emissions" in out
     assert "outputs off" in out

@@ -8,14 +8,24 @@ import json
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import tempfile
+import time
 import tty
+from pathlib import Path
 
 import pytest
+from patience import communicate
 
+from controller.board import load_board
 from controller.client import PanelClient
 from controller.errors import ControllerError
+from controller.fpga.gateware import Parameters
+from controller.fpga.model import GatewareModel
+from controller.fpga.serial_peer import PseudoTerminal, UartPanel
+from controller.hardware import gateware_hash
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
@@ -51,11 +61,14 @@ class Panel:
 class Service:
     """`haptic-panel run` on a board of its own."""
 
-    def __init__(self, folder, bank, *more):
+    def __init__(self, folder, bank, *more, environment=None):
         command = [sys.executable, "-m", "controller.cli", "run", "--board", str(folder), "--bank", str(bank), "--json", *more]
         program = "import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))"
         command[1:3] = ["-c", program]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | (environment or {})
+        )
+        self.log_end = self.process.stderr.fileno()
         self.log = []
         self.socket = folder / "panel.sock"
 
@@ -73,7 +86,7 @@ class Service:
     def end(self, number=signal.SIGTERM):
         """Figures and exit code."""
         self.process.send_signal(number)
-        out, err = self.process.communicate(timeout=60)
+        out, err = communicate(self.process)
         self.log.append(err)
         return json.loads(out) if out else None, self.process.returncode
 
@@ -104,6 +117,73 @@ lock_memory = false
     (tmp_path / "scene.toml").write_text(CLICK)
     (tmp_path / "texture.toml").write_text(TEXTURE)
     return tmp_path
+
+
+class Manager:
+    """systemd, as far as it listens."""
+
+    def __init__(self, path):
+        self.environment = {"NOTIFY_SOCKET": str(path)}
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self._socket.bind(str(path))
+        self._socket.settimeout(60)
+
+    def hears(self, name, value):
+        """The next message that gives a variable a value that begins so, as all its variables."""
+        while True:
+            said = dict(line.partition("=")[::2] for line in self._socket.recv(4096).decode().splitlines())
+            if said.get(name, "\0").startswith(value):
+                return said
+
+    def heard(self):
+        """The variables of everything that waits to be read."""
+        self._socket.settimeout(0)
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                yield from self._socket.recv(4096).decode().splitlines()
+
+    def close(self):
+        self._socket.close()
+
+
+@pytest.fixture
+def manager():
+    with tempfile.TemporaryDirectory(prefix="hp") as short:  # a socket's path has at most 107 bytes
+        manager = Manager(Path(short) / "notify")
+        yield manager
+        manager.close()
+
+
+def at_a_serial_port(folder):
+    """The board's FPGA is at a serial port that is not there yet."""
+    file = folder / "board.toml"
+    text = file.read_text()
+    before = text
+    text = text.replace('kind = "simulated"', f'kind = "serial"\ndevice = "{folder / "fpga"}"\nbaud = 12_000_000')
+    assert text != before
+    file.write_text(text)
+    return load_board(file)
+
+
+@contextlib.contextmanager
+def an_fpga(board, path, build=None):
+    """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
+    link = board.link
+    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, gateware_hash() if build is None else build))
+    panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
+    levels = []
+
+    def answer(data):
+        while levels:
+            model.permit(model.now + 1, levels.pop(0))
+        return panel.receive(data)
+
+    with PseudoTerminal(answer) as terminal:
+        path.symlink_to(terminal.device)
+        try:
+            yield levels.append
+        finally:
+            path.unlink()
 
 
 @pytest.fixture
@@ -266,10 +346,10 @@ def test_a_bank_truncated_under_the_service_ends_it_and_is_refused_by_the_next(s
     os.truncate(bank, 4096)
     with contextlib.suppress(ControllerError), service.client() as client:
         client.play("click", at_mm=(50, 50))
-    service.process.communicate(timeout=60)
+    communicate(service.process)
     assert service.process.returncode == -signal.SIGBUS
     again = Service(folder, bank)
-    _, err = again.process.communicate(timeout=60)
+    _, err = communicate(again.process)
     assert again.process.returncode == 78
     assert err.count("\n") == 1
     assert "truncated" in err or "size" in err or "short" in err, err
@@ -289,12 +369,82 @@ def test_a_process_stopped_for_a_while_finds_its_outputs_off_and_comes_back(serv
     assert (figures["host_silent"], code) == (1, 0)
 
 
-def test_a_board_without_its_devices_says_which_and_what_to_do(folder, bank):
-    again = Service(folder, bank)
-    out, err = again.process.communicate(timeout=60)
-    assert again.process.returncode == 69
-    assert (out, err.count("\n")) == ("", 1)
-    assert "tty" in err
+def test_a_panel_that_is_absent_at_the_start_is_waited_for_while_commands_play(folder, bank, manager):
+    service = Service(folder, bank, environment=manager.environment)
+    assert "there is no serial port" in service.says("waiting for panel")
+    assert manager.hears("READY", "1")["STATUS"].startswith("waiting for panel: there is no serial port")
+    with service.client() as client:
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+        assert client.figures()["state"] == "waiting for panel"
+        panel = Panel(folder / "tty")
+        service.says("the touch panel is back")
+        felt(client, panel, 2048, 2048)
+        assert manager.hears("STATUS", "playing")
+    figures, code = service.end()
+    panel.unplug()
+    assert (code, figures["emissions"], figures["state"]) == (0, 2, "playing")
+
+
+def test_an_fpga_that_is_absent_at_the_start_is_waited_for_lost_and_taken_again(folder, panel, bank, manager):
+    board = at_a_serial_port(folder)
+    service = Service(folder, bank, environment=manager.environment)
+    assert "there is no serial port" in service.says("outputs off: waiting for FPGA")
+    assert manager.hears("READY", "1")["STATUS"].startswith("waiting for FPGA")
+    with service.client() as client:
+        assert client.figures()["state"] == "waiting for FPGA"
+        assert client.play("click", at_mm=(50, 50)).outcome == "refused"
+    for _ in range(2):  # the second time the port has gone under the running service
+        with an_fpga(board, folder / "fpga"):
+            service.says("the outputs are on")
+            with service.client() as client:
+                assert client.play("click", at_mm=(50, 50)).outcome == "played"
+        service.says("outputs off: waiting for FPGA")
+    figures, code = service.end()
+    assert (code, figures["state"]) == (0, "waiting for FPGA")
+    assert figures["emissions"] == 2
+
+
+def test_without_a_permit_it_says_so_and_serves(folder, panel, bank, manager):
+    board = at_a_serial_port(folder)
+    with an_fpga(board, folder / "fpga") as permit:
+        permit(False)
+        service = Service(folder, bank, environment=manager.environment)
+        assert "run permit is not given" in service.says("outputs off: no permit")
+        assert manager.hears("READY", "1")["STATUS"].startswith("no permit")
+        permit(True)
+        service.says("the outputs are on")
+        figures, code = service.end()
+    assert (code, figures["outages"]) == (0, 0)
+
+
+def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
+    board = at_a_serial_port(folder)
+    with an_fpga(board, folder / "fpga", build=7):
+        service = Service(folder, bank, environment=manager.environment)
+        _, err = communicate(service.process)
+    assert service.process.returncode == 69
+    assert "BUILD_HASH is 0x00000007" in err
+    assert err.splitlines()[-1].startswith("haptic-panel: ")
+    assert "Traceback" not in err
+    assert "READY=1" not in manager.heard()
+
+
+def test_a_log_that_nobody_reads_does_not_hold_up_the_loop(folder, panel, bank):
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    log = os.open(f"/proc/self/fd/{service.log_end}", os.O_WRONLY | os.O_NONBLOCK)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(log, b"x" * 4096)
+    os.close(log)
+    panel.unplug()
+    with service.client() as client:
+        while client.figures()["state"] != "waiting for panel":
+            assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    panel.plug()
+    figures, code = service.end()
+    assert (code, figures["log_lines_lost"]) == (0, 1)
+    assert (figures["host_silent"], figures["outages"]) == (0, 0)
 
 
 def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, panel, bank):
@@ -306,7 +456,7 @@ def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, pane
             if "the outputs are on" in line:
                 break
         process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=60)
+        _, err = communicate(process)
     assert process.returncode == 1
     assert "No space left" in err
     assert "Traceback" not in err

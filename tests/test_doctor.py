@@ -7,6 +7,7 @@ import msgspec
 import pytest
 
 from controller import doctor
+from controller.board import find_board
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.device_settings import (
@@ -18,6 +19,7 @@ from controller.device_settings import (
     Temperature,
 )
 from controller.doctor import examine_link, look
+from controller.fpga import spi_link
 from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
@@ -50,6 +52,7 @@ def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
     temperature = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
     findings = look(with_tables(board, link=SPI, touch=touch, temperature=temperature), VirtualClock().now_s)
     assert [finding.about for finding in findings] == [
+        "user",
         "SPI device",
         "spidev buffer",
         "GPIO lines",
@@ -57,6 +60,7 @@ def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
         "scene",
         "bank",
         "temperature",
+        "responses",
         "priority",
         "locked memory",
     ]
@@ -89,7 +93,7 @@ def test_a_serial_port_that_is_not_there_is_one_line(board):
     ("bufsiz", "good", "text"), [(8192, True, "one message"), (4096, True, "two messages"), (4095, False, "8192")]
 )
 def test_the_buffer_of_spidev_is_judged(board, monkeypatch, bufsiz, good, text):
-    monkeypatch.setattr(doctor, "read_bufsiz", lambda: bufsiz)
+    monkeypatch.setattr(spi_link, "read_bufsiz", lambda: bufsiz)
     found = said(look(with_tables(board, link=SPI), VirtualClock().now_s), "spidev buffer")
     assert found[0] is good
     assert text in found[1]
@@ -114,7 +118,9 @@ def test_a_damaged_scene_and_a_missing_bank_are_named(board, tmp_path):
     (tmp_path / "scene.toml").write_text("nonsense = 1\n")
     findings = look(with_tables(board, scene=str(tmp_path / "scene.toml")), VirtualClock().now_s)
     assert "nonsense" in said(findings, "scene")[1]
-    findings = look(with_tables(board, name="never-built"), VirtualClock().now_s)
+    findings = look(
+        with_tables(board, folder=tmp_path / "never-built", scene=str(find_board("simulated") / "scene.toml")), VirtualClock().now_s
+    )
     assert "haptic-panel bank build --board" in said(findings, "bank")[1]
 
 

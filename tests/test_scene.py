@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from controller import scene_file, shapes
 from controller.bank.grid import Grid
 from controller.bank.selection import LATTICE_M
 from controller.board import data_folder, load_board
@@ -839,3 +840,55 @@ def test_the_demo_shows_every_kind_of_region():
     assert [spot.region for spot in scene.spots] == ["beacon"]
     grid = Grid.of(BOARD.plate, 5e-3)
     assert reach(scene, grid.points(), grid.pitch_m).all()
+
+
+def test_thousands_of_regions_are_not_compared_each_with_each(tmp_path, monkeypatch):
+    compared = []
+    real = scene_file._covers
+    monkeypatch.setattr(scene_file, "_covers", lambda *shapes: compared.append(shapes) or real(*shapes))
+    file = tmp_path / "many.toml"
+    keys = [
+        f'[[regions]]\nname = "{x} {y}"\nshape = "rectangle"\nx_mm = {4 * x}\ny_mm = {4 * y}\nwidth_mm = 3\nheight_mm = 3\n'
+        'effects = ["click"]\n'
+        for x in range(50)
+        for y in range(36)
+    ]
+    file.write_text("".join(keys))
+    assert len(load_scene(file, BOARD).areas) == 1800
+    assert not compared
+    file.write_text("".join(keys) + keys[7].replace("0 7", "again"))
+    with pytest.raises(ConfigError, match=r"regions\[1800\] \('again'\) is never felt: regions\[7\] \('0 7'\) covers it"):
+        load_scene(file, BOARD)
+    assert len(compared) == 1
+
+
+def test_edges_of_a_polygon_that_are_far_apart_are_not_compared(monkeypatch):
+    compared = []
+    real = shapes._touch
+    monkeypatch.setattr(shapes, "_touch", lambda *ends: compared.append(ends) or real(*ends))
+    corners = [(math.cos(2 * math.pi * turn / 1000), math.sin(2 * math.pi * turn / 1000)) for turn in range(1000)]
+    assert Polygon(tuple(corners)).crossing() is None
+    assert len(compared) < 4000, "of half a million pairs"
+
+
+CORNERS = st.lists(st.tuples(st.integers(0, 6), st.integers(0, 6)), min_size=3, max_size=7)
+
+
+@given(CORNERS, st.sampled_from([1.0, 0.1, 1 / 3]))
+def test_a_crossing_is_found_as_by_comparing_each_edge_with_each(corners, scale):
+    polygon = Polygon(tuple((x * scale, y * scale) for x, y in corners))
+    edges, last = polygon.edges(), len(corners) - 1
+    pairs = [(i, j) for i in range(len(edges)) for j in range(i + 1, len(edges))]
+    touching = (
+        (i, j)
+        for i, j in pairs
+        if (shapes._folded_back if j == i + 1 or (i, j) == (0, last) else shapes._touch)(*edges[i], *edges[j])
+    )
+    assert polygon.crossing() == next(touching, None)
+
+
+@given(CORNERS, st.lists(st.tuples(st.integers(-1, 14), st.integers(-1, 14)), min_size=1))
+def test_many_points_are_found_in_a_polygon_as_one_by_one(corners, points):
+    polygon = Polygon(tuple((x / 3, y / 3) for x, y in corners))
+    x, y = np.array(points, float).T / 6
+    assert polygon._contain(x, y).tolist() == [polygon.contains(*point) for point in zip(x.tolist(), y.tolist(), strict=True)]

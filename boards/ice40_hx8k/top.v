@@ -20,7 +20,7 @@ module top #(
     output wire        hv_enable,
     output wire        hv_alive,
     output wire        focus,
-    output wire        ready,
+    output wire        configured,                  // has its clock and is out of reset
     output wire        fault
 );
     localparam [31:0] CLOCK_HZ = 32'd30_000_000;    // board.toml says the same
@@ -40,18 +40,20 @@ module top #(
         else         released_q <= {released_q[14:0], 1'b1};
     end
 
+    wire waiting;
     haptic_core #(
         .CLOCK_HZ(CLOCK_HZ), .SLOTS(2), .BUILD_HASH(BUILD_HASH), .BOARD("HX8K"), .BAUD(1_000_000)
     ) core (
-        .clk_i(clk), .rst_i(!released_q[15]),
+        .clk_i(clk), .rst_i(!configured),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),
         .uart_rx_i(rs232_rx), .uart_tx_o(rs232_tx),
         .trigger_i(trigger), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
         .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
-        .ready_o(ready), .fault_o(fault)
+        .waiting_o(waiting), .fault_o(fault)
     );
 
-    assign led = {fault, hv_enable, hv_alive, focus, ready, temperature_ok, run_permit, released_q[15]};
+    assign configured = released_q[15];             // falls with the lock, without a clock
+    assign led = {fault, hv_enable, hv_alive, focus, waiting, temperature_ok, run_permit, configured};
 endmodule
 
 `default_nettype wire

@@ -38,17 +38,18 @@ module top #(
     end
 
     wire [31:0] channel;
-    wire        hv_enable, hv_alive, focus, ready, fault;
+    wire        configured = released_q[15];        // falls with the lock, without a clock
+    wire        hv_enable, hv_alive, focus, waiting, fault;
 
     haptic_core #(
         .CLOCK_HZ(CLOCK_HZ), .SLOTS(16), .BUILD_HASH(BUILD_HASH), .BOARD("ULX3"), .BAUD(1_000_000)
     ) core (
-        .clk_i(clk), .rst_i(!released_q[15]),
+        .clk_i(clk), .rst_i(!configured),
         .spi_sck_i(gp[8]), .spi_cs_n_i(gn[8]), .spi_mosi_i(gp[9]), .spi_miso_o(gn[9]),
         .uart_rx_i(ftdi_txd), .uart_tx_o(ftdi_rxd),
         .trigger_i(gp[10]), .run_permit_i(gp[26]), .temperature_ok_i(gn[26]),
         .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
-        .ready_o(ready), .fault_o(fault)
+        .waiting_o(waiting), .fault_o(fault)
     );
 
     // J1: channels 0 to 15 on GP0, GN0 ... GP7, GN7; link on the six pins after them. GP/GN 11 to 13 belong to the ESP32.
@@ -63,14 +64,15 @@ module top #(
         end
     endgenerate
 
-    assign gn[10] = ready;
+    assign gn[10] = configured;
     assign gp[27] = hv_enable;
     assign gn[27] = hv_alive;
     assign gp[17] = focus;
     assign gn[17] = fault;
+    assign gp[16] = waiting;
 
     assign wifi_gpio0 = 1'b1;                       // low would take the board back to its loader
-    assign led = {fault, hv_enable, hv_alive, focus, ready, gn[26], gp[26], released_q[15]};
+    assign led = {fault, hv_enable, hv_alive, focus, waiting, gn[26], gp[26], configured};
 endmodule
 
 `default_nettype wire

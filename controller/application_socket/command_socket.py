@@ -27,6 +27,7 @@ from controller.board import Board
 from controller.command_source import Outcome, PanelControl
 from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
+from controller.panel_state import Condition
 from controller.touch.samples import TouchSample
 
 NOW = -math.inf
@@ -79,6 +80,7 @@ class CommandSocket:
 
     def __init__(self, board: Board, settings: ApplicationSocket) -> None:
         self.counters = SocketCounters()
+        self.condition = Condition()
         self._board = board
         self._max_amplitude = settings.max_amplitude
         self._file = SocketFile(settings)
@@ -160,6 +162,10 @@ class CommandSocket:
         """Answer a command to load a scene; an empty reason: it was taken over."""
         outcome: messages.Outcome = "refused" if reason else "done"
         self._answer_ticket(ticket, outcome, reason=reason)
+
+    def changed(self, condition: Condition) -> None:
+        """Take note of how the panel is."""
+        self.condition = condition
 
     def close(self) -> None:
         """Let all clients go."""
@@ -276,7 +282,11 @@ class CommandSocket:
             case messages.AskFigures(id=number):
                 if now_s >= self._figures_until_s:
                     self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
-                figures = self._figures | {"application_socket": asdict(self.counters)}
+                figures = self._figures | {
+                    "state": self.condition.state.value,
+                    "cause": self.condition.cause,
+                    "application_socket": asdict(self.counters),
+                }
                 self._tell(client, messages.Figures(id=number, figures=figures))
             case messages.Hello(id=number):
                 self._tell(

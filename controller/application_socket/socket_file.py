@@ -24,7 +24,8 @@ class SocketFile:
 
     The socket is bound under a name of its own that only its owner may connect to, gets owner, group and
     mode, listens, and is only then renamed to where clients look. Two services that start at once are kept
-    apart by a lock on the folder. A file of a service that has died (nobody listens) is replaced.
+    apart by a lock on a file that only their user can open: a folder can be locked by whoever can read it.
+    A file of a service that has died (nobody listens) is replaced.
 
     Raises
     ------
@@ -40,7 +41,7 @@ class SocketFile:
         own = self._path.with_name(f".{self._path.name}.{os.getpid()}")
         self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK | socket.SOCK_CLOEXEC)
         try:
-            with _only_one_in(self._path.parent):
+            with _only_one(self._path.with_name(f".{self._path.name}.lock")):
                 _require_free(self._path)
                 own.unlink(missing_ok=True)
                 with _hidden():
@@ -89,17 +90,42 @@ def _number_of_group(name: str) -> int:
 
 
 @contextlib.contextmanager
-def _only_one_in(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder; nothing is left behind, whatever happens."""
-    number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+def _only_one(lock: Path) -> Iterator[None]:
+    """Hold a lock that no other user can take; nothing is left behind, whatever happens."""
+    number = _locked(lock)
     try:
-        try:
-            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise ControllerError(f"{folder}: another service makes its socket there at this moment; start again") from None
         yield
     finally:
+        lock.unlink(missing_ok=True)
         os.close(number)
+
+
+def _locked(lock: Path) -> int:
+    """The lock's file, open and locked, of this user and for this user alone."""
+    while True:
+        number = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+        try:
+            opened = os.fstat(number)
+            if not stat.S_ISREG(opened.st_mode) or opened.st_uid != os.geteuid() or stat.S_IMODE(opened.st_mode) & 0o077:
+                raise ConfigError(f"{lock} is not a file that only this user can open; remove it, or choose another folder")
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if _same(lock, opened):
+                return number
+        except BlockingIOError:
+            os.close(number)
+            raise ControllerError(f"{lock.parent}: another service makes its socket there at this moment; start again") from None
+        except BaseException:
+            os.close(number)
+            raise
+        os.close(number)  # who held it has removed it meanwhile: there may be another one by now
+
+
+def _same(path: Path, opened: os.stat_result) -> bool:
+    try:
+        there = path.lstat()
+    except FileNotFoundError:
+        return False
+    return (there.st_dev, there.st_ino) == (opened.st_dev, opened.st_ino)
 
 
 @contextlib.contextmanager

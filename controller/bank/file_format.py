@@ -25,6 +25,7 @@ PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
 MAX_HEADER = 1 << 20
+MODELLED = "modelled"  # build parameter `responses`: what they come from
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
 # nx, ny, samples, channels, entries, parameters bytes, sections, zero
@@ -132,6 +133,11 @@ def creator() -> str:
     for name in MODEL_CODE:
         model = zlib.crc32((package / name).read_bytes(), model)
     return f"haptic-panel {importlib.metadata.version('haptic-panel')}, model {model:08x}"
+
+
+def begins_as_bank(start: bytes) -> bool:
+    """Whether a file that begins like this may be replaced by a bank: it is one, sound or not, or what is left of one."""
+    return MAGIC.startswith(start[: len(MAGIC)])
 
 
 def up(value: int, step: int) -> int:

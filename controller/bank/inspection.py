@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from controller.bank.file_format import Section, creator
 from controller.bank.grid import Grid
+from controller.bank.location import is_there
 from controller.bank.reader import Bank
 from controller.board import Board
 from controller.errors import BankError
@@ -99,8 +101,16 @@ def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
     return BankError(f"{bank.path}: damaged in bytes {start} to {start + size - 1}: {what}; rebuild it: {bank.rebuild}")
 
 
-def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_] | None) -> bool:
-    """Whether a bank is whole, built by this version for this board, grid and cells; else it is to be built anew.
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """Whether a bank serves, and if not why not, and of which cells the one that does is to be built."""
+
+    reason: str  # empty: it serves
+    cells: NDArray[np.bool_]
+
+
+def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
+    """Whether a bank is whole, built by this version for this board and its pitch, and has the cells that are needed.
 
     Parameters
     ----------
@@ -108,20 +118,27 @@ def is_current(path: Path, board: Board, pitch_m: float, cells: NDArray[np.bool_
         The bank; it need not exist.
     board : Board
         What it must have been built for.
-    pitch_m : float
-        Pitch it must have.
-    cells : (cells,) bool array or None
-        Cells it must hold; all for None. More do no harm.
+    cells : (cells of the board's grid,) bool array
+        Cells it must hold. More do no harm, and are kept where only cells are missing.
     """
-    grid = Grid.of(board.plate, pitch_m)
+    if not is_there(path):
+        return Fit("there is none yet", cells)
     try:
         with Bank.open(path, board) as bank:
-            needed = np.ones(grid.cells, bool) if cells is None else cells
-            if bank.grid != grid or (needed & ~bank.cells).any() or bank.header.creator != creator():
-                return False
-            if bank.header.parameters.get("channel_edges") is None:
-                return False
+            if wrong := wrong_pitch(bank, board):
+                return Fit(wrong, cells)
+            if bank.header.creator != creator() or bank.header.parameters.get("channel_edges") is None:
+                return Fit("it was built by another version", cells)
+            there = bank.cells
         verify_bank(path)
-    except BankError:
-        return False
-    return True
+    except BankError as error:
+        return Fit(str(error).removeprefix(f"{path}: ").partition("; rebuild it")[0], cells)
+    missing = int((cells & ~there).sum())
+    return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
+
+
+def wrong_pitch(bank: Bank, board: Board) -> str:
+    """What is wrong with the grid of a bank that is a board's own; empty: nothing."""
+    if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):
+        return ""
+    return f"its cells are {bank.grid.pitch_m * 1e3:g} mm apart, bank.pitch_mm of the board is {board.bank.pitch_mm:g}"

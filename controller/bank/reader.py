@@ -13,7 +13,8 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import Header, Section, header_length, parse
+from controller.bank.file_format import Header, Section, begins_as_bank, header_length, parse
+from controller.bank.location import build_line
 from controller.bank.packing import CHANNELS
 from controller.board import Board
 from controller.errors import BankError
@@ -75,17 +76,19 @@ class Bank:
         BankError
             With the reason and how to rebuild.
         """
-        rebuild = f"haptic-panel bank build --board {board.called if board else 'NAME'} --out {path}"
+        rebuild = build_line(path, board)
         try:
             fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
         except OSError as error:
             raise BankError(f"{path}: cannot be read ({error.strerror}); build it: {rebuild}") from error
+        size, start = 0, b""
         try:
             size = os.fstat(fd).st_size
-            header, sections = parse(os.pread(fd, header_length(os.pread(fd, 16, 0), size), 0), size)
+            start = os.pread(fd, 16, 0)
+            header, sections = parse(os.pread(fd, header_length(start, size), 0), size)
             name = header.parameters.get("board")
             if not board and isinstance(name, str):
-                rebuild = f"haptic-panel bank build --board {name} --out {path}"
+                rebuild = build_line(path, name)
             if board and header.board_digest != board.digest():
                 raise BankError(
                     f"was built for another board: digest {header.board_digest.hex()[:16]}, "
@@ -95,7 +98,7 @@ class Bank:
         except (OSError, BankError) as error:
             os.close(fd)
             reason = error if isinstance(error, BankError) else f"cannot be read ({error.strerror})"
-            raise BankError(f"{path}: {reason}; rebuild it: {rebuild}") from error
+            raise BankError(f"{path}: {reason}" + (f"; rebuild it: {rebuild}" if begins_as_bank(start) else "")) from error
         return cls(path, fd, header, sections, tables, rebuild)
 
     def __enter__(self) -> Bank:

@@ -22,7 +22,7 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import Header, Section
+from controller.bank.file_format import MAGIC, Header, Section, begins_as_bank
 from controller.bank.packing import CHANNELS, WORD
 from controller.errors import BankError
 
@@ -40,18 +40,21 @@ class BankWriter:
         `header.entries` is the number of cells in `cells`.
     cells : (grid.cells,) bool array
         Which cells have an entry. Entries lie in the order of their cells.
+    ours : bool
+        Whether the path is this software's own choice: what lies there may be replaced, whatever it is.
 
     Raises
     ------
     BankError
-        If the folder or the disk does not take the file; the old bank is untouched.
+        If the folder or the disk does not take the file, or a file is there that is no bank; it is untouched.
     """
 
-    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_]) -> None:
+    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, ours: bool = False) -> None:
         if cells.shape != (header.grid.cells,) or np.count_nonzero(cells) != header.entries:
             raise ValueError(f"{np.count_nonzero(cells)} of {cells.shape} cells do not fit the header")
         header.pack(header.sections())  # what the format cannot hold is refused before the work
         self.path = path
+        self._ours = ours
         self._header = header
         self._sections = {s.name: s for s in header.sections()}
         self._index = np.where(cells, np.cumsum(cells) - 1, -1).astype("<i4")
@@ -62,14 +65,21 @@ class BankWriter:
 
     def __enter__(self) -> BankWriter:
         with self._disk_errors():
-            self.path = self.path.resolve()  # a link stays, what it points to is replaced
+            folder = self.path.parent.stat()
+            by_root_for_others = os.geteuid() == 0 != folder.st_uid
+            if not by_root_for_others:  # whose folder it is might lead root anywhere
+                self.path = self.path.resolve()  # a link stays, what it points to is replaced
             if self.path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             if self.path.exists() and not self.path.is_file():
                 raise OSError(errno.EINVAL, "not a regular file")
+            if not self._ours:
+                _refuse_foreign(self.path)
             remove_leftovers(self.path)
             self._temporary, self._fd = _create_locked(self.path)
             try:
+                if by_root_for_others:  # root builds, the service plays
+                    os.fchown(self._fd, folder.st_uid, folder.st_gid)
                 _reserve(self._fd, self._header.file_bytes)
             except BaseException:
                 self._discard()
@@ -151,6 +161,17 @@ class BankWriter:
             yield
         except OSError as error:
             raise BankError(f"{self.path}: cannot be written ({error.strerror}); a bank that was there is untouched") from error
+
+
+def _refuse_foreign(path: Path) -> None:
+    """Whatever is no bank is somebody's work."""
+    try:
+        with path.open("rb") as file:
+            start = file.read(len(MAGIC))
+    except FileNotFoundError:
+        return
+    if not begins_as_bank(start):
+        raise BankError(f"{path}: is there and is no bank: it is left as it is, give another --out, or remove it first")
 
 
 def _create_locked(path: Path) -> tuple[Path, int]:

@@ -6,15 +6,16 @@ import argparse
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, is_current, verify_bank
-from controller.bank.location import bank_path
+from controller.bank.inspection import bank_info, fit, verify_bank, wrong_pitch
+from controller.bank.location import bank_path, build_line, is_there
 from controller.bank.reader import Bank
 from controller.board import Board, find_board, load_board
 from controller.commands.output import progress_bar, show
 from controller.errors import BankError, ConfigError
+from controller.installation import missing_package
 from controller.scene import Scene, load_scene, reach
 from controller.scene_file import find_scene
 from controller.tables import plain_table, power_table
@@ -37,14 +38,14 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
     build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
     build.add_argument("--pitch-mm", type=float, metavar="P", help="distance of the cells (default: the board's bank.pitch_mm)")
-    build.add_argument("--out", metavar="F", help="file to write (default: in the state or cache folder)")
+    build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
     build.set_defaults(command=bank_build)
     for name, action, text in (
         ("info", bank_tell, "say what a bank holds and what it was computed from"),
         ("verify", bank_check, "check every bit of a bank"),
     ):
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
-        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's bank built last)")
+        command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's own)")
         command.set_defaults(command=action)
         if name == "info":
             command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
@@ -57,10 +58,14 @@ def bank_build(options: argparse.Namespace) -> int:
     scene = load_scene(scene_file, board) if scene_file else None
     if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
-    path = Path(options.out) if options.out else bank_path(board.name, scene_file.stem if scene_file else "plate")
     pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
-    name = scene_file.name if scene_file else None
-    show(options, asdict(_build(board, path, pitch_m, scene, name, measure=True)), plain_table)
+    own = bank_path(board, pitch_m)
+    path = Path(options.out) if options.out else own
+    cells = None if scene is None else _cells(board, pitch_m, scene)
+    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True)
+    show(options, asdict(report), _build_table)
+    if path != bank_path(board):
+        print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
     return 0
 
 
@@ -79,47 +84,79 @@ def bank_tell(options: argparse.Namespace) -> int:
 
 def bank_check(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
-    show(options, verify_bank(_bank_file(options)), plain_table)
+    file = _bank_file(options)
+    try:
+        found = verify_bank(file, progress_bar("bytes"))
+    except BankError as error:
+        raise BankError(f"FAIL: {error}") from error
+    show(options, found, _verify_table)
     return 0
 
 
+def _verify_table(figures: dict[str, Any]) -> str:
+    told = f"{figures['cells']:,} cells, {figures['bytes']:,} bytes"
+    return f"bank: {figures['path']}, {told}\nPASS: every bit is as it was written"
+
+
 def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path, *, keep: bool = False) -> Bank:
-    """Bank asked for, or the board's own, which is built again when it is missing, damaged, or of another board or scene.
+    """Bank asked for, or the board's own: built where it is missing, built again where it does not serve.
 
     Parameters
     ----------
     keep : bool
         Build only what is missing: a panel in the field does not replace its bank by itself.
+
+    Raises
+    ------
+    BankError
+        If the bank does not fit the board, or cannot be built.
     """
     if options.bank:
         return Bank.open(Path(options.bank), board)
-    path = bank_path(board.name, scene_file.stem)
-    if keep and path.exists():
-        return Bank.open(path, board)
+    path = bank_path(board)
+    if keep and is_there(path):
+        bank = Bank.open(path, board)
+        if wrong := wrong_pitch(bank, board):
+            bank.close()
+            raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
+        return bank
     pitch_m = board.bank.pitch_mm * 1e-3
-    if not is_current(path, board, pitch_m, _cells(board, pitch_m, scene)):
-        print(f"haptic-panel: building the bank {path}", file=sys.stderr)
-        _build(board, path, pitch_m, scene, scene_file.name, measure=False)
+    found = fit(path, board, _cells(board, pitch_m, scene))
+    if found.reason:
+        count = int(found.cells.sum())
+        print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
+        _build(board, path, pitch_m, found.cells, scene_file.name, measure=False)
     return Bank.open(path, board)
 
 
 def _bank_file(options: argparse.Namespace) -> Path:
-    """The file given, else the board's bank that was built last."""
+    """The file given, else the board's own bank."""
     if options.file:
         return Path(options.file)
     board = load_board(find_board(options.board))
-    banks = sorted(bank_path(board.name, "x").parent.glob(f"{board.name}-*.bank"), key=lambda file: file.stat().st_mtime)
-    if not banks:
-        raise BankError(f"board {board.name!r} has no bank yet; build it: haptic-panel bank build --board {board.called}")
-    return banks[-1]
+    path = bank_path(board)
+    if not is_there(path):
+        raise BankError(f"{path}: there is no such bank yet; build it: {build_line(path, board)}")
+    return path
 
 
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
     return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
 
 
-def _build(board: Board, path: Path, pitch_m: float, scene: Scene | None, name: str | None, *, measure: bool) -> BuildReport:
-    from controller.offline.bank_builder import build_bank
+def _build(
+    board: Board, path: Path, pitch_m: float, cells: NDArray[np.bool_] | None, scene: str | None, *, measure: bool
+) -> BuildReport:
+    try:
+        from controller.offline.bank_builder import build_bank
+    except ModuleNotFoundError as error:
+        missing = missing_package(error.name)
+        if missing is None:
+            raise
+        raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
+    ours = path == bank_path(board, pitch_m)
+    return build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, ours=ours)
 
-    cells = None if scene is None else _cells(board, pitch_m, scene)
-    return build_bank(board, path, pitch_m, cells, scene=name, progress=True, measure_sgemm=measure)
+
+def _build_table(figures: dict[str, Any]) -> str:
+    return f"{plain_table({name: value for name, value in figures.items() if name != 'path'})}\nbank: {figures['path']}"

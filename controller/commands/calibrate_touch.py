@@ -127,6 +127,9 @@ def _table(figures: dict[str, Any]) -> str:
     if residual is None:
         judged = "residual: none with 3 targets, which any map meets; take 4 or 5 to see whether they agree"
     else:
-        judged = f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {len(figures['targets_mm'])}"
+        judged = (
+            f"residual: {residual['rms']:.2f} mm rms, {residual['worst']:.2f} mm at the worst of {len(figures['targets_mm'])},"
+            " each against the others"
+        )
     where = f"written to {figures['written']}" if figures["written"] else "for [touch] of board.toml (--write puts them there)"
     return "\n".join([*figures["lines"], judged, where])

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from controller.board import find_board, load_board
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.commands.output import show
+from controller.commands.output import progress_bar, show
 from controller.doctor import Finding, LinkExamined, examine_link, look
 from controller.errors import ControllerError
 from controller.hardware import open_link, open_session
@@ -50,7 +49,7 @@ def examine(options: argparse.Namespace) -> int:
         except ControllerError as error:
             examined = LinkExamined([Finding("link", False, str(error))], {})
         else:
-            progress = _progress() if not options.json else lambda *_: None
+            progress = progress_bar("link") if not options.json else lambda *_: None
             try:
                 examined = examine_link(
                     board, link, lambda: open_session(link, board, clock.now_s), clock, options.bits, channels, progress
@@ -64,20 +63,8 @@ def examine(options: argparse.Namespace) -> int:
     return 0 if good else 1
 
 
-def _progress() -> Callable[[int, int], None]:
-    """A bar where the package for it is there: it belongs to the offline tools, which a device may lack."""
-    try:
-        from controller.commands.output import progress_bar
-
-        return progress_bar("link")
-    except ModuleNotFoundError:
-        return lambda *_: None
-
-
 def _table(figures: dict[str, Any]) -> str:
-    lines = [
-        f"{'ok' if finding['good'] else 'NOT OK':<8}{finding['about']:<24}{finding['said']}" for finding in figures["findings"]
-    ]
+    lines = [f"{_verdict(finding):<8}{finding['about']:<24}{finding['said']}" for finding in figures["findings"]]
     for speed in figures.get("sweep", ()):
         said = speed["trouble"] or f"{speed['errors']} errors in {speed['bits']:,} bits"
         lines.append(f"{'':<8}{speed['sck_hz'] / 1e6:>8.4g} MHz            {said}")
@@ -86,3 +73,7 @@ def _table(figures: dict[str, Any]) -> str:
         shown = "could not be measured" if measured is None else f"{measured / 1e6:.3g} MHz by the time that frames take"
         lines.append(f"{'':<8}SCK {shown}; {figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel")
     return "\n".join(lines)
+
+
+def _verdict(finding: dict[str, Any]) -> str:
+    return "NOT OK" if not finding["good"] else "WARNING" if finding["warns"] else "ok"

@@ -15,12 +15,14 @@ from controller.board import Board, find_board, load_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
 from controller.errors import ConfigError
+from controller.fpga import configuration
 from controller.fpga.capture import Capture
 from controller.fpga.gateware import GatewareFactory
 from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
-from controller.hardware import open_link, open_session, open_simulated
-from controller.tables import plain_table
+from controller.fpga.registers import IDENTITY_MAGIC, PROTOCOL_VERSION, Register
+from controller.hardware import gateware_hash, open_link, open_session, open_simulated
+from controller.tables import check_table
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
@@ -68,10 +70,28 @@ def gateware_check(options: argparse.Namespace) -> int:
     session = open_session(link, board, clock.now_s)
     done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"), take_capture)
     link.close()
-    show(options, asdict(done), plain_table)
-    for complaint in done.complaints:
+    expected = _expected(board, done.registers)
+    complaints = [
+        f"{name} is {done.registers[name]}, not {value}" for name, value in expected.items() if done.registers[name] != value
+    ]
+    complaints += done.complaints
+    show(options, asdict(done) | {"expected": expected, "complaints": complaints, "good": not complaints}, check_table)
+    for complaint in complaints:
         print(f"haptic-panel: {complaint}", file=sys.stderr)
-    return 1 if done.complaints else 0
+    return 1 if complaints else 0
+
+
+def _expected(board: Board, registers: dict[str, int]) -> dict[str, int]:
+    """What registers have to hold after bring-up, by their names: identity, the board's settings, and no fault."""
+    settings = configuration.settings(board, registers["edge_window_ticks"])
+    identity = {
+        Register.IDENTITY: IDENTITY_MAGIC,
+        Register.PROTOCOL: PROTOCOL_VERSION,
+        Register.BUILD_HASH: gateware_hash(),
+        Register.CLOCK_HZ: board.link.clock_hz,
+    }
+    at_rest = dict.fromkeys((Register.FAULT, Register.FAULT_CHANNELS, Register.UNDERRUNS, Register.PLAYS_MISSED, Register.QUEUE), 0)
+    return {register.name.lower(): value for register, value in (identity | settings | at_rest).items()}
 
 
 def _channels(options: argparse.Namespace, board: Board) -> list[int]:

@@ -18,8 +18,14 @@ def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[
 
 
 def progress_bar(what: str) -> Callable[[int, int], None]:
-    """A progress bar on stderr for work over 2 s, told of what is done and the total; silent when stderr is no terminal."""
-    from tqdm import tqdm
+    """A progress bar on stderr for work over 2 s, told of what is done and the total; silent when stderr is no terminal.
+
+    The package for it belongs to the offline tools, which a device may lack: without it there is none.
+    """
+    try:
+        from tqdm import tqdm
+    except ModuleNotFoundError:
+        return lambda _done, _total: None
 
     bar = tqdm(desc=what, disable=None, delay=2, leave=False)
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 from controller.board import find_board, load_board
 from controller.commands.output import show
-from controller.hardware import open_panel
+from controller.hardware import open_input, open_panel
 from controller.tables import plain_table
-from controller.touch.linux_input import LinuxInput
 from controller.touch.recorder import open_recording, record
 
 if TYPE_CHECKING:
@@ -38,7 +37,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def store(options: argparse.Namespace) -> int:
     """Record until told to stop, and say what was stored."""
-    reader = LinuxInput(options.device) if options.device else open_panel(load_board(find_board(options.board)))
+    reader = open_input(options.device) if options.device else open_panel(load_board(find_board(options.board)))
     try:
         with open_recording(Path(options.out)) as file:
             if not options.json:

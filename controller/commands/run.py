@@ -14,6 +14,7 @@ from controller.commands.output import picture_path, progress_bar, show
 from controller.device_settings import RecordingTouch
 from controller.errors import ConfigError
 from controller.hardware import recording_path
+from controller.log import Priority, line
 from controller.scene import edge_warnings, load_scene
 from controller.scene_file import find_scene
 from controller.tables import run_table, service_table
@@ -67,15 +68,15 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
 
     if options.plot or options.speed == "max":
         raise ConfigError("--plot and --speed max are for simulated panels: add --link model to simulate this board")
-    scene_file = find_scene(board, options.scene or board.scene)
+    scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     replay = None
     if options.replay or isinstance(board.touch, RecordingTouch):
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
-            print(f"haptic-panel: {scene_file}: {warning}", file=sys.stderr)
-        figures = serve(board, scene, str(scene_file), bank, replay)
+            print(line(f"{scene_file}: {warning}", Priority.WARNING), file=sys.stderr)
+        figures = {"bank": str(bank.path)} | serve(board, scene, str(scene_file), bank, replay)
     show(options, figures, service_table)
     return 0
 
@@ -88,7 +89,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     picture = picture_path(options)
     board = simulated(board)
-    scene_file = find_scene(board, options.scene or board.scene)
+    scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
     gateware, real_time = gateware_factory(options)
@@ -109,7 +110,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         judged = simulated_run.judge(done, progress_bar("plate"))
     if judged.left_out:
         print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
-    figures = {"link": options.link or "model"} | simulated_run.report(done, judged.foci)
+    figures = {"link": options.link or "model", "bank": str(bank.path)} | simulated_run.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
     figures["warnings"] = [*overdone, *figures["warnings"]]

@@ -10,6 +10,10 @@ from controller.errors import LinkError
 from controller.fpga.registers import CHANNELS, DUTY_FULL, IDENTITY_MAGIC, PROTOCOL_VERSION, Register
 
 
+class UnfitFpga(LinkError):
+    """Another FPGA than this software and this board need: it says so itself, and waiting does not change it."""
+
+
 def ramp_samples(board: Board) -> int:
     """Drive words in the ramp of a board."""
     return max(1, round(board.limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
@@ -20,8 +24,10 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
 
     Raises
     ------
-    LinkError
+    UnfitFpga
         If it is another one, or too small for the board.
+    LinkError
+        If it does not answer.
     """
     expected = {
         Register.IDENTITY: IDENTITY_MAGIC,
@@ -32,13 +38,13 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     for register, value in expected.items():
         found = read(register)
         if found != value:
-            raise LinkError(
+            raise UnfitFpga(
                 f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
             )
     geometry = read(Register.GEOMETRY)
     slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
     if slots < board.link.slots or depth < board.waveform.samples or channels != CHANNELS:
-        raise LinkError(
+        raise UnfitFpga(
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )

@@ -1,4 +1,4 @@
-"""The FPGA's own wires beside SPI: trigger out, run permit out, ready in."""
+"""The FPGA's own wires beside SPI: trigger out, run permit out, configured in."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ CONSUMER = "haptic-panel"
 
 
 class GpioLines:
-    """Trigger, run permit and ready of one panel; the permit is given by `permit` and taken away by `close`.
+    """Trigger, run permit and `configured` of one panel; the permit is given by `permit` and taken away by `close`.
 
     Parameters
     ----------
     settings : LinkSettings
-        Label of the chip and names of the lines; ready and permit may be left out.
+        Label of the chip and names of the lines; permit and configured may be left out.
     now_s : callable
         The loop's clock.
 
@@ -33,12 +33,12 @@ class GpioLines:
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
         self._now_s = now_s
         self._trigger = settings.trigger_line
-        self._ready = settings.ready_line
+        self._configured = settings.configured_line
         self._permit = settings.permit_line
         out = gpiod.LineSettings(direction=Direction.OUTPUT, output_value=Value.INACTIVE)
         lines = {name: out for name in (self._trigger, self._permit) if name}
-        if self._ready:
-            lines[self._ready] = gpiod.LineSettings(direction=Direction.INPUT)
+        if self._configured:
+            lines[self._configured] = gpiod.LineSettings(direction=Direction.INPUT)
         self._request = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
 
     def pulse(self) -> float:
@@ -65,14 +65,14 @@ class GpioLines:
             except OSError as error:
                 raise LinkError(f"the permit line {self._permit!r} failed ({error.strerror}): is its GPIO chip gone?") from error
 
-    def ready(self) -> bool:
-        """Whether the gateware is configured; True where there is no line that says so."""
-        if not self._ready:
+    def configured(self) -> bool:
+        """Whether the FPGA is configured and out of reset; True where there is no line that says so."""
+        if not self._configured:
             return True
         try:
-            return bool(self._request.get_value(self._ready) is Value.ACTIVE)
+            return bool(self._request.get_value(self._configured) is Value.ACTIVE)
         except OSError as error:
-            raise LinkError(f"the ready line {self._ready!r} failed ({error.strerror}): is its GPIO chip gone?") from error
+            raise LinkError(f"line {self._configured!r} (configured) failed ({error.strerror}): is its GPIO chip gone?") from error
 
     def close(self) -> None:
         """Permit off, trigger low, lines free for others."""

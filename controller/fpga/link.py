@@ -10,22 +10,19 @@ from typing import Protocol
 
 
 class Link(Protocol):
-    """Frames to and from the FPGA, and its trigger pin.
+    """Frames to and from the FPGA, and its trigger pin."""
 
-    Attributes
-    ----------
-    bytes_sent : int
-        Frame bytes since the link was opened.
-    wire_ns : int
-        Time those bytes took on the wire.
-    away_ns : int
-        Time spent inside this link that is not the host's own work: waiting for the wire, computing
-        the far end.
-    """
+    @property
+    def bytes_sent(self) -> int:
+        """Frame bytes since the link was opened."""
 
-    bytes_sent: int
-    wire_ns: int
-    away_ns: int
+    @property
+    def wire_ns(self) -> int:
+        """Time those bytes took on the wire."""
+
+    @property
+    def away_ns(self) -> int:
+        """Time spent inside this link that is not the host's own work: waiting for the wire, computing the far end."""
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames that lie back to back, each under its own chip select, and store what comes back.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -24,6 +24,7 @@ CONFIDENCE = 0.95
 TIMED_MESSAGES = 31
 
 
+@runtime_checkable
 class ClockedLink(Link, Protocol):
     """A link whose SCK can be set.
 

@@ -153,7 +153,7 @@ class GatewareModel:
             (State.TEMPERATURE_GOOD, gate.permits[Permit.TEMPERATURE]),
             (State.CHECKING, self._buffers.checking(now)),
             (State.DELAYED, player.delayed),
-            (State.READY, self._ready()),
+            (State.WAITING, self._waiting()),
         )
         state = State(sum(bit for bit, holds in bits if holds))
         return Status(
@@ -170,7 +170,7 @@ class GatewareModel:
             telemetry.ignored & 0xFFFF,
         )
 
-    def _ready(self) -> bool:
+    def _waiting(self) -> bool:
         head = self._queue.head(self._now)
         return head is not None and head.start is Start.TRIGGER and self._free(self._now)
 

@@ -214,7 +214,7 @@ class State(IntFlag):
     TEMPERATURE_GOOD = 1 << 9
     CHECKING = 1 << 10
     DELAYED = 1 << 11
-    READY = 1 << 12
+    WAITING = 1 << 12
 
 
 class Fault(IntFlag):

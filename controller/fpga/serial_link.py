@@ -74,13 +74,7 @@ class SerialLink:
         self._owed = 0  # answers to triggers, not read yet
         self._unsure = True  # what is in the input may belong to other frames
         self._free_s = now_s()
-        longest_s = self._wire_s(BATCH_FRAMES * (frames.LOAD_FRAME_BYTES + 8))
-        try:
-            self._port = serial.Serial(device, baud, timeout=latency_s, write_timeout=longest_s + 1, exclusive=True)
-        except (OSError, ValueError) as error:
-            raise LinkError(_why_not_open(device, baud, error)) from error
-        with contextlib.suppress(OSError, ValueError, NotImplementedError, AttributeError):
-            self._port.set_low_latency_mode(True)  # 1 ms instead of 16 with many bridges; others do not know it
+        self._port = self._opened()
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames and store the status that answers each at the frame's place, with zeros behind it.
@@ -88,9 +82,11 @@ class SerialLink:
         Raises
         ------
         LinkError
-            If an answer is missing or damaged, or the port fails.
+            If an answer is missing or damaged, or the port fails; it is opened again at the next call then.
         """
         started_ns = time.perf_counter_ns()
+        if not self._port.is_open:
+            self._port = self._opened()
         try:
             if self._unsure or self._port.in_waiting > self._owed * ANSWER_BYTES:
                 self._resynchronise()
@@ -109,6 +105,7 @@ class SerialLink:
             self._message = self._sequence or 0
             self._unsure = doubtful  # a frame was refused, or the answers have slipped: the caller sees that something is wrong
         except OSError as error:  # serial.SerialException is one
+            self.close()
             raise LinkError(f"{self._device} failed ({error}): is it still plugged in, and does nothing else use it?") from error
         finally:
             self.away_ns += time.perf_counter_ns() - started_ns
@@ -125,6 +122,7 @@ class SerialLink:
             self._write(on_wire(self._frame), FRAME_BYTES)
         except OSError as error:
             self._unsure = True
+            self.close()
             raise LinkError(f"{self._device} failed ({error}): is it still plugged in?") from error
         self._owed += 1
         self._sequence = sequence
@@ -138,6 +136,18 @@ class SerialLink:
         """Let go of the port."""
         with contextlib.suppress(OSError):
             self._port.close()
+
+    def _opened(self) -> serial.Serial:
+        """The port, ours alone; what is in its input may be anything."""
+        longest_s = self._wire_s(BATCH_FRAMES * (frames.LOAD_FRAME_BYTES + 8))
+        try:
+            port = serial.Serial(self._device, self._baud, timeout=self._latency_s, write_timeout=longest_s + 1, exclusive=True)
+        except (OSError, ValueError) as error:
+            raise LinkError(_why_not_open(self._device, self._baud, error)) from error
+        with contextlib.suppress(OSError, ValueError, NotImplementedError, AttributeError):
+            port.set_low_latency_mode(True)  # 1 ms instead of 16 with many bridges; others do not know it
+        self._unsure = True
+        return port
 
     def _batch(self, sent: memoryview, lengths: Sequence[int]) -> list[bytes]:
         """Send some frames; their answers."""

@@ -23,6 +23,7 @@ BEATS_PER_TIMEOUT = 3
 CHECK_TICKS = 8  # beyond one for each word, until the FPGA has checked what it stored
 CLOCK_TOLERANCE = 0.005  # more than crystals and a slewed clock of the host can differ
 FRESH_S = 0.25  # after a heartbeat, for which settings are taken to be those of `bring_up`
+UNFIT = frozenset({Result.BAD_VALUE, Result.UNKNOWN_REGISTER, Result.READ_ONLY})  # answers to a setting that stay what they are
 FORGOTTEN = frozenset({Result.NOT_ARMED, Result.EMPTY_SLOT})  # answers of an FPGA that was reset
 
 
@@ -39,6 +40,8 @@ class Session:
         Hash of the gateware that this host was made for.
     now_s : callable
         The loop's clock.
+    bring_up : bool
+        At once; otherwise `fresh` is False until `bring_up` was called, and nothing may be asked of the FPGA before.
 
     Attributes
     ----------
@@ -48,6 +51,8 @@ class Session:
         If it is set, each heartbeat tells it the FPGA's time, for plays that are scheduled.
     bit_period : int
         Time for which one drive word is held now, in 65536ths of a clock of the FPGA.
+    ramp_end_s : float
+        When the outputs have arrived at their levels after the last arming or disarming.
 
     Raises
     ------
@@ -55,7 +60,7 @@ class Session:
         If the FPGA does not answer, or is another one than asked for.
     """
 
-    def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float]) -> None:
+    def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
         beat_s = board.limits.heartbeat_timeout_ms * 1e-3 / BEATS_PER_TIMEOUT
         self.exchange = Exchange(link, now_s, beat_s)
         self._sent = self.exchange.sent
@@ -74,7 +79,9 @@ class Session:
         self._beat_ticks = 0  # the FPGA's time at that heartbeat
         self.clock_relation: ClockRelation | None = None
         self.bit_period = board.bit_period
-        self.bring_up()
+        self.ramp_end_s = -math.inf
+        if bring_up:
+            self.bring_up()
 
     def bring_up(self) -> None:
         """Check that this is the FPGA asked for, with nothing on, and give it all its settings.
@@ -83,8 +90,10 @@ class Session:
 
         Raises
         ------
+        UnfitFpga
+            If it is another one, or does not take a setting.
         LinkError
-            If it does not answer, is another one, or is armed. One that this host armed is told to disarm first:
+            If it does not answer, or is armed. One that this host armed is told to disarm first:
             call again when its ramp has passed.
         """
         self._on = False
@@ -93,6 +102,11 @@ class Session:
         configuration.verify(self.exchange.read, self._board, self._build_hash)
         self._configure()
         self._ours = False
+
+    @property
+    def fresh(self) -> bool:
+        """Whether a heartbeat was answered so recently that the settings are those of `bring_up`."""
+        return self._beat_s < math.inf and self._now_s() - self._beat_s < FRESH_S
 
     @property
     def heartbeat_due_s(self) -> float:
@@ -129,7 +143,7 @@ class Session:
         LinkError
             If the link damages whatever is tried.
         """
-        fresh = self._now_s() - self._beat_s < FRESH_S
+        fresh = self.fresh
         self.heartbeat()
         if not fresh:  # a reset soon after the one before could have been missed
             self.bring_up()
@@ -148,7 +162,8 @@ class Session:
         self._ours = True
         self.exchange.insist(send)
         self._on = True
-        return self._ramp_end_s()
+        self.ramp_end_s = self._ramp_end_s()
+        return self.ramp_end_s
 
     def require_armed(self) -> None:
         """Raise LinkError unless the FPGA says that it is armed."""
@@ -161,7 +176,8 @@ class Session:
         """Have the outputs glide to 0 V; the time at which they are off."""
         self._on = False
         self.exchange.insist(lambda _: self._commanded(Control.DISARM))
-        return self._ramp_end_s()
+        self.ramp_end_s = self._ramp_end_s()
+        return self.ramp_end_s
 
     def off(self) -> None:
         """Outputs off as far as this host can still say so; the FPGA does it without us when the heartbeat ends."""
@@ -327,7 +343,13 @@ class Session:
             raise
 
     def stop(self) -> None:
-        """End what sounds with its emission, and forget what waits."""
+        """End what is repeated with the emission that sounds, and leave nothing to play.
+
+        Raises
+        ------
+        LinkError
+            If the link damages whatever is tried.
+        """
         self.exchange.insist(lambda _: self._commanded(Control.STOP))
 
     def trigger(self) -> float:
@@ -412,7 +434,8 @@ class Session:
             try:
                 self.exchange.write(register, value)
             except Refused as refusal:
-                raise LinkError(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
+                kind = configuration.UnfitFpga if refusal.result in UNFIT else LinkError
+                raise kind(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
             if self.exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 

@@ -71,7 +71,7 @@ class SpiLink:
     Raises
     ------
     LinkError
-        If the device or a line is absent, held by another program or cannot do what is asked, or the gateware is not ready.
+        If the device or a line is absent, held by another program or cannot do what is asked, or the FPGA is not configured.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -91,10 +91,11 @@ class SpiLink:
         except LinkError:
             self._spi.close()
             raise
-        if not self.lines.ready():
+        if not self.lines.configured():
             self.close()
             raise LinkError(
-                f"the FPGA is not configured: its line {settings.ready_line!r} is low; load the gateware, or look at its supply"
+                f"the FPGA is not configured: its line {settings.configured_line!r} is low;"
+                " load the gateware, or look at its supply and its clock"
             )
         self.lines.permit(True)
         self._permitted = True

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import Header, creator
+from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
+from controller.bank.location import make_folder
 from controller.bank.packing import CHANNELS, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.board import Board
-from controller.errors import BankError, ConfigError
+from controller.errors import ConfigError
 from controller.offline.impulse_response import ResponseModel
 
 HIGHEST_HZ = 100e3
@@ -60,6 +61,7 @@ def build_bank(
     progress: bool = False,
     measure_sgemm: bool = True,
     highest_hz: float = HIGHEST_HZ,
+    ours: bool = False,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -80,6 +82,8 @@ def build_bank(
         Measure the best rate of matrix multiplication for `gemm_fraction`: about a second.
     highest_hz : float
         Modes above are left out.
+    ours : bool
+        Whether the path is this software's own choice: else a file there that is no bank is not replaced.
 
     Raises
     ------
@@ -98,10 +102,11 @@ def build_bank(
     numbers = np.flatnonzero(wanted)
     points_m = grid.points()[numbers]
     parameters: dict[str, Any] = {
-        "board": board.name,
+        "board": board.key,
         "pitch_mm": grid.pitch_m * 1e3,
         "highest_hz": highest_hz,
         "precision": "float32",
+        "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         "channel_edges": 0,  # filled in as entries are made; the header is written last
@@ -116,16 +121,13 @@ def build_bank(
         entries=len(numbers),
         parameters=parameters,
     )
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise BankError(f"{path}: its folder cannot be made ({error.strerror})") from error
+    make_folder(path.parent)
     response_seconds = 0.0
     worst_edge_rate_hz = 0.0
     idle = np.array([board.idle_word], np.uint32)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread is mostly waited for
-        BankWriter(path, header, wanted) as writer,  # a folder or disk that cannot take it is refused before the work
+        BankWriter(path, header, wanted, ours=ours) as writer,  # a folder or disk that cannot take it is refused before the work
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         model = ResponseModel(board, highest_hz)

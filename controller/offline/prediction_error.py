@@ -1,8 +1,8 @@
 """How far beside the finger a prediction is: measured on recordings, for several ways to predict.
 
-`python -m controller.offline.prediction_error FILE...` predicts after every report of every finger where it will be a
-horizon later and compares with the recorded track. The horizon is taken for the panel's lag; that of the board
-is not added. What no recording shows, stops and turns at a known instant and noise at rest, is made here.
+`python -m controller.offline.prediction_error FILE...` replays recordings through the board's tracker. After every report it asks
+where each finger will be, by the call and with the arguments of the loop (`Tracker.place`), and compares with the recorded
+track at that time. What no recording shows, stops and turns at a known instant and noise at rest, is made here.
 """
 
 from __future__ import annotations
@@ -11,144 +11,164 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import find_board, load_board
+from controller.board import Board, find_board, load_board
 from controller.errors import ControllerError
+from controller.hardware import tracked
 from controller.offline.plot import check_picture
 from controller.touch.prediction import PAUSE_S, SHORTEST_STEP_S, Motion
 from controller.touch.recording import Recording
-from controller.touch.report_rate import ReportRate
+from controller.touch.replay import RecordingSource
 from controller.touch.tracks import Track
 
-HORIZONS_MS = (3.4, 10.0, 20.0, 30.0)
-LINE_S = 45e-3
-NOISE_M, ACCELERATION = 0.2e-3, 1e-2  # of the Kalman filter: of a report; spectral density, m²/s³. The best of 8 pairs tried
-STARTING_SPEED = 0.3  # m/s, before anything is known
-PERIOD_S, SPEED, RESOLUTION_M, SIGMA_M = 8e-3, 0.3, 0.1e-3, 0.05e-3  # of the fingers made here
-AHEAD_S = 13.4e-3  # their horizon: 10 ms of lag, and an emission
+HORIZONS_MS = (5.0, 10.0, 20.0, 30.0)
+PERIOD_S, SPEED, SIGMA_M = 8e-3, 0.3, 0.05e-3  # of the fingers made here; resolution 0.1 mm
+LAG_MS, AHEAD_S = 10.0, 3.4e-3  # their panel's, and an upload with its emission
+MADE_AXES = "A: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\n"
+START_M = 0.05
+PHASES = 20
 
 Places = NDArray[np.float64]
-Method = Callable[[Track, float, float], Places]
 
 
-def last_report(track: Track, horizon_s: float, period_s: float) -> Places:  # noqa: ARG001
+class LastReport(Motion):
     """No prediction."""
-    return np.column_stack([track.x_m, track.y_m])
+
+    def report(self, x_m: float, y_m: float, time_s: float) -> None:
+        """Take a place."""
+        self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
 
 
-def line(track: Track, horizon_s: float, period_s: float) -> Places:
-    """Slope of the straight line through the reports of the last `LINE_S`, from the last report on."""
-    found = last_report(track, horizon_s, period_s)
-    first = 0
-    for k in range(len(found)):
-        while track.time_s[k] - track.time_s[first] > LINE_S:
-            first += 1
-        if k > first:
-            at_s = track.time_s[first : k + 1] - track.time_s[first : k + 1].mean()
-            for axis, values in enumerate((track.x_m, track.y_m)):
-                found[k, axis] += horizon_s * float(at_s @ values[first : k + 1]) / float(at_s @ at_s)
-    return found
-
-
-def kalman(track: Track, horizon_s: float, period_s: float) -> Places:
+class Kalman(Motion):
     """Kalman filter of constant velocity; the prediction starts at the last report."""
-    found = last_report(track, horizon_s, period_s)
-    at = found[0].copy()
-    speed = np.zeros(2)
-    place, both, velocity = NOISE_M**2, 0.0, STARTING_SPEED**2  # covariance, the same along x and y
-    for k in range(1, len(found)):
-        step_s = _step_s(track, k)
-        place += step_s * (2 * both + step_s * velocity) + ACCELERATION * step_s**3 / 3
-        both += step_s * velocity + ACCELERATION * step_s**2 / 2
-        velocity += ACCELERATION * step_s
-        to_place, to_velocity = place / (place + NOISE_M**2), both / (place + NOISE_M**2)
-        off = found[k] - at - step_s * speed
-        at += step_s * speed + to_place * off
-        speed += to_velocity * off
-        velocity -= to_velocity * both
-        both -= to_place * both
-        place -= to_place * place
-        found[k] += horizon_s * speed
-    return found
+
+    NOISE_M, ACCELERATION = 0.2e-3, 0.1  # of a report; spectral density, m²/s³. The best of 12 pairs tried
+    STARTING_SPEED = 0.3  # m/s, before anything is known
+
+    def __init__(self, x_m: float, y_m: float, time_s: float) -> None:
+        super().__init__(x_m, y_m, time_s)
+        self._place, self._both, self._velocity = self.NOISE_M**2, 0.0, self.STARTING_SPEED**2  # covariance, the same along x and y
+
+    def report(self, x_m: float, y_m: float, time_s: float) -> None:
+        """Take a place."""
+        step_s = _step_s(self, time_s)
+        self._place += step_s * (2 * self._both + step_s * self._velocity) + self.ACCELERATION * step_s**3 / 3
+        self._both += step_s * self._velocity + self.ACCELERATION * step_s**2 / 2
+        self._velocity += self.ACCELERATION * step_s
+        to_place, to_velocity = self._place / (self._place + self.NOISE_M**2), self._both / (self._place + self.NOISE_M**2)
+        off_x_m, off_y_m = x_m - self._x_m - step_s * self.vx, y_m - self._y_m - step_s * self.vy
+        self._x_m += step_s * self.vx + to_place * off_x_m
+        self._y_m += step_s * self.vy + to_place * off_y_m
+        self.vx += to_velocity * off_x_m
+        self.vy += to_velocity * off_y_m
+        self._velocity -= to_velocity * self._both
+        self._both -= to_place * self._both
+        self._place -= to_place * self._place
+        self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
 
 
-def alpha_beta(track: Track, horizon_s: float, period_s: float) -> Places:
-    """What the tracker does."""
-    reports = zip(track.time_s.tolist(), track.x_m.tolist(), track.y_m.tolist(), strict=True)
-    begin_s, x_m, y_m = next(reports)
-    motion = Motion(x_m, y_m, begin_s)
-    found = [motion.place(begin_s, horizon_s, period_s)]
-    for time_s, x_m, y_m in reports:
-        motion.report(x_m, y_m, time_s)
-        found.append(motion.place(time_s, horizon_s, period_s))
-    return np.array(found)
+class OneEuro(Motion):
+    """One-euro filter (Casiez, Roussel, Vogel, CHI 2012), its place moved on by its filtered derivative."""
+
+    MIN_CUTOFF_HZ, BETA, DERIVATIVE_CUTOFF_HZ = 50.0, 1000.0, 50.0  # beta in Hz per m/s. The best of 36 sets tried
+
+    def report(self, x_m: float, y_m: float, time_s: float) -> None:
+        """Take a place."""
+        step_s = _step_s(self, time_s)
+        share = _share(self.DERIVATIVE_CUTOFF_HZ, step_s)
+        self.vx += share * ((x_m - self._x_m) / step_s - self.vx)
+        self.vy += share * ((y_m - self._y_m) / step_s - self.vy)
+        share = _share(self.MIN_CUTOFF_HZ + self.BETA * math.hypot(self.vx, self.vy), step_s)
+        self._x_m += share * (x_m - self._x_m)
+        self._y_m += share * (y_m - self._y_m)
+        self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
+
+    def place(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
+        """From the filtered place on; see `Motion.place`."""
+        x_m, y_m = super().place(at_s, known_s, lag_s, period_s)
+        return x_m - self.x_m + self._x_m, y_m - self.y_m + self._y_m
 
 
-METHODS: dict[str, Method] = {
-    "last report": last_report,
-    f"line, {LINE_S * 1e3:g} ms": line,
-    "Kalman": kalman,
-    "alpha-beta (the tracker)": alpha_beta,
+METHODS: dict[str, type[Motion]] = {
+    "last report": LastReport,
+    "Kalman": Kalman,
+    "one-euro": OneEuro,
+    "alpha-beta (the product)": Motion,
 }
 
 
-def errors_m(method: Method, track: Track, horizon_s: float, period_s: float) -> Places:
-    """Distance of each prediction from the recorded track, as far as this goes."""
-    later_s = track.time_s + horizon_s
-    known = later_s <= track.end_s
-    true = np.column_stack([np.interp(later_s, track.time_s, along) for along in (track.x_m, track.y_m)])
-    beside: Places = np.hypot(*(method(track, horizon_s, period_s) - true)[known].T)
-    return beside
+def errors_m(recording: Recording, board: Board, motion: type[Motion], ahead_s: Sequence[float]) -> list[Places]:
+    """Distances of the tracker's predictions from the recorded tracks, as far as these go.
+
+    Parameters
+    ----------
+    motion : type of Motion
+        How the tracker predicts.
+    ahead_s : sequence of float
+        Horizons, from each report on.
+
+    Returns
+    -------
+    list of (prediction,) float64 arrays
+        For each horizon.
+    """
+    asked, tracks = _asked(recording, board, motion, ahead_s)
+    found = []
+    for index, horizon_s in enumerate(ahead_s):
+        off = [
+            math.dist(places[index], tracks[finger].position(later_s))
+            for finger, now_s, places in asked
+            if (later_s := now_s + horizon_s + board.touch.lag_s) <= tracks[finger].end_s
+        ]
+        found.append(np.array(off))
+    return found
 
 
-def overshoot_m(method: Method, *, turns: bool) -> float:
+def overshoot_m(motion: type[Motion], *, turns: bool) -> float:
     """Farthest prediction beyond the place where a finger at `SPEED` stopped or turned, once a report shows it."""
     farthest = -math.inf
-    for phase in range(20):
-        steps, stop = np.arange(60), 30 + phase / 20
+    for phase in range(PHASES):
+        steps, stop = np.arange(60), 30 + phase / PHASES
         way = np.where(steps <= stop, steps, 2 * stop - steps if turns else stop)
-        track = _noisy(way * PERIOD_S * SPEED, phase)
-        ahead = method(track, AHEAD_S, PERIOD_S)[:, 0] - stop * PERIOD_S * SPEED
-        farthest = max(farthest, float(ahead[math.floor(stop) + 2 :].max()))
+        along = _made_places(way * PERIOD_S * SPEED, phase, motion)[:, 0] - START_M - stop * PERIOD_S * SPEED
+        farthest = max(farthest, float(along[math.floor(stop) + 2 :].max()))
     return farthest
 
 
-def rest_m(method: Method) -> float:
+def rest_m(motion: type[Motion]) -> float:
     """How far apart the predictions for a finger at rest lie, once it has rested for 20 reports."""
-    return max(float(np.ptp(method(_noisy(np.zeros(100), seed), AHEAD_S, PERIOD_S)[20:], axis=0).max()) for seed in range(20))
+    return max(float(np.ptp(_made_places(np.zeros(100), seed, motion)[20:], axis=0).max()) for seed in range(PHASES))
 
 
 def measure(recordings: Iterable[Recording]) -> dict[str, Any]:
     """All figures: period and jitter of each recording, errors in mm by method and horizon."""
-    board = load_board(find_board("simulated"))
-    tracks, rates = [], {}
+    board = _board()
+    ahead_s = [horizon_ms * 1e-3 for horizon_ms in HORIZONS_MS]
+    rates = {}
+    off: dict[str, list[list[Places]]] = {name: [[] for _ in HORIZONS_MS] for name in METHODS}
     for recording in recordings:
-        found = list(recording.tracks(recording.axes(board)).values())
-        rate = ReportRate()
-        for time_s in sorted({float(time_s) for track in found for time_s in track.time_s}):
-            rate.report(time_s)
-        tracks += [(track, rate.median_s or rate.period_s) for track in found]
-        rates[recording.name] = {
-            "period_ms": None if rate.median_s is None else rate.median_s * 1e3,
-            "jitter_ms": None if rate.jitter_s is None else rate.jitter_s * 1e3,
-            "fingers": len(found),
-        }
+        rates[recording.name] = _rate(recording, board)
+        for name, motion in METHODS.items():
+            for kept, found in zip(off[name], errors_m(recording, board, motion, ahead_s), strict=True):
+                kept.append(found)
     return {
         "recordings": rates,
         "methods": {
             name: {
-                "error_mm": {f"{horizon_ms:g}": _spread_mm(method, tracks, horizon_ms * 1e-3) for horizon_ms in HORIZONS_MS},
-                "overshoot_at_a_stop_mm": overshoot_m(method, turns=False) * 1e3,
-                "overshoot_at_a_turn_mm": overshoot_m(method, turns=True) * 1e3,
-                "jitter_at_rest_mm": rest_m(method) * 1e3,
+                "error_mm": {f"{ms:g}": _spread_mm(found) for ms, found in zip(HORIZONS_MS, off[name], strict=True)},
+                "overshoot_at_a_stop_mm": overshoot_m(motion, turns=False) * 1e3,
+                "overshoot_at_a_turn_mm": overshoot_m(motion, turns=True) * 1e3,
+                "jitter_at_rest_mm": rest_m(motion) * 1e3,
             }
-            for name, method in METHODS.items()
+            for name, motion in METHODS.items()
         },
     }
 
@@ -201,23 +221,68 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _spread_mm(method: Method, tracks: Sequence[tuple[Track, float]], horizon_s: float) -> dict[str, float]:
-    found = [errors_m(method, track, horizon_s, period_s) for track, period_s in tracks]
+@cache
+def _board() -> Board:
+    return load_board(find_board("simulated"))
+
+
+def _asked(
+    recording: Recording, board: Board, motion: type[Motion], ahead_s: Sequence[float]
+) -> tuple[list[tuple[int, float, list[tuple[float, float]]]], dict[int, Track]]:
+    """Finger, time and places that the tracker predicts after each report; and where each finger was."""
+    axes = recording.axes(board)
+    contacts = recording.tracks(axes)
+    parts = {finger: [track] for finger, track in contacts.items()}
+    source = RecordingSource(recording, axes, 0.0)
+    tracker = tracked(source, board, lambda finger, contact: parts[finger].append(contacts[contact]), motion)
+    asked = []
+    down: set[int] = set()
+    while (now_s := tracker.next_time_s()) is not None:
+        reports = source.counts.reports
+        for sample in tracker.read(now_s):
+            (down.add if sample.contact else down.discard)(sample.finger)
+        if source.counts.reports == reports:
+            continue
+        for finger in down:
+            places = [place for horizon_s in ahead_s if (place := tracker.place(finger, now_s + horizon_s)) is not None]
+            asked.append((finger, now_s, places))
+    return asked, {finger: Track.joined(finger, found) for finger, found in parts.items()}
+
+
+def _rate(recording: Recording, board: Board) -> dict[str, Any]:
+    tracker = tracked(RecordingSource(recording, recording.axes(board), 0.0), board)
+    while (now_s := tracker.next_time_s()) is not None:
+        tracker.read(now_s)
+    figures = tracker.figures()
+    return {"period_ms": figures["report_period_ms"], "jitter_ms": figures["report_jitter_ms"], "fingers": tracker.counts.contacts}
+
+
+def _made_places(along_m: Places, seed: int, motion: type[Motion]) -> Places:
+    """Predictions after each report of a finger along x, with a panel's lag, noise and resolution."""
+    noise = np.random.default_rng(seed).normal(0, SIGMA_M, (2, len(along_m)))
+    raw = np.rint((noise + np.array([along_m, 0 * along_m]) + START_M) * 1e4).astype(int)
+    lines = [MADE_AXES, "E: 0.0 0003 002f 0\nE: 0.0 0003 0039 1\n"]
+    for k, (x, y) in enumerate(raw.T.tolist()):
+        lines += [f"E: {k * PERIOD_S:.6f} {code}\n" for code in (f"0003 0035 {x}", f"0003 0036 {y}", "0000 0000 0")]
+    lagging = msgspec.structs.replace(_board(), touch=msgspec.structs.replace(_board().touch, lag_ms=LAG_MS))
+    asked, _ = _asked(Recording("".join(lines)), lagging, motion, [AHEAD_S])
+    return np.array([place for _, _, (place,) in asked])
+
+
+def _spread_mm(found: list[Places]) -> dict[str, float]:
     all_mm = np.concatenate(found or [np.zeros(0)]) * 1e3
     if not len(all_mm):
         all_mm = np.zeros(1)  # taps only: nothing to compare with
     return {"median": float(np.median(all_mm)), "p95": float(np.quantile(all_mm, 0.95)), "worst": float(all_mm.max())}
 
 
-def _step_s(track: Track, k: int) -> float:
-    return min(max(float(track.time_s[k] - track.time_s[k - 1]), SHORTEST_STEP_S), PAUSE_S)
+def _step_s(motion: Motion, time_s: float) -> float:
+    return min(max(time_s - motion.time_s, SHORTEST_STEP_S), PAUSE_S)
 
 
-def _noisy(along_m: Places, seed: int) -> Track:
-    """A finger along x with a panel's noise and resolution."""
-    noise: Places = np.random.default_rng(seed).normal(0, SIGMA_M, (2, len(along_m)))
-    noisy: Places = np.round((noise + np.array([along_m, 0 * along_m])) / RESOLUTION_M) * RESOLUTION_M
-    return Track(0, np.arange(len(along_m), dtype=np.float64) * PERIOD_S, noisy[0], noisy[1])
+def _share(cutoff_hz: float, step_s: float) -> float:
+    """How much of a new value a low-pass filter of first order takes."""
+    return 1 / (1 + 1 / (2 * math.pi * cutoff_hz * step_s))
 
 
 if __name__ == "__main__":

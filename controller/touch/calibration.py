@@ -21,7 +21,11 @@ FEWEST, MOST = 3, 5
 INSET = 0.15  # of the plate: where the targets lie, away from the edge where panels are least linear
 CLOSEST_MM = 10.0  # targets nearer to each other, or to one straight line, tell nothing
 CLOSEST_RAW = 0.02  # the same of the touches, in shares of the axes
-LARGEST_RESIDUAL_MM = 3.0  # a fingertip is put down within 1 to 2 mm of a mark; more, and a target was missed
+# Of a touch from where the map of the others puts it. Touches within 1 mm of four corners and a middle never exceed it; a corner
+# missed by 6.3 mm does while the others are within 0.75 mm: what they say of a corner has three times their own errors.
+LARGEST_RESIDUAL_MM = 4.0
+LEAST_FREEDOM = 0.02  # of a touch: less, and no other tells whether it was missed
+ALIKE = 0.95  # of opposite corners either may be the one that was missed: nothing tells which
 SMALLEST_SCALE, LARGEST_SCALE = 0.5, 5.0  # an axis' length over the plate's side along it
 LARGEST_TILT: Final = 15.0  # degrees, of an axis against the plate's side
 
@@ -36,7 +40,8 @@ class Calibration:
     Attributes
     ----------
     residuals_mm : tuple of float
-        Distance of each target from where the map puts its touch; empty with three targets, which any map meets.
+        Distance of each target from where the map of the other touches puts its own (leave one out: the map of all follows
+        each touch by as much as 0.7 of its error at a corner); empty with three targets, which any map meets.
     """
 
     x_mm_from_axes: Row
@@ -112,15 +117,37 @@ def calibrate(targets: Sequence[Point], touches: Sequence[Point], plate: Plate) 
     wanted = np.array(targets, np.float64)
     columns = np.column_stack([raw, np.ones(len(raw))])
     found = np.linalg.lstsq(columns, wanted, rcond=None)[0].astype(np.float64)
-    residuals = np.hypot(*(columns @ found - wanted).T) if len(targets) > FEWEST else np.zeros(0)
+    residuals = _left_out_mm(columns, columns @ found - wanted) if len(targets) > FEWEST else np.zeros(0)
     if residuals.size and residuals.max() > LARGEST_RESIDUAL_MM:
+        missed = " or ".join(str(number + 1) for number in np.flatnonzero(residuals > ALIKE * residuals.max()))
         raise CalibrationError(
-            f"touch {residuals.argmax() + 1} is {residuals.max():.1f} mm off what the others say,"
+            f"touch {missed} is {residuals.max():.1f} mm off what the others say,"
             f" more than {LARGEST_RESIDUAL_MM:g} mm: were the targets touched in this order? Do it again"
         )
     _check_axes(found, plate)
     x_row, y_row = ((float(per_x), float(per_y), float(at_0)) for per_x, per_y, at_0 in found.T)
     return Calibration(x_row, y_row, tuple(float(off) for off in residuals))
+
+
+def _left_out_mm(columns: NDArray[np.float64], off_mm: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far each touch is from where the least-squares map of all others puts it.
+
+    Parameters
+    ----------
+    columns : (touches, 3) array
+        What the map was fitted on.
+    off_mm : (touches, 2) array
+        How far each is from the map of all: less by its leverage (Cook and Weisberg, Residuals and Influence in Regression, 2.2).
+    """
+    q, _ = np.linalg.qr(columns)
+    freedom = 1 - np.sum(q * q, axis=1)
+    if freedom.min() < LEAST_FREEDOM:
+        raise CalibrationError(
+            f"without touch {freedom.argmin() + 1} the others lie on one line, so nothing tells whether it was missed:"
+            " put the targets near the plate's corners"
+        )
+    left_out: NDArray[np.float64] = np.hypot(*off_mm.T) / freedom
+    return left_out
 
 
 def _check_axes(found: NDArray[np.float64], plate: Plate) -> None:

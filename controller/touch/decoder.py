@@ -39,6 +39,7 @@ from controller.touch.samples import TouchSample
 
 MAX_PLAYED = 10
 MAX_SLOTS = 256
+MAX_UNNAMED = 32  # contacts of a report that have no tracking id
 
 # Values of Contact.identity besides the tracking ids of the device, which are not negative.
 AWAY = -1  # no contact
@@ -80,6 +81,7 @@ class Decoder:
         self._x_code, self._y_code = (ABS_X, ABS_Y) if single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
         self._slots: dict[int, Contact] = {}  # protocol A: by identity
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
+        self._packets_s = 0.0  # when they were told last
         self._packet_seen = False
         self._gone: list[Contact] = []  # replaced within the report by another contact in the same slot
         self._touching: bool | None = None  # BTN_TOUCH, None until heard
@@ -215,7 +217,7 @@ class Decoder:
         """Protocol A: SYN_MT_REPORT closes one contact; an empty one says that there is none."""
         self._packet_seen = True
         if self._here.x is not None and self._here.y is not None and not self._here.hovers:
-            if len(self._packets) < MAX_SLOTS:
+            if len(self._packets) < (MAX_UNNAMED if self._here.identity < 0 else MAX_SLOTS):
                 self._packets.append(self._here)
             else:
                 self.warnings["contacts_absurd"] += 1
@@ -229,7 +231,8 @@ class Decoder:
             if self._here.x is not None:
                 self._end_packet()
             if self._packet_seen or self._touching is False:
-                now = associate(self._slots, self._packets, self._axes, self._serials)
+                now = associate(self._slots, self._packets, self._axes, self._serials, time_s - self._packets_s)
+                self._packets_s = time_s
                 self._gone += [was for key, was in self._slots.items() if was.finger is not None and key not in now]
                 self._slots = now
                 self._packets.clear()

@@ -1,20 +1,19 @@
 """Where one finger will be: an alpha-beta filter over its reports.
 
-Chosen by measurement (`python -m controller.offline.prediction_error`, README): against a Kalman filter of constant
-velocity its worst error is a quarter smaller at the same median, and decaying the velocity costs the median without
-helping the rest. The filter gives the velocity only: the prediction starts at the last report as it is, so that a
-moving finger is not lagged.
+Chosen by measurement (`python -m controller.offline.prediction_error`, README): Kalman and one-euro filters are no better where
+fingers move, and need more to stop in time. The filter gives the velocity only: the prediction starts at the last
+report as it is, so that a moving finger is not lagged.
 """
 
 from __future__ import annotations
 
 from math import hypot
 
-ALPHA, BETA = 0.4, 0.2  # share of a report's surprise that goes into place and velocity; best over the recordings, and flat there
+ALPHA, BETA = 0.7, 0.4  # share of a report's surprise that goes into place and velocity; best over the recordings, and flat there
 STOP_GAIN = 1.5  # the velocity used is at most this times that of the last step: a finger that stops or turns is not overshot
 REST_M = 0.35e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
 REST_REPORTS = 8  # so many in a row within the dead band, and the finger rests
-LIVELY_PERIODS, SILENT_PERIODS = 1.5, 2.5  # after a report; many panels report no finger that keeps still: silence is rest
+LIVELY_PERIODS, SILENT_PERIODS = 1.5, 2.5  # since a report; many panels report no finger that keeps still: silence is rest
 PAUSE_S = 50e-3  # since the last report: what was known of its velocity is forgotten
 LONGEST_AHEAD_S = 40e-3  # beyond, the errors measured grow faster than the use
 FARTHEST_AHEAD_M = 20e-3
@@ -72,13 +71,15 @@ class Motion:
             self._anchor_x_m, self._anchor_y_m = x_m, y_m
             self._rested = 0
 
-    def place(self, at_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
+    def place(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
         """Where the finger will be, (x_m, y_m), on the plate or beside it.
 
         Parameters
         ----------
         at_s : float
             In the clock of the reports.
+        known_s : float
+            Until when all reports have been told: silence counts up to there, however far ahead `at_s` is.
         lag_s : float
             A report tells where the finger was so long before.
         period_s : float
@@ -86,11 +87,10 @@ class Motion:
         """
         if self._rested >= REST_REPORTS:
             return self._anchor_x_m, self._anchor_y_m
-        age_s = at_s - self.time_s
-        ahead_s = age_s + lag_s if age_s > 0.0 else lag_s
-        ahead_s = min(ahead_s, LONGEST_AHEAD_S)
-        if age_s > LIVELY_PERIODS * period_s:
-            ahead_s *= max(SILENT_PERIODS - age_s / period_s, 0.0) / (SILENT_PERIODS - LIVELY_PERIODS)
+        ahead_s = min(max(at_s - self.time_s, 0.0) + lag_s, LONGEST_AHEAD_S)
+        silent_s = known_s - self.time_s
+        if silent_s > LIVELY_PERIODS * period_s:
+            ahead_s *= max(SILENT_PERIODS - silent_s / period_s, 0.0) / (SILENT_PERIODS - LIVELY_PERIODS)
         ahead_m = hypot(self.vx, self.vy) * ahead_s
         if ahead_m > FARTHEST_AHEAD_M:
             ahead_s *= FARTHEST_AHEAD_M / ahead_m

@@ -19,6 +19,7 @@ from controller.touch.report_times import ReportTimes
 from controller.touch.warnings import in_words
 
 LONGEST_WAIT_S = 3600.0
+FIRST_LINE = b"# EVEMU "
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +70,7 @@ def record(reader: EventReader, file: FileIO, seconds: float | None) -> Recorded
 
 
 def open_recording(path: Path) -> FileIO:
-    """Make the file of a new recording; one that is there is overwritten.
+    """Make the file of a new recording; a recording that is there is overwritten, and nothing else.
 
     Raises
     ------
@@ -77,6 +78,13 @@ def open_recording(path: Path) -> FileIO:
         If it cannot be.
     """
     try:
+        if path.is_file():
+            with path.open("rb") as old:
+                start = old.read(len(FIRST_LINE))
+            if start and start != FIRST_LINE:
+                raise TouchError(
+                    f"{path}: is there and is no recording: it is left as it is, give another --out, or remove it first"
+                )
         return FileIO(path, "w")
     except (OSError, ValueError) as error:
         raise TouchError(f"{path}: cannot be written ({getattr(error, 'strerror', error)})") from error

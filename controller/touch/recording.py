@@ -1,7 +1,7 @@
 """Touch recordings in evemu's text format, versions 1.0 to 1.3.
 
 A recording is somebody else's file: what is not understood is skipped or clamped, counted by kind
-(`warnings.KINDS`) and never fatal. Only a file that cannot be opened is an error.
+(`warnings.KINDS`) and never fatal. Only a file that cannot be opened, or of which nothing is a recording's, is an error.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections import Counter
 from pathlib import Path
 
 from controller.board import Board
-from controller.errors import TouchError
+from controller.errors import ConfigError, TouchError
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
@@ -57,11 +57,14 @@ class Recording:
         What the device declares or the stream shows.
     warnings : Counter of str
         What was skipped or clamped in reading, by kind.
+    understood : bool
+        Whether any line of the text is a recording's.
     """
 
     def __init__(self, text: str, name: str = "recording") -> None:
         self.name = name
         self.warnings: Counter[str] = Counter()
+        self.understood = False
         self._declared: dict[int, AxisRange] = {}
         self.events = self._parse(text)
         self.protocol = protocol_of(self._declared, {(kind, code) for kind, code, _, _ in self.events})
@@ -78,6 +81,8 @@ class Recording:
         ------
         TouchError
             If the file cannot be read, naming it.
+        ConfigError
+            If nothing in it is a line of a recording.
         """
         try:
             fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # a pipe nobody writes to must not hang us
@@ -91,12 +96,19 @@ class Recording:
             raise TouchError(f"{path}: the recording cannot be read ({error.strerror})") from error
         except ValueError as error:  # a NUL in the name
             raise TouchError(f"{str(path)!r}: the recording cannot be read ({error})") from error
+        damaged = 0
         try:
-            return cls(data.decode("utf-8-sig"), path.name)
+            text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = data.decode("utf-8", errors="replace")
+            damaged = sum("\ufffd" in line for line in text.split("\n"))
         recording = cls(text, path.name)
-        recording.warnings["not_utf8"] = sum("\ufffd" in line for line in text.split("\n"))
+        if not recording.understood:
+            raise ConfigError(
+                f"{path}: is no touch recording: none of its lines is one of evemu's (haptic-panel record makes them)"
+            )
+        if damaged:
+            recording.warnings["not_utf8"] = damaged
         return recording
 
     @property
@@ -133,15 +145,20 @@ class Recording:
             line = raw_line.strip()
             event = EVENT.fullmatch(line)
             if event and TIME.fullmatch(event[1]):
+                self.understood = True
                 found.append((int(event[2], 16), int(event[3], 16), self._int32(event[4]), float(event[1])))
             elif axis := AXIS.fullmatch(line):
+                self.understood = True
                 declared = AxisRange(self._int32(axis[2]), self._int32(axis[3]))
                 if declared.minimum < declared.maximum:
                     self._declared[int(axis[1], 16)] = declared
             elif version := VERSION.fullmatch(line):
+                self.understood = True
                 if (int(version[1]), int(version[2])) > NEWEST_VERSION:
                     self.warnings["unknown_version"] += 1
-            elif line and not line.startswith("#") and not OTHER.fullmatch(line):
+            elif OTHER.fullmatch(line):
+                self.understood = True
+            elif line and not line.startswith("#"):
                 self.warnings["garbage_lines"] += 1
         times = rebased([event[3] for event in found], self.warnings)
         return tuple([(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(found, times, strict=True)])

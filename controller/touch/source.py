@@ -53,7 +53,10 @@ class TrackedTouch(TouchSource, Protocol):
         """
 
     def confirmed(self, finger: int) -> bool:
-        """Whether the panel has confirmed the contact; the emissions of one that is not are capped."""
+        """Whether the panel has confirmed the contact; the emissions of one that is not are capped.
+
+        It is known of a finger that was released too, until the next `read`: lifting it may be felt.
+        """
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
         """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost.
@@ -66,4 +69,23 @@ class TrackedTouch(TouchSource, Protocol):
             In the loop's clock.
         period_s : float
             Above 0 it is repeated so, until the next call; `emitted(now_s, now_s)` where nothing follows.
+        """
+
+    def quiet_until_s(self, now_s: float, next_s: float) -> float:
+        """Until when no emission may begin, so that a contact that may be a ghost shows whether it is one.
+
+        To be asked before anything is played, and while anything is repeated. It is at most one emission and the life of
+        its ghosts ahead, and what it may take of the time is bounded.
+
+        Parameters
+        ----------
+        now_s : float
+            In the loop's clock.
+        next_s : float
+            When the next emission would begin, now or later.
+
+        Returns
+        -------
+        float
+            `now_s` or earlier: go ahead.
         """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +32,12 @@ class Track:
         time_s, x_m, y_m = np.array(reports, np.float64).T
         return cls(finger, time_s, x_m, y_m)
 
+    @classmethod
+    def joined(cls, finger: int, parts: Iterable[Track]) -> Track:
+        """One finger that the panel lost and found again, from the track of each contact in the order of time."""
+        kept = list(parts)
+        return cls(finger, *(np.concatenate([getattr(part, name) for part in kept]) for name in ("time_s", "x_m", "y_m")))
+
     @property
     def begin_s(self) -> float:
         """Time of the first report."""
@@ -43,5 +49,5 @@ class Track:
         return float(self.time_s[-1])
 
     def position(self, time_s: float) -> tuple[float, float]:
-        """(x_m, y_m), linear between reports, held before the first and after the last."""
+        """(x_m, y_m), linear between reports and between contacts, held before the first and after the last."""
         return float(np.interp(time_s, self.time_s, self.x_m)), float(np.interp(time_s, self.time_s, self.y_m))

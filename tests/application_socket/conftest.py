@@ -1,7 +1,9 @@
 """A panel's socket without a panel: turns of a loop on a clock of the test's own, real sockets, and a control that writes down."""
 
+import contextlib
 import json
 import math
+import os
 import select
 import shutil
 import socket
@@ -112,6 +114,43 @@ def read(client):
         text += more
     assert not text or text.endswith(b"\n")
     return [json.loads(line) for line in text.splitlines()]
+
+
+@contextlib.contextmanager
+def another_process(does, uid=None, groups=()):
+    """A process of another user, as far as this one may make one: it calls `does(says, hears)` while the test goes on.
+
+    Parameters
+    ----------
+    does : callable
+        Given two binary files: what it writes to the first is read from the second of this side, and the other way round.
+    """
+    to_child, from_child = os.pipe(), os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        code = 1
+        try:
+            os.close(to_child[1])
+            os.close(from_child[0])
+            if uid is not None and os.geteuid() == 0:
+                os.setgroups(groups)
+                os.setgid(uid)
+                os.setuid(uid)
+            does(os.fdopen(from_child[1], "wb", 0), os.fdopen(to_child[0], "rb", 0))
+            code = 0
+        finally:
+            os._exit(code)
+    os.close(to_child[0])
+    os.close(from_child[1])
+    with os.fdopen(to_child[1], "wb", 0) as says, os.fdopen(from_child[0], "rb", 0) as hears:
+        yield says, hears
+    _, status = os.waitpid(pid, 0)
+    assert status == 0, "the other process failed"
+
+
+@pytest.fixture
+def another():
+    return another_process
 
 
 @pytest.fixture

@@ -118,13 +118,58 @@ def test_a_service_too_busy_to_accept_is_running_nevertheless(settings):
                 SocketFile(settings)
 
 
-def test_two_services_do_not_start_at_once(settings, folder):
-    number = os.open(folder, os.O_RDONLY)
+def held(lock, mode=0o600):
+    """The lock's file, held as another service that starts would hold it."""
+    number = os.open(lock, os.O_RDWR | os.O_CREAT, 0o600)
+    os.fchmod(number, mode)
     fcntl.flock(number, fcntl.LOCK_EX)
+    return number
+
+
+def test_two_services_do_not_start_at_once(settings, folder):
+    number = held(folder / ".panel.sock.lock")
     with pytest.raises(ControllerError, match="another service makes its socket there"):
         SocketFile(settings)
     os.close(number)
     SocketFile(settings).close()
+    assert not list(folder.iterdir())
+
+
+def test_whoever_locks_the_folder_keeps_no_service_from_starting(settings, folder, another):
+    """Any local user can: it is enough that the folder can be read."""
+    folder.chmod(0o755)
+
+    def locks(says, hears):
+        fcntl.flock(os.open(folder, os.O_RDONLY), fcntl.LOCK_EX)
+        says.write(b"locked\n")
+        hears.readline()
+
+    with another(locks, uid=65534) as (says, hears):
+        assert hears.readline() == b"locked\n"
+        SocketFile(settings).close()
+        says.write(b"\n")
+
+
+def test_a_lock_that_others_can_open_is_none(settings, folder):
+    number = held(folder / ".panel.sock.lock", mode=0o644)
+    with pytest.raises(ConfigError, match=r"\.panel\.sock\.lock is not a file that only this user can open"):
+        SocketFile(settings)
+    os.close(number)
+
+
+def test_a_lock_that_its_holder_removed_meanwhile_is_taken_anew(settings, folder, monkeypatch):
+    """Between our opening it and locking it: two could hold one each."""
+    real, opened = fcntl.flock, []
+
+    def removed_first(number, how):
+        if not opened:
+            (folder / ".panel.sock.lock").unlink()
+        opened.append(os.fstat(number).st_nlink)
+        real(number, how)
+
+    monkeypatch.setattr(fcntl, "flock", removed_first)
+    SocketFile(settings).close()
+    assert opened == [0, 1]
 
 
 @pytest.mark.parametrize("make", [lambda path: path.write_text("precious"), Path.mkdir, lambda path: path.symlink_to("/dev/null")])

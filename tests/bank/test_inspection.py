@@ -1,12 +1,13 @@
 import os
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, is_current, verify_bank
+from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.reader import Bank
 from controller.errors import BankError
 
@@ -85,21 +86,40 @@ def test_info_tells_what_a_bank_is_without_reading_its_entries(bank_path, board)
     assert info["bytes"] == bank_path.stat().st_size
 
 
-def test_a_cached_bank_is_current_only_for_its_board_grid_and_cells(tmp_path, make_bank, board):
-    path, pitch_m = tmp_path / "bank", 40e-3
-    grid = Grid.of(board.plate, pitch_m)
+def with_pitch(board, pitch_mm):
+    return msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, pitch_mm=pitch_mm))
+
+
+def test_a_bank_serves_only_its_board_pitch_and_cells(tmp_path, make_bank, board):
+    path, board = tmp_path / "bank", with_pitch(board, 40.0)
+    grid = Grid.of(board.plate, 40e-3)
     some = np.arange(grid.cells) % 3 == 0
-    assert not is_current(path, board, pitch_m, some)  # there is none
+
+    def reason(board=board, cells=some):
+        return fit(path, board, cells).reason
+
+    assert reason() == "there is none yet"
     make_bank(path, grid, some)
-    assert is_current(path, board, pitch_m, some)
-    assert is_current(path, board, pitch_m, some & (np.arange(grid.cells) > 0))  # more than needed
-    assert not is_current(path, board, pitch_m, None)  # less than needed
-    assert not is_current(path, board, 35e-3, np.zeros(Grid.of(board.plate, 35e-3).cells, bool))
+    assert reason() == ""
+    assert reason(cells=some & (np.arange(grid.cells) > 0)) == "", "more than needed"
+    assert "35" in reason(with_pitch(board, 35.0), np.zeros(Grid.of(board.plate, 35e-3).cells, bool))
     with path.open("r+b") as file:
         file.seek(-1, os.SEEK_END)
         file.write(b"\x01")
-    assert not is_current(path, board, pitch_m, some)  # damaged, if only in the padding
+    assert "padding" in reason(), "damaged, if only there"
     make_bank(path, grid, some, channel_edges=None)
-    assert not is_current(path, board, pitch_m, some)  # built before banks said how many edges an emission has
+    assert reason() == "it was built by another version", "before banks said how many edges an emission has"
     make_bank(path, grid, some, digest=bytes(32))
-    assert not is_current(path, board, pitch_m, some)  # of another board
+    assert "was built for another board" in reason()
+
+
+def test_a_bank_that_lacks_cells_is_built_with_those_it_has(tmp_path, make_bank, board):
+    path, board = tmp_path / "bank", with_pitch(board, 40.0)
+    grid = Grid.of(board.plate, 40e-3)
+    number = np.arange(grid.cells)
+    make_bank(path, grid, number % 3 == 0)
+    found = fit(path, board, number % 2 == 0)
+    assert found.reason == f"it lacks {((number % 2 == 0) & (number % 3 != 0)).sum()} cells"
+    assert (found.cells == ((number % 2 == 0) | (number % 3 == 0))).all()
+    found = fit(path, with_pitch(board, 35.0), some := np.zeros(Grid.of(board.plate, 35e-3).cells, bool))
+    assert found.cells is some, "of another grid nothing is kept"

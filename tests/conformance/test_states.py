@@ -200,7 +200,7 @@ WANTED = {
     "ramp up": State.RAMPING | State.HV_ENABLE,
     "armed": State.ARMED,
     "checking": State.ARMED | State.CHECKING,
-    "pending": State.PENDING | State.READY,
+    "pending": State.PENDING | State.WAITING,
     "full queue": State.PENDING | State.PLAYING,
     "scheduled": State.PENDING,
     "delayed": State.DELAYED,

@@ -1,19 +1,14 @@
 """The model of the stage protection against the reference that goes tick by tick, replaced plans included."""
 
-import sys
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from limits_reference import NO_LIMITS, Inputs, limits_reference
 
 from controller.fpga.model_limits import CHANNEL_EDGES, DUTY, LONG_EMISSION, SHORT_PULSE, TOTAL_EDGES, LimitSettings, StageLimits
-
-sys.path.insert(0, str(Path(__file__).parent.parent))
-
-from limits_reference import NO_LIMITS, Inputs, limits_reference
 
 WINDOW_TICKS = 60
 DAY_TICKS = 200

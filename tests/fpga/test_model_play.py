@@ -41,7 +41,7 @@ LEAD_TICKS = TIME_LEAD_TICKS - 2  # from the tick in which a scheduled play is c
 
 def test_an_emission_is_the_words_stored_each_held_one_bit_and_then_the_idle_word(armed):
     armed.play()
-    assert armed.status().state == ARMED | State.PENDING | State.READY
+    assert armed.status().state == ARMED | State.PENDING | State.WAITING
     start = armed.trigger()
     capture = armed.pins_after(1000)
     assert capture.ticks.tolist() == [start + BIT_TICKS * n for n in range(31)]
@@ -288,7 +288,7 @@ def test_a_delay_is_counted_from_the_trigger_and_the_play_is_no_longer_in_the_qu
     armed.play(first=20)
     start = armed.trigger() + 5000
     status = armed.status()
-    assert (status.queued, State.DELAYED in status.state, State.READY in status.state) == (1, True, False)
+    assert (status.queued, State.DELAYED in status.state, State.WAITING in status.state) == (1, True, False)
     armed.trigger()  # of no use to the next one: the first has not sounded
     capture = armed.pins_after(5000)
     assert capture.ticks[0] == start

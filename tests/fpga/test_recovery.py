@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from controller.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
+from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
 from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
@@ -21,6 +22,7 @@ from controller.fpga.simulated_link import SimulatedLink
 from controller.fpga.time_base import TimeBase
 from controller.latency import Counters
 from controller.outputs import Outputs
+from controller.panel_state import PanelState
 
 BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
@@ -331,6 +333,104 @@ def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, besi
 )
 def test_the_rule(error, action):
     assert action_for(error) is action
+
+
+def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
+    clock = VirtualClock()
+    clock._now_s = 1.0
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
+    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), Counters())
+    clock._now_s += 1.0
+    with pytest.raises(UnfitFpga, match="BUILD_HASH"):
+        outputs.advance(clock.now_s())
+    assert action_for(UnfitFpga("")) is Action.END
+    assert not gateware.take_capture().hv.any()
+
+
+def test_a_setting_that_is_damaged_on_its_way_is_no_unfit_fpga(panel):
+    def flip(frame):
+        frame[len(frame) // 2] ^= 1
+
+    raised = []
+    for first in range(60):
+        panel.link.reset()
+        panel.wait(2e-3)
+        panel.link.events = {panel.link.frames + first: flip}
+        try:
+            panel.session.bring_up()
+        except LinkError as error:
+            raised.append(error)
+    assert len(raised) > 20
+    assert not [error for error in raised if isinstance(error, UnfitFpga)]
+
+
+@pytest.mark.parametrize("permit", list(Permit))
+def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_each_by_its_name(permit):
+    clock = VirtualClock()
+    link = simulated(clock, dark_s=7.0)
+    session = Session(link, BOARD, BUILD, clock.now_s, bring_up=False)
+    link.gateware.permit(0, False, permit)
+    counters = Counters()
+    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), counters)
+    seen = []
+
+    def turns(until_s):
+        while not outputs.advance(clock.now_s()) and clock.now_s() < until_s:
+            seen.extend([outputs.state] if seen[-1:] != [outputs.state] else [])
+            clock._now_s = max(clock.now_s() + 1e-6, outputs.next_s())
+
+    assert (outputs.state, outputs.cause) == (PanelState.WAITING_FOR_FPGA, "")
+    turns(20.0)
+    waits = PanelState.NO_PERMIT if permit is Permit.RUN else PanelState.FAULTED
+    assert seen == [PanelState.WAITING_FOR_FPGA, waits]
+    assert (outputs.on, outputs.state) == (False, waits)
+    link.gateware.permit(round(link.free_s() * link.clock_hz) + 100, True, permit)
+    turns(21.0)
+    assert (outputs.on, outputs.state, outputs.cause) == (True, PanelState.ARMED, "")
+    assert (counters.outages, counters.host_silent) == (0, 0), "waiting at the start is no outage"
+
+
+def simulated(clock, dark_s):
+    """A link to an FPGA that is without supply at first."""
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    link = BadDay(BOARD.link, clock.now_s, gateware)
+    link.reset(dark_s)
+    return link
+
+
+def test_a_panel_that_a_client_disarmed_stays_so_through_a_reset_until_it_is_armed_again(panel):
+    assert panel.plays()
+    panel.outputs.wanted = False
+    off_s = panel.outputs.disarm()
+    while panel.clock.now_s() < off_s + 1.0:
+        assert not panel.advance()
+    assert (panel.outputs.state, panel.outputs.on) == (PanelState.DISARMED, False)
+    assert panel.session.heartbeat().faults == 0, "it is fed all the while"
+    panel.link.reset()
+    while panel.clock.now_s() < off_s + 5.0:
+        assert not panel.advance()
+    assert panel.outputs.state is PanelState.DISARMED
+    back_s = panel.clock.now_s()
+    panel.outputs.wanted = True
+    panel.come_on(back_s + 1.0)
+    assert panel.plays()
+    assert panel.off_between(off_s, back_s)
+
+
+def test_a_step_that_fails_while_the_outputs_come_on_tells_the_fpga_at_once(panel, monkeypatch):
+    panel.outputs.failed(LinkError("gone for a moment"), panel.clock.now_s())
+
+    def damaged():
+        raise LinkError("its answer was damaged")
+
+    monkeypatch.setattr(panel.session, "require_armed", damaged)
+    while panel.outputs.cause == "gone for a moment":
+        panel.advance()
+    assert panel.outputs.cause == "its answer was damaged"
+    panel.wait(BOARD.limits.ramp_ms * 1e-3 + 1e-3)
+    assert BOARD.limits.ramp_ms * 1e-3 + 2e-3 < TIMEOUT_S, "sooner than by the heartbeat's end"
+    assert State.HV_ENABLE not in panel.session.heartbeat().state
 
 
 def test_both_permits_are_needed():

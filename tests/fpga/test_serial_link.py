@@ -261,7 +261,7 @@ def test_answers_nobody_asked_for_are_read_away_before_the_next_message(line, op
 def test_a_device_that_babbles_is_given_up(line, open_link):
     link = open_link(BRIEF_S)
     link._unsure = True
-    link._port = SimpleNamespace(write=len, read=lambda _: b"U" * 4096, in_waiting=0, close=lambda: None)
+    link._port = SimpleNamespace(write=len, read=lambda _: b"U" * 4096, in_waiting=0, is_open=True, close=lambda: None)
     with pytest.raises(LinkError, match="sends without being asked: is it the panel's port"):
         nops(link, 1)
 
@@ -285,16 +285,25 @@ def test_a_session_survives_a_lost_byte(board, clock, line, open_link):
         setattr(line, direction, lambda data: data)
 
 
-def test_a_board_unplugged_in_the_middle_is_an_error_each_time(clock, line):
-    terminal = PseudoTerminal(line.answer)
-    link = SerialLink(terminal.device, BAUD, clock.now_s, BRIEF_S)
-    nops(link, 1)
-    terminal.close()
-    for attempt in (lambda: nops(link, 1), link.trigger, lambda: nops(link, 1)):
-        with pytest.raises(LinkError, match="still plugged in"):
+def test_a_board_unplugged_in_the_middle_is_an_error_each_time_until_it_is_back(clock, line, tmp_path):
+    port = tmp_path / "ttyPANEL"
+    with PseudoTerminal(line.answer) as terminal:
+        port.symlink_to(terminal.device)
+        link = SerialLink(str(port), BAUD, clock.now_s, BRIEF_S)
+        nops(link, 1)
+    port.unlink()
+    for attempt, said in (
+        (lambda: nops(link, 1), "still plugged in"),
+        (link.trigger, "still plugged in"),
+        (lambda: nops(link, 1), "there is no serial port"),
+    ):
+        with pytest.raises(LinkError, match=said):
             attempt()
-    link.close()
-    link.close()
+    with PseudoTerminal(line.answer) as terminal:
+        port.symlink_to(terminal.device)
+        nops(link, 1)
+        link.close()
+        link.close()
 
 
 @pytest.mark.parametrize(

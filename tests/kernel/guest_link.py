@@ -29,7 +29,7 @@ from controller.outputs import Outputs
 from controller.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"
-NAMES = ["TRIGGER", "READY", "PERMIT"]
+NAMES = ["TRIGGER", "CONFIGURED", "PERMIT"]
 SETTINGS = LinkSettings(
     kind="spi",
     clock_hz=80_000_000,
@@ -38,7 +38,7 @@ SETTINGS = LinkSettings(
     device="/dev/spidev0.0",
     gpio_chip=LABEL,
     trigger_line="TRIGGER",
-    ready_line="READY",
+    configured_line="CONFIGURED",
     permit_line="PERMIT",
 )
 SIMULATED = load_board(find_board("simulated"))
@@ -60,7 +60,7 @@ class SlowClock:
 
 CLOCK = SlowClock()
 LINES = GpioLines(LABEL, NAMES)
-LINES.pull("READY", 1)
+LINES.pull("CONFIGURED", 1)
 BIND = Path("/sys/bus/spi/drivers/spidev")
 TIMEOUT_MS = Path("/sys/module/labdev/parameters/timeout_ms")  # until a controller gives up a transfer
 TIMEOUT_MS.write_text("20000")
@@ -219,14 +219,14 @@ def test_the_permit_is_given_while_the_link_is_open():
 
 
 def test_an_fpga_that_is_not_configured_is_told_and_gets_no_permit():
-    LINES.pull("READY", 0)
+    LINES.pull("CONFIGURED", 0)
     try:
-        assert "is not configured: its line 'READY' is low" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
+        assert "is not configured: its line 'CONFIGURED' is low" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
     finally:
-        LINES.pull("READY", 1)
+        LINES.pull("CONFIGURED", 1)
     assert LINES.value("PERMIT") == 0
     with opened() as link:
-        assert link.lines.ready()
+        assert link.lines.configured()
 
 
 def test_chips_and_lines_that_are_not_there_are_named_with_those_that_are():

@@ -16,11 +16,12 @@ binds=()
 while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
 exec 3> >(exec sed -u 's/\r//g' | tee "$tree/log")
 printer=$!
-"${as_root[@]}" setpriv --pdeathsig TERM env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 timeout -s TERM -k 20 "${LIMIT_S:-900}" \
+"${as_root[@]}" setpriv --pdeathsig TERM env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 \
   systemd-nspawn -q -b -D "$tree" -M "$name" --register=no --keep-unit --console=interactive --private-network "${binds[@]}" \
   systemd.show_status=false </dev/null >&3 2>&1 3>&- &
 machine=$!
 exec 3>&-
+"$1" "$here/../patience.py" $machine "$tree/log" "${LIMIT_S:-900}" &
 wait $machine || true
 wait $printer || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$tree/log" | tail -n 1 | grep . || echo 99)"

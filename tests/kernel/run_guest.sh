@@ -3,7 +3,8 @@
 # Its / is this machine's own, read-only, so it has the same Python, packages and checkout; /run and /mnt are its own.
 # With --systemd its / is the tree of make_tree.sh, and systemd and udev run in it.
 # usage: run_guest.sh [--systemd] PYTHON FILE.py...     exit code: of run_tests.py, or 99 where the guest came to no end
-# Variables whose names begin with GUEST_ are handed on (not with --systemd); LIMIT_S ends a guest that hangs.
+# Variables whose names begin with GUEST_ are handed on (not with --systemd); LIMIT_S ends a guest that hangs: seconds without a
+# word from it that this machine had to spare (patience.py).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 systemd=
@@ -52,7 +53,7 @@ until [ -S "$run/gateware" ]; do kill -0 "$gateware"; sleep 0.05; done
 # -icount: each instruction takes 2 ns of the guest's time, however busy this machine is
 exec 3> >(exec sed -u 's/\r//g' | tee "$run/log")
 printer=$!
-setpriv --pdeathsig TERM timeout -k 5 "${LIMIT_S:-900}" qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -rtc clock=vm -cpu max -smp 1 -m 1024 -nodefaults -no-user-config \
+setpriv --pdeathsig TERM qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -rtc clock=vm -cpu max -smp 1 -m 1024 -nodefaults -no-user-config \
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
   -device virtio-serial -chardev socket,id=gateware,path="$run/gateware" -device virtserialport,chardev=gateware,name=gateware \
@@ -61,6 +62,7 @@ setpriv --pdeathsig TERM timeout -k 5 "${LIMIT_S:-900}" qemu-system-x86_64 -M q3
   </dev/null >&3 2>&1 3>&- &
 machine=$!
 exec 3>&-
+"$python" "$here/../patience.py" $machine "$run/log" "${LIMIT_S:-900}" &
 wait $machine || true
 wait $printer || true
 exit "$(sed -n 's/^ENDS WITH \([0-9]*\)$/\1/p' "$run/log" | tail -n 1 | grep . || echo 99)"

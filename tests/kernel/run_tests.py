@@ -8,11 +8,16 @@ import faulthandler
 import importlib.util
 import os
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
 
-LONGEST_S = 300.0  # of one test; then the stacks of all threads are shown and nothing more is run
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from patience import Patience
+
+LONGEST_S = 300.0  # that a test may have to spare without an end; then the stacks of all threads are shown and nothing more is run
 
 
 def load(path):
@@ -25,9 +30,19 @@ def load(path):
     return module
 
 
+def end_if_it_hangs(ended):
+    """Wait for the end of a test, or end all."""
+    patience = Patience(LONGEST_S)
+    while not ended.wait(1.0):
+        if patience.over:
+            faulthandler.dump_traceback(file=sys.stdout)
+            os._exit(1)
+
+
 def run(label, test):
     """Whether a test passed; an exception of any kind is its failure."""
-    faulthandler.dump_traceback_later(LONGEST_S, exit=True, file=sys.stdout)
+    ended = threading.Event()
+    threading.Thread(target=end_if_it_hangs, args=(ended,), daemon=True).start()
     started_s = time.monotonic()
     try:
         with contextlib.redirect_stderr(sys.stdout):
@@ -37,7 +52,7 @@ def run(label, test):
         print(f"FAILED {label}", flush=True)
         return False
     finally:
-        faulthandler.cancel_dump_traceback_later()
+        ended.set()
     print(f"PASSED {label} {time.monotonic() - started_s:.2f} s", flush=True)
     return True
 

@@ -2,18 +2,18 @@
 
 import re
 import subprocess
-import time
+from functools import partial
 from pathlib import Path
 
 import panel_board
+import patience
 
 from controller.bank.reader import Bank
 from controller.board import load_board
 
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"
-BANK = Path("/var/lib/haptic-panel/banks/simulated-scene.bank")
-PATIENCE_S = 120.0  # in a virtual machine without help of the processor, beside other work
+BANK = Path("/var/lib/haptic-panel/banks/panel.bank")
 
 
 def run(*command, cwd=CHECKOUT):
@@ -60,13 +60,7 @@ def said():
     return run("journalctl", "--no-pager", "-o", "cat", f"_SYSTEMD_INVOCATION_ID={shown('InvocationID')}")
 
 
-def wait_for(what, condition):
-    """Until a condition holds; its value."""
-    until_s = time.monotonic() + PATIENCE_S
-    while not (value := condition()):
-        assert time.monotonic() < until_s, f"waited {PATIENCE_S} s for {what}\n{journal()[-4000:]}"
-        time.sleep(0.05)
-    return value
+wait_for = partial(patience.wait_for, seconds=120.0, said=lambda: journal()[-4000:])
 
 
 def restarted(old_pid):

@@ -96,7 +96,7 @@ class Panel:
         self.inputs = []  # (tick, name of the model's method, its arguments after the tick)
         self.answers = []  # what came back, in the order of the exchanges
         self.words, self.levels, self.alive = [], [], []  # (tick, value) of channel_o, hv_enable_o and hv_alive_o
-        self.readies, self.faults, self.foci = [], [], []  # of ready_o, fault_o and focus_o
+        self.waits, self.faults, self.foci = [], [], []  # of waiting_o, fault_o and focus_o
         self._frame = bytearray(frames.LOAD_FRAME_BYTES)
 
     @classmethod
@@ -140,7 +140,7 @@ class Panel:
             dut.channel_o: self.words,
             dut.hv_enable_o: self.levels,
             dut.hv_alive_o: self.alive,
-            dut.ready_o: self.readies,
+            dut.waiting_o: self.waits,
             dut.fault_o: self.faults,
             dut.focus_o: self.foci,
         }
@@ -206,7 +206,7 @@ class Panel:
         dut.spi_cs_n_i.value = 0
         mosi.value = level = int(sent[0])
         await Timer(INPUT_TICKS * CLOCK_NS, "ns")
-        pins = {State.READY: bool(dut.ready_o.value), State.HV_ENABLE: bool(dut.hv_enable_o.value)}
+        pins = {State.WAITING: bool(dut.waiting_o.value), State.HV_ENABLE: bool(dut.hv_enable_o.value)}
         fault = bool(dut.fault_o.value)
         await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS) * CLOCK_NS, "ns")
         for number, following in enumerate(sent[1:], 1):  # mode 0: MOSI moves with the fall of SCK

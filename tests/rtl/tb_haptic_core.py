@@ -95,7 +95,7 @@ async def plays_a_bank_entry_bit_for_bit(dut):
     await panel.send(frames.pack_play, 1)
     await panel.wait(10)
     before = await panel.status()
-    assert State.PENDING | State.READY in before.state
+    assert State.PENDING | State.WAITING in before.state
     assert before.result is Result.OK
     start = await panel.trigger() + FIRST_WORD_TICKS
     await panel.wait(len(words) * BIT_TICKS + 20)
@@ -502,7 +502,7 @@ async def is_low_within_four_clocks_of_a_lost_permit_and_says_so(dut, which):
     lost = panel.tick
     panel.permit(False, which)
     await panel.wait(4)
-    for output in (dut.channel_o, dut.hv_enable_o, dut.hv_alive_o, dut.focus_o, dut.ready_o):
+    for output in (dut.channel_o, dut.hv_enable_o, dut.hv_alive_o, dut.focus_o, dut.waiting_o):
         assert output.value == 0, output._name
     off_tick = panel.levels[-1][0]
     assert lost < off_tick <= lost + 4
@@ -713,24 +713,24 @@ async def gives_signs_of_life_at_10_khz_while_the_outputs_are_on_and_only_then(d
 
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
-async def the_ready_line_is_high_from_an_accepted_play_to_its_trigger(dut):
+async def the_waiting_line_is_high_from_an_accepted_play_to_its_trigger(dut):
     panel, _ = await armed(dut, SHORT)
     await panel.send(frames.pack_play, 0)
     accepted = panel.release_tick + JUDGED_TICKS
     await panel.wait(20)
-    assert panel.readies == [(accepted + FETCH_TICKS, 1)]
+    assert panel.waits == [(accepted + FETCH_TICKS, 1)]
     tick = await panel.trigger()
-    assert panel.readies[1:] == [(tick + 5, 0)]
+    assert panel.waits[1:] == [(tick + 5, 0)]
     await panel.send(frames.pack_play, 0)  # accepted after the emission has ended
     await panel.send(frames.pack_play, SLOTS)  # refused
     await panel.trigger()
     await panel.send(frames.pack_play, 0, start=Start.NOW)
     await panel.status()
-    assert [level for _, level in panel.readies] == [1, 0, 1, 0], "no trigger is asked for what starts by itself"
+    assert [level for _, level in panel.waits] == [1, 0, 1, 0], "no trigger is asked for what starts by itself"
     await panel.play(0)
     await panel.control(Control.STOP)
     await panel.status()
-    assert [level for _, level in panel.readies[4:]] == [1, 0]
+    assert [level for _, level in panel.waits[4:]] == [1, 0]
     panel.check_against_model()
 
 
@@ -896,7 +896,7 @@ async def a_reset_in_the_middle_of_everything_leaves_nothing_behind(dut):
         dut.trigger_i.value = 1  # no edge: it was high before anything was seen
         await ClockCycles(dut.clk_i, 2)
         await FallingEdge(dut.clk_i)
-        outputs = (dut.channel_o, dut.hv_enable_o, dut.hv_alive_o, dut.focus_o, dut.ready_o, dut.fault_o)
+        outputs = (dut.channel_o, dut.hv_enable_o, dut.hv_alive_o, dut.focus_o, dut.waiting_o, dut.fault_o)
         for output in outputs:
             assert output.value == 0, output._name
         assert dut.uart_tx_o.value == 1

@@ -109,7 +109,7 @@ class Reference:
             "repeating_o": repeating,
             "settled_o": not playing and not resting,
             "quiet_o": not used and not resting,
-            "ready_o": head is not None and head.start == Start.TRIGGER and room,
+            "waiting_o": head is not None and head.start == Start.TRIGGER and room,
             "landing_used_o": used and self.play.buffer == inputs["landing"] and not self.play.live,
             "live_o": used and bool(self.play.live),
             "ended_o": tick - 4 in self.ends,

@@ -1,10 +1,15 @@
+import math
+
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import linear_sum_assignment
 
 from controller.board import data_folder, load_board
+from controller.touch.associate import assignment
 from controller.touch.axes import Axes, AxisRange
-from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, Decoder
+from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, MAX_UNNAMED, Decoder
 from controller.touch.panel import Protocol, protocol_of, protocol_of_device
 
 BOARD = load_board(data_folder("boards") / "simulated")
@@ -225,7 +230,7 @@ def test_protocol_a_takes_so_many_contacts_in_one_report_and_counts_the_rest():
     assert d.warnings["contacts_absurd"] == 2
 
 
-def test_protocol_a_pairs_the_nearest_first_and_each_once():
+def test_protocol_a_pairs_each_contact_once_and_none_over_more_than_a_step():
     d = decoder(Protocol.A)
 
     def x_mm(*places):
@@ -239,6 +244,81 @@ def test_protocol_a_pairs_the_nearest_first_and_each_once():
     assert play(d, *x_mm(84), REPORT) == [(0, 53, 10, False), (2, 84, 10, True)]  # 31 mm on
     assert play(d, *x_mm(84, 150), REPORT, *x_mm(84, 150, 200), REPORT) == [(3, 150, 10, True), (4, 200, 10, True)]
     assert [finger for finger, _, _ in d.fingers()] == [2, 3, 4]
+
+
+def passing(seed, *, period_s=8e-3, apart_m=3e-3, noise_m=0.1e-3, speeds=(0.3, 0.3)):
+    """Finger numbers of two fingers, each report's in the order of the fingers, that pass each other at any angle."""
+    random = np.random.default_rng(seed)
+    first, between = random.uniform(0, 2 * np.pi), random.uniform(np.pi / 2, 3 * np.pi / 2)
+    velocity = np.array([[speed * f(first + k * between) for f in (np.cos, np.sin)] for k, speed in enumerate(speeds)])
+    along = velocity[1] - velocity[0]
+    aside = apart_m / 2 * np.array([-along[1], along[0]]) / np.hypot(*along) * random.choice([-1, 1])
+    d, found, phase = decoder(Protocol.A), [], random.uniform(-0.5, 0.5)
+    reports = int(0.06 / max(speeds) / period_s)  # on the plate, before they meet and after
+    for k in range(-reports, reports + 1):
+        time_s = (k + phase + random.uniform(-0.05, 0.05)) * period_s
+        places = velocity * time_s + [0.105, 0.074] + np.array([-aside, aside]) + random.normal(0, noise_m, (2, 2))
+        raw = np.rint(places * 1e4).astype(int).tolist()
+        for finger in random.permutation(2).tolist():
+            for event in ((ABS, X, raw[finger][0]), (ABS, Y, raw[finger][1]), MT_REPORT):
+                d.feed(*event, time_s)
+        d.feed(*REPORT, time_s)
+        by_place = {(round(x_m * 1e4), round(y_m * 1e4)): finger for finger, x_m, y_m in d.fingers()}
+        found.append([by_place.get(tuple(place)) for place in raw])
+    return found
+
+
+@pytest.mark.parametrize(
+    "how", [{}, {"noise_m": 0.3e-3}, {"speeds": (0.5, 0.5)}, {"period_s": 16e-3}, {"apart_m": 1.5e-3}], ids=str
+)
+def test_protocol_a_keeps_fingers_that_pass_each_other_apart(how):
+    swapped = sum(found[-1] != found[0] for found in (passing(seed, **how) for seed in range(100)))
+    assert swapped < 5  # nearest first: 40 in the first case, 89 in the last
+
+
+def test_protocol_a_forgets_velocities_in_a_pause():
+    d = decoder(Protocol.A)
+    place = [(ABS, Y, 100), MT_REPORT, REPORT]
+    for k in range(10):
+        for event in ((ABS, X, 100 + 24 * k), *place):  # 300 mm/s
+            d.feed(*event, k * 8e-3)
+    for event in ((ABS, X, 100 + 24 * 9 + 200), *place):  # 20 mm on after a rest: as a finger at 300 mm/s it would be 10 mm back
+        d.feed(*event, 0.172)
+    assert [finger for finger, _, _ in d.fingers()] == [0]
+    for event in ((ABS, X, 100 + 24 * 9 + 200 - 290), *place):  # 29 mm back
+        d.feed(*event, 0.180)
+    assert [finger for finger, _, _ in d.fingers()] == [0]
+
+
+def test_protocol_a_takes_only_so_many_contacts_without_tracking_id():
+    d = decoder(Protocol.A)
+    flood = [event for k in range(MAX_UNNAMED + 2) for event in ((X, 10 * k), (Y, 0), MT_REPORT)]
+    play(d, *flood, REPORT, *flood, REPORT)
+    assert counts(d) == (2, MAX_UNNAMED, MAX_UNNAMED)
+    assert d.warnings["contacts_absurd"] == 4
+
+
+costs = st.integers(1, 10).flatmap(
+    lambda rows: st.lists(
+        st.lists(st.one_of(st.just(math.inf), st.floats(0, 1), st.integers(0, 3)), min_size=7, max_size=7),
+        min_size=rows,
+        max_size=rows,
+    )
+)
+
+
+@given(costs)
+def test_the_assignment_is_the_cheapest_there_is(found):
+    """Against scipy's; the last columns are for rows that get none, as `associate` has them."""
+    rows = [row + [2.0] * len(found) for row in found]
+    columns = assignment(rows)
+    assert len(set(columns)) == len(rows)
+    exact = np.array(rows)[linear_sum_assignment(rows)].sum()
+    assert sum(row[column] for row, column in zip(rows, columns, strict=True)) == pytest.approx(exact, abs=1e-9)
+
+
+def test_nothing_to_assign_is_no_error():
+    assert assignment([]) == []
 
 
 def test_a_palm_in_protocol_a_is_counted_but_not_played():

@@ -27,3 +27,21 @@ def test_a_report_of_four_moving_fingers(benchmark, board):
         return samples
 
     assert len(benchmark(two_reports)) == 4
+
+
+def test_a_report_of_ten_moving_fingers_without_identities(benchmark, board):
+    decoder = Decoder(Axes(board, AxisRange(0, 2100), AxisRange(0, 1480)), Protocol.A)
+
+    def report_of_ten(moved):
+        places = ((100 + 200 * finger + moved, 100 + 100 * finger + moved) for finger in range(10))
+        return [event for x, y in places for event in ((3, 0x35, x), (3, 0x36, y), (0, 2, 0))] + [(0, 0, 0)]
+
+    reports = [report_of_ten(0), report_of_ten(1)]
+
+    def two_reports():
+        for events in reports:
+            for kind, code, value in events:
+                samples = decoder.feed(kind, code, value, 0.0)
+        return samples
+
+    assert len(benchmark(two_reports)) == 10

@@ -10,6 +10,7 @@ import sys
 import threading
 
 import pytest
+from patience import communicate
 from peers.elo_panel import INITIAL, UNTOUCH, touch
 
 from controller.cli import main
@@ -105,7 +106,7 @@ def test_ctrl_c_ends_a_recording_that_is_whole(port, board, tmp_path):
     while reports_of(file) < 5:
         assert recorder.poll() is None
     recorder.send_signal(signal.SIGINT)
-    out, errors = recorder.communicate(timeout=60)
+    out, errors = communicate(recorder)
     assert recorder.returncode == 0
     assert errors == ""
     assert "Elo SmartSet" in out
@@ -147,3 +148,15 @@ def test_what_cannot_be_recorded_is_said_in_one_line(tmp_path, capsys):
 def test_a_file_that_cannot_be_made_is_named(tmp_path, out):
     with pytest.raises(TouchError, match="cannot be written"):
         open_recording(tmp_path / out)
+
+
+def test_only_a_recording_is_written_over(tmp_path):
+    notes = tmp_path / "board.toml"
+    notes.write_text('name = "panel"\n')
+    with pytest.raises(TouchError, match="is no recording: it is left as it is"):
+        open_recording(notes)
+    assert notes.read_text() == 'name = "panel"\n'
+    for old in ("", "# EVEMU 1.3\nN: a panel\n"):
+        notes.write_text(old)
+        open_recording(notes).close()
+        assert notes.read_text() == ""

@@ -1,3 +1,4 @@
+import contextlib
 import math
 import os
 import re
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.board import data_folder, load_board
-from controller.errors import TouchError
+from controller.errors import ConfigError, TouchError
 from controller.touch.axes import AxisRange
 from controller.touch.panel import Protocol
 from controller.touch.recording import Recording
@@ -360,10 +361,23 @@ def test_any_text_is_replayed_to_its_end(found):
 
 @settings(max_examples=100)
 @given(st.binary(max_size=300))
-def test_any_bytes_are_replayed_to_their_end(tmp_path_factory, data):
+def test_any_bytes_are_refused_or_replayed_to_their_end(tmp_path_factory, data):
     file = tmp_path_factory.getbasetemp() / "any.evemu"
     file.write_bytes(data)
+    with contextlib.suppress(ConfigError):
+        assert replay(Recording.open(file))[1].next_time_s() is None
+    file.write_bytes(AXES.encode() + data)
     assert replay(Recording.open(file))[1].next_time_s() is None
+
+
+@pytest.mark.parametrize("junk", [b"", b"# nothing\n", b"\x00\xff\xfe garbage\n" * 5, b"time,x,y\n0,1,2\n", bytes(5000)])
+def test_a_file_of_which_nothing_is_a_recording_is_refused(tmp_path, junk):
+    file = tmp_path / "junk"
+    file.write_bytes(junk)
+    with pytest.raises(ConfigError, match=r"junk: is no touch recording"):
+        Recording.open(file)
+    file.write_bytes(junk + b"\n" + AXES.encode())
+    assert counted(Recording.open(file)) == (0, 0, 0), "a panel that nobody touched"
 
 
 def test_a_line_made_to_stall_a_parser_is_one_warning():

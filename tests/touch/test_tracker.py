@@ -53,6 +53,25 @@ def test_a_finger_lost_for_one_report_stays_the_same():
     assert t.tracking.bridged == 1
 
 
+def test_a_fast_finger_that_is_lost_for_a_report_is_the_same_where_it_would_be_by_now():
+    steps = [(1 + k * PERIOD_S, [touch(k > 6, 50 + 10 * k)] if k != 6 else []) for k in range(12)]  # 1 m/s
+    t = tracker(*steps)
+    assert {s.finger for s in played(t, 1.115)} == {0}
+    assert t.tracking.bridged == 1
+
+
+def test_two_fingers_that_are_lost_together_while_they_pass_each_other_are_not_swapped():
+    def passing(k):  # 150 mm/s each, 2 mm apart; the panel tells first the one that it told last before
+        places = [touch(0, 80 + 1.5 * k, 50.0), touch(1, 98 - 1.5 * k, 52.0)]
+        return places if k < 6 else [] if k == 6 else [places[1]._replace(finger=2), places[0]._replace(finger=3)]
+
+    t = tracker(*[(1 + k * PERIOD_S, passing(k)) for k in range(12)])
+    samples = played(t, 1.115)
+    assert t.tracking.bridged == 2
+    for finger, y_mm in ((0, 50), (1, 52)):
+        assert {round(s.y_m * 1e3, 6) for s in samples if s.finger == finger} == {y_mm}
+
+
 def test_a_finger_found_again_is_predicted_again():
     steps = [(1 + k * PERIOD_S, [touch(k > 20, 50 + k)] if k != 20 else []) for k in range(60)]
     t = tracker(*steps, lag_ms=10.0)
@@ -82,6 +101,16 @@ def test_of_two_lost_fingers_each_is_found_at_its_own_place():
         + [(finger, x_mm, at_s, at_s < 1.03) for finger, x_mm, at_s in ((1, 120, 1.0), (1, 121, 1.02), (1, 121, 1.03))]
     )
     assert t.tracking.bridged == 2
+
+
+def test_a_contact_lost_before_it_was_confirmed_is_not_confirmed_by_the_time_it_has_to_come_back():
+    t = tracker((1.0, [touch(0, 100)]), (1.004, []), (1.1, []))
+    t.read(1.0)
+    t.read(1.004)
+    assert not t.read(1.018)
+    assert not t.confirmed(0)
+    assert in_short(played(t, 1.05)) == [(0, 100, 1.004, False)]
+    assert not t.confirmed(0)
 
 
 def test_a_contact_is_a_finger_from_its_nth_report_on():
@@ -135,7 +164,10 @@ def test_the_place_of_a_lost_finger_is_the_last_one_and_that_of_a_released_one_i
     played(t)
     assert t.place(0, 1.05) is None
     assert t.place(7, 1.05) is None
+    assert t.confirmed(0), "what it feels as it is lifted is still to be decided"
+    t.read(1.06)
     assert not t.confirmed(0)
+    assert not t.confirmed(7)
 
 
 def test_predicted_places_are_held_to_the_plate():

@@ -1,0 +1,67 @@
+"""A link whose device may be absent when the service starts: opened by the first message that finds it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from controller.errors import LinkError
+from controller.fpga.link import Link
+
+
+class AwaitedLink:
+    """`Link` by another one, made as soon as that can be done.
+
+    Parameters
+    ----------
+    open_link : callable
+        Makes it, or raises LinkError.
+    now_s : callable
+        The loop's clock.
+    """
+
+    def __init__(self, open_link: Callable[[], Link], now_s: Callable[[], float]) -> None:
+        self._open = open_link
+        self._now_s = now_s
+        self._link: Link | None = None
+
+    @property
+    def bytes_sent(self) -> int:
+        """Frame bytes since the link was opened."""
+        return self._link.bytes_sent if self._link is not None else 0
+
+    @property
+    def wire_ns(self) -> int:
+        """Time those bytes took on the wire."""
+        return self._link.wire_ns if self._link is not None else 0
+
+    @property
+    def away_ns(self) -> int:
+        """Time spent inside the link."""
+        return self._link.away_ns if self._link is not None else 0
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """Send frames, and store what comes back.
+
+        Raises
+        ------
+        LinkError
+            If the device is not there yet, or fails.
+        """
+        if self._link is None:
+            self._link = self._open()
+        self._link.exchange(sent, lengths, received)
+
+    def trigger(self) -> float:
+        """Pulse the trigger pin; the time of its edge."""
+        if self._link is None:
+            raise LinkError("the link to the FPGA is not open yet")
+        return self._link.trigger()
+
+    def free_s(self) -> float:
+        """When the wire is free."""
+        return self._link.free_s() if self._link is not None else self._now_s()
+
+    def close(self) -> None:
+        """Let go of the device."""
+        if self._link is not None:
+            self._link.close()

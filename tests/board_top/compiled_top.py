@@ -1,0 +1,204 @@
+"""boards/ulx3s/top.v as it is, compiled with the parameters of its bitstream, by its pins; and what the board's files say of them.
+
+The library (ulx3s.cpp) keeps time, SPI and recording to itself. Times are picoseconds since configuration.
+"""
+
+import ctypes
+import os
+import re
+import subprocess
+import sys
+import weakref
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from controller.board import data_folder
+from controller.offline.rtl_build import Design, build_library
+
+HERE = Path(__file__).parent
+BOARD = data_folder("boards") / "ulx3s"
+TOP = Design(
+    "top",
+    (BOARD / "top.v", HERE / "EHXPLLL.v"),
+    HERE / "ulx3s.cpp",
+    ("--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
+)
+PS = 10**12
+
+
+def parameters():
+    """Of top.v, as the Makefile passes them to the bitstream."""
+    command = ["make", "-s", "-C", BOARD, "parameters", f"BIN={Path(sys.executable).parent}/"]
+    environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL")}
+    said = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
+    found = re.findall(r"(\w+)=32'(h[0-9a-f]+|d\d+)", said)
+    assert len(found) == len(said.split()), said
+    return {name: int(value[1:], {"h": 16, "d": 10}[value[0]]) for name, value in found}
+
+
+@cache
+def pulled_up():
+    """Header pins that pins.lpf pulls up; all others are pulled down."""
+    found = re.findall(r'^IOBUF PORT "(g[pn]\[\d+\])" PULLMODE=(\w+)', (BOARD / "pins.lpf").read_text(), re.MULTILINE)
+    assert {pull for _, pull in found} == {"UP", "DOWN"}
+    return sum(pin(name) for name, pull in found if pull == "UP")
+
+
+@cache
+def inputs():
+    """Header pins that top.v takes to inputs of the core."""
+    found = re.findall(r"\.\w+_i\((g[pn]\[\d+\])\)", (BOARD / "top.v").read_text())
+    assert len(found) == 6
+    return sum(map(pin, found))
+
+
+def pin(name):
+    """Bit of a header pin, such as gp[10] or GP10."""
+    row, number = re.fullmatch(r"(g[pn])\[?(\d+)\]?", name.lower()).groups()
+    return 1 << int(number) + (28 if row == "gn" else 0)
+
+
+def section(title):
+    """Rows of the table of the board's README.md whose head begins with this."""
+    (table,) = re.findall(rf"^\| {title} \|.*\n((?:\|.*\n)+)", (BOARD / "README.md").read_text(), re.MULTILINE)
+    return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.splitlines()[1:]]
+
+
+@cache
+def channel_pins():
+    """(channel,) bit of each channel's header pin: "even channels on GP, odd on GN"."""
+    pins = {}
+    for signal, place, *_ in section("signal"):
+        if found := re.fullmatch(r"channels (\d+)–(\d+)", signal):
+            first, last = map(int, found.groups())
+            begin = int(re.search(r"GP(\d+)", place)[1])
+            for channel in range(first, last + 1):
+                offset = channel - first
+                pins[channel] = pin(f"{'gn' if offset % 2 else 'gp'}{begin + offset // 2}")
+    return [pins[channel] for channel in range(32)]
+
+
+@cache
+def signal_pins():
+    """Header pin of each other signal, by the README's name."""
+    pins = {}
+    for signal, place, *_ in section("signal"):
+        names, places = signal.split(", "), re.findall(r"G[PN]\d+", place)
+        if len(names) == len(places) and "channels" not in signal:
+            pins |= dict(zip((name.removeprefix("SPI ") for name in names), map(pin, places), strict=True))
+    return pins
+
+
+@cache
+def wires():
+    """Header pin at the other end of each GPIO of the Raspberry Pi."""
+    pins = {}
+    for ours, _, theirs in section("Pi"):
+        numbers, places = re.findall(r"\d+", ours.split("(")[0]), re.findall(r"G[PN]\d+", theirs)
+        if numbers:
+            pins |= {f"GPIO{number}": pin(place) for number, place in zip(numbers, places, strict=False)}
+    return pins
+
+
+class CompiledTop:
+    """The board with power and its oscillator running, from its configuration on; nothing drives its pins."""
+
+    def __init__(self):
+        self._library = _load()
+        self._board = self._library.board_open(inputs(), pulled_up())
+        weakref.finalize(self, self._library.board_close, self._board)
+        self._mask = self._levels = 0
+
+    @property
+    def now_ps(self):
+        return self._library.board_now(self._board)
+
+    @property
+    def now_s(self):
+        return self.now_ps / PS
+
+    def run(self, ps):
+        """So much longer."""
+        self._library.board_run(self._board, self.now_ps + round(ps))
+
+    def run_until(self, ps):
+        self._library.board_run(self._board, round(ps))
+
+    def drive(self, pins, level):
+        """Drive header pins from outside; None lets go of them."""
+        self._mask = self._mask & ~pins if level is None else self._mask | pins
+        self._levels = self._levels | pins if level else self._levels & ~pins
+        self._library.board_drive(self._board, self._mask, self._levels)
+
+    def oscillate(self, runs):
+        """Stop the oscillator, or let it run again."""
+        self._library.board_oscillate(self._board, runs)
+
+    def high(self, pins):
+        """Whether all of these header pins are high."""
+        return self._library.board_levels(self._board) & pins == pins
+
+    @property
+    def levels(self):
+        """All pins, as anyone sees them."""
+        return self._library.board_levels(self._board)
+
+    @property
+    def driven(self):
+        """Pins that the FPGA drives."""
+        return self._library.board_driven(self._board)
+
+    @property
+    def leds(self):
+        """Bits 0 to 7: led; 8: wifi_gpio0."""
+        return self._library.board_leds(self._board)
+
+    def exchange(self, pins, sent, sck_hz, lead_ps=200_000, lag_ps=100_000):
+        """One chip-select assertion at pins SCK, CS, MOSI, MISO; what came back."""
+        wires_of_spi = (ctypes.c_uint64 * 4)(*pins)
+        self._mask |= pins[0] | pins[1] | pins[2]
+        self._levels = self._levels & ~(pins[0] | pins[2]) | pins[1]
+        received = ctypes.create_string_buffer(len(sent))
+        period_ps = round(PS / sck_hz)
+        self._library.board_exchange(self._board, wires_of_spi, lead_ps, period_ps, lag_ps, len(sent), bytes(sent), received)
+        return received.raw
+
+    def take(self):
+        """(times in ps, pins that the FPGA drives high from then on), since this was last asked for."""
+        count = self._library.board_changes(self._board)
+        times, words = np.empty(count, np.uint64), np.empty(count, np.uint64)
+        self._library.board_take(self._board, times.ctypes.data, words.ctypes.data)
+        return times, words
+
+
+def channels_of(words):
+    """(n,) uint32 drive words on the header's channel pins."""
+    found = np.zeros(len(words), np.uint32)
+    for channel, bit in enumerate(channel_pins()):
+        found |= ((words & np.uint64(bit)) != 0).astype(np.uint32) << np.uint32(channel)
+    return found
+
+
+@cache
+def _load():
+    library = ctypes.CDLL(str(build_library(parameters(), design=TOP)))
+    board, number, size, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
+    for name, result, arguments in (
+        ("open", board, [number, number]),
+        ("close", None, [board]),
+        ("now", number, [board]),
+        ("levels", number, [board]),
+        ("driven", number, [board]),
+        ("leds", ctypes.c_uint32, [board]),
+        ("drive", None, [board, number, number]),
+        ("oscillate", None, [board, ctypes.c_uint32]),
+        ("run", None, [board, number]),
+        ("exchange", None, [board, address, number, number, number, size, ctypes.c_char_p, address]),
+        ("changes", size, [board]),
+        ("take", None, [board, address, address]),
+    ):
+        function = getattr(library, f"board_{name}")
+        function.restype, function.argtypes = result, arguments
+    return library

