@@ -11,12 +11,12 @@ import sys
 from collections.abc import Callable, Sequence
 
 from controller import __version__
-from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, run
+from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, reload, run
 from controller.errors import ConfigError, ControllerError
 from controller.installation import missing_package
 from controller.log import Priority, line
 
-COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch)  # in the order of --help
+COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch, reload)  # in the order of --help
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

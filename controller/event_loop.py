@@ -298,6 +298,9 @@ class EventLoop:
         else:
             self._counters.scenes_refused += 1
             self._counters.scene_refused = prepared.reason
+        if not prepared.ticket:
+            self._counters.reloads += 1
+            self._counters.reload_refused = prepared.reason
         if prepared.ticket and self._commands is not None:
             self._commands.loaded(prepared.ticket, prepared.reason)
 
