@@ -276,7 +276,10 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "gateware_speed": round(run.link.speed, 3),  # times real time
         "scheduled": counters.scheduled,
         "late": counters.late,
+        "due": counters.due,
+        "foci": counters.foci,
         "prefetched": counters.prefetched,
+        "prefetch_wasted": counters.prefetch_wasted,
         "near": counters.near,
         "outages": counters.outages,
         "skipped": asdict(counters.skipped),

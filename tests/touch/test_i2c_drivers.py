@@ -183,6 +183,14 @@ def test_the_edge_is_the_one_of_the_chips_configuration(bench, trigger, edge):
     assert bench.lines.listening is edge
 
 
+def test_a_report_of_before_its_start_is_no_touch(bench):
+    bench.put(Gt911Chip(width=2100, height=1480)).touch({0: (100, 200)})
+    source = bench.gt911()
+    assert bench.until_due(source)[1] == []
+    bench.touch({1: (110, 200)})
+    assert bench.read(source) == [(0, 11, 20, True)]
+
+
 def test_every_report_of_a_gt911_is_cleared_and_one_of_more_than_two_contacts_read_on(bench):
     bench.put(Gt911Chip(width=2100, height=1480, contacts=10))
     source = bench.gt911()
@@ -248,8 +256,19 @@ def test_a_report_that_its_edge_announced_too_early_is_asked_for_again_after_2_4
     bench.touch({0: (300, 200)})
     assert bench.read(source) == []
     assert [bench.until_due(source)[0] for _ in range(4)] == [0.002, 0.004, 0.008, 0.01]
-    waited_s, samples = bench.until_due(source)
-    assert (waited_s, samples) == (0.03, [(0, 30, 20, True)])  # found all the same
+    bench.now_s += 0.03
+    (sample,) = source.read(bench.now_s)  # found all the same, but nobody knows of when it is
+    assert (sample.x_m, sample.time_s) == (pytest.approx(0.03), bench.now_s)
+
+
+def test_a_panel_that_is_touched_for_long_is_not_started_again(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    for k in range(200):
+        bench.now_s += 1e-3
+        bench.touch({0: (100 + k, 200)}, pulse=k % 3 != 0)
+        assert bench.read(source) + bench.until_due(source)[1] == [(0, 10 + k / 10, 20, True)]
+    assert not source.warnings
 
 
 def test_a_panel_that_is_touched_and_silent_for_half_a_second_is_started_again(bench):
@@ -407,6 +426,8 @@ def test_what_an_ft5x06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({0: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+    bench.touch({0: (100, 200)}, put_down={0})  # byte for byte what it held then
+    assert bench.read(source) == [(0, 10, 20, True)]
 
 
 @pytest.mark.parametrize("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64])
@@ -426,6 +447,13 @@ def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(benc
     bench.put(Ft5x06Chip()).registers[:] = bytes([byte]) * 256
     with pytest.raises(TouchError, match="no FocalTech chip"):
         bench.ft5x06()
+
+
+def test_a_firmware_that_leaves_some_of_its_identity_empty_is_taken(bench):
+    chip = bench.put(Ft5x06Chip(chip_id=0))
+    chip.registers[0xA6] = 0
+    assert chip.registers[0xA8]
+    assert bench.ft5x06().present
 
 
 def test_an_ft5x06_that_lost_its_power_is_set_to_work_again_and_an_empty_one_in_its_place_is_not(bench):
