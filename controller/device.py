@@ -51,6 +51,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     clock = MonotonicClock()
     with ExitStack() as stack:
         notifier = stack.enter_context(Notifier.from_environment())
+        change = SceneChanger(board, scene_name, bank)
+        stack.callback(change.close)
         cells = populate(bank, scene, scene_name)  # before memory is locked and anything is armed
         link, session = await_session(board, clock.now_s)
         stack.callback(link.close)
@@ -60,14 +62,12 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             panel = await_panel(board)
             touch = LiveSource(panel, board)
         else:
-            touch = open_touch(board, replay, clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S)
+            touch = open_touch(board, replay, clock.now_s() + board.limits.arming_s + REPLAY_AFTER_S)
         stack.callback(touch.close)
         source = tracked(touch, board)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
         if commands is not None:
             stack.callback(commands.close)
-        change = SceneChanger(board, scene_name, bank)
-        stack.callback(change.close)
         thermometer = await_thermometer(board)
         if thermometer is not None:
             stack.callback(thermometer.close)

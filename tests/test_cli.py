@@ -195,7 +195,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
     ("arguments", "code", "said"),
     [
         (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
-        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: library, scene"),
+        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: library, plate, scene"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),
         (("run", "--bank", "/nothing.bank"), 78, "/nothing.bank: cannot be read"),
@@ -473,7 +473,7 @@ def test_a_demo_that_a_busy_machine_spoiled_says_so_instead_of_figures():
     assert "the host was late by 40 ms" in said
     assert spoiled(counters, real_time=False) == "", "in virtual time a busy machine changes nothing"
     counters = Counters(host_silent=2)
-    assert "the host fell silent 2 times" in spoiled(counters, real_time=True)
+    assert "the host fell silent (2 ×)" in spoiled(counters, real_time=True)
 
 
 def test_the_table_of_a_spoiled_run_has_no_figures_of_foci(capsys, small_board, monkeypatch):

@@ -169,7 +169,7 @@ def at_a_serial_port(folder):
 def an_fpga(board, path, build=None):
     """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
     link = board.link
-    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, gateware_hash() if build is None else build))
+    model = GatewareModel(Parameters.of(board, gateware_hash() if build is None else build))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     levels = []
 
@@ -302,6 +302,15 @@ def test_sighup_reads_the_scene_again(service, folder, panel):
         assert answer.outcome == "played", (answer, service.log)
     figures, _ = service.end()
     assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 0)
+
+
+def test_what_prepares_scenes_may_die_and_the_panel_plays_on(service, folder, panel):
+    (helper,) = Path(f"/proc/{service.process.pid}/task/{service.process.pid}/children").read_text().split()
+    os.kill(int(helper), signal.SIGKILL)
+    with service.client() as client:
+        client.load_scene("texture")
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["outages"]) == (0, 1, 0)
 
 
 def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
