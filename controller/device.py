@@ -62,7 +62,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             panel = await_panel(board)
             touch = LiveSource(panel, board)
         else:
-            touch = open_touch(board, replay, clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S)
+            touch = open_touch(board, replay, clock.now_s() + board.limits.arming_s + REPLAY_AFTER_S)
         stack.callback(touch.close)
         source = tracked(touch, board)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None

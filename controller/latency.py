@@ -102,27 +102,38 @@ class Skipped:
 
     outside_region: int = 0  # touch samples that met no region: no lookup
     between_emissions: int = 0  # touch samples in a region with nothing due
-    merged: int = 0  # emissions replaced by a newer one of the same finger before the plate was free
     uploads: int = 0  # emissions whose waveform was resident in a slot
     compositions: int = 0  # uploads of one finger on a cell: read from the bank as they are
+    merged: int = 0  # emissions replaced by a newer one of the same finger before the plate was free
     bad_entries: int = 0  # emissions left out because the bank's entry is damaged or absent
     refused: int = 0  # emissions that the FPGA did not accept
-    outputs_off: int = 0  # emissions due while the outputs were off
+    outputs_off: int = 0  # emissions due while the outputs were off, or lost with them before they began
     unconfirmed: int = 0  # emissions beyond what a contact gets that the panel has not confirmed
     no_room: int = 0  # commands that waited when more came than wait at most
+    lifted: int = 0  # emissions that still waited when their finger was lifted
+    scene_changed: int = 0  # emissions that waited when another scene took over
+
+    @property
+    def emissions(self) -> int:
+        """Emissions that were due and not played, for whatever reason."""
+        waited = self.merged + self.no_room + self.lifted + self.scene_changed
+        return waited + self.bad_entries + self.refused + self.outputs_off + self.unconfirmed
 
 
 @dataclass(slots=True)
 class Counters:
     """What one run of the event loop did."""
 
-    emissions: int = 0  # triggers given for an accepted play command
+    due: int = 0  # emissions that fingers, spots and commands asked for: each in `foci`, in `skipped`, or waiting
+    foci: int = 0  # of them, those played
+    emissions: int = 0  # triggers given for an accepted play command, of one focus or several
     uploads: int = 0
     resident: int = 0
     heartbeats: int = 0
     scheduled: int = 0  # of the emissions: started by the FPGA at a time given beforehand
     late: int = 0  # beats that were handed over too late for their time, and played at once
     prefetched: int = 0  # waveforms sent ahead of a moving finger
+    prefetch_wasted: int = 0  # of them, those that nothing played so far
     near: int = 0  # of the resident ones: a waveform made for a place very near
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # outputs switched off by the FPGA because this process had stalled; armed again

@@ -169,7 +169,7 @@ def at_a_serial_port(folder):
 def an_fpga(board, path, build=None):
     """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
     link = board.link
-    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, gateware_hash() if build is None else build))
+    model = GatewareModel(Parameters.of(board, gateware_hash() if build is None else build))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     levels = []
 

@@ -162,7 +162,7 @@ class Session:
         self._ours = True
         self.exchange.insist(send)
         self._on = True
-        self.ramp_end_s = self._ramp_end_s()
+        self.ramp_end_s = self._in_s(configuration.arming_ticks(self._board, self.bit_period))
         return self.ramp_end_s
 
     def require_armed(self) -> None:
@@ -176,7 +176,7 @@ class Session:
         """Have the outputs glide to 0 V; the time at which they are off."""
         self._on = False
         self.exchange.insist(lambda _: self._commanded(Control.DISARM))
-        self.ramp_end_s = self._ramp_end_s()
+        self.ramp_end_s = self._in_s(configuration.ramp_ticks(self._board, self.bit_period))
         return self.ramp_end_s
 
     def off(self) -> None:
@@ -381,6 +381,10 @@ class Session:
         self.bit_period = period
         return True
 
+    def played_period_s(self, period_s: float) -> float:
+        """Time from emission to emission as the FPGA counts it, where this is asked for."""
+        return self._period_ticks(period_s) / self._board.link.clock_hz
+
     @property
     def emission_s(self) -> float:
         """T at the present bit clock."""
@@ -424,7 +428,7 @@ class Session:
                 self.exchange.control(Control.DISARM)
                 raise LinkError("the FPGA was still armed and is told to disarm: try again when its ramp has passed")
             raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
-        settings = configuration.settings(self._board, self.exchange.read(Register.EDGE_WINDOW_TICKS))
+        settings = configuration.settings(self._board)
         settings[Register.BIT_PERIOD] = self.bit_period
         for register, value in settings.items():
             try:
@@ -435,8 +439,5 @@ class Session:
             if self.exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 
-    def _ramp_end_s(self) -> float:
-        samples = (
-            configuration.ramp_samples(self._board) + 5
-        )  # the word that sounds, the idle word behind it, and the FPGA its own way
-        return self.ready_s() + samples * self.bit_period / 65536 / self._board.link.clock_hz
+    def _in_s(self, ticks: int) -> float:
+        return self.ready_s() + ticks / self._board.link.clock_hz

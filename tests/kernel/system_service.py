@@ -101,7 +101,7 @@ class Bench:
         panel_board.write(f'kind = "linux_input"\ndevice = "{NAME}"', LINK)
         self.lines = GpioLines("panel-lines", LINES)
         self.panel = Panel()
-        self.far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        self.far_end = FarEnd(load_board(panel_board.BOARD), LINES)
 
     def outputs_are(self, on):
         """Wait until the FPGA's outputs are on, or off."""
@@ -207,7 +207,7 @@ def test_an_fpga_that_is_gone_at_the_start_is_told_and_waited_for():
         assert shown("StatusText").startswith("waiting for FPGA: ")
         assert "our own bytes came back" in journal("-p", "warning")
     finally:
-        bench().far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        bench().far_end = FarEnd(load_board(panel_board.BOARD), LINES)
     bench().outputs_are(1)
     bench().finger_is_felt()
     assert main_pid() == pid
