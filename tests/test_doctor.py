@@ -68,7 +68,6 @@ def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
         "scene",
         "bank",
         "temperature",
-        "responses",
         "priority",
         "locked memory",
     ]
