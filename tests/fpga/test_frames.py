@@ -120,7 +120,7 @@ def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
         when_ticks >> 32,
     )
     frame = judge(memoryview(buffer)[offset:end])
-    assert frame == (Result.OK, FrameType.PLAY, sequence & 0xFF, slot, words, 0)
+    assert frame[:6] == (Result.OK, FrameType.PLAY, sequence & 0xFF, slot, words, 0)
     assert not any(buffer[:offset])
     assert not any(buffer[end:])
 
