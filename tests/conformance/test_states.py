@@ -196,7 +196,7 @@ def test_every_event_does_the_same_in_every_state(rtl, state, offsets):
 
 
 WANTED = {
-    "off": State.HEARTBEAT,
+    "off": State.RUN_PERMIT,
     "ramp up": State.RAMPING | State.HV_ENABLE,
     "armed": State.ARMED,
     "checking": State.ARMED | State.CHECKING,

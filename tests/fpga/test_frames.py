@@ -154,7 +154,7 @@ def test_each_command_says_what_it_should(pack, kind, argument, words):
     buffer = bytearray(b"\xff" * FRAME_BYTES)
     assert pack(buffer) == FRAME_BYTES
     frame = judge(memoryview(buffer))
-    assert frame == (Result.OK, kind, 1, argument, words + (0,) * (6 - len(words)), 0)
+    assert frame == (Result.OK, kind, 1, argument, words + (0,) * (6 - len(words)), 0, 6, b"")
 
 
 @given(st.integers(5, 125).flatmap(lambda words: st.binary(min_size=4 * words, max_size=4 * words)), st.integers(0, 9))
