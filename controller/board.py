@@ -127,12 +127,18 @@ class Limits(Record, frozen=True):
     max_duty: Share
     duty_budget_ms: Annotated[float, Meta(ge=20, le=1000)]
     longest_emission_ms: Annotated[float, Meta(gt=0, le=10)]
+    hv_settle_us: Annotated[float, Meta(ge=1, le=100e3)]
     min_pulse_us: Annotated[float, Meta(ge=0.4, le=10)]
     max_channel_edge_rate_hz: Annotated[float, Meta(gt=0, le=500e3)]
     max_total_edge_rate_hz: Annotated[float, Meta(gt=0, le=16e6)]
     max_edge_rate_hz: Positive
     resistor_rating_w: Annotated[float, Meta(gt=0, le=100)]
     derating: Share
+
+    @property
+    def arming_s(self) -> float:
+        """From ARM to the idle levels, in s."""
+        return self.hv_settle_us * 1e-6 + self.ramp_ms * 1e-3
 
 
 class Board(Record, frozen=True):

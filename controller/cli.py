@@ -11,11 +11,12 @@ import sys
 from collections.abc import Callable, Sequence
 
 from controller import __version__
-from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, run
+from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, reload, run
 from controller.errors import ConfigError, ControllerError
 from controller.installation import missing_package
+from controller.log import Priority, line
 
-COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch)  # in the order of --help
+COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch, reload)  # in the order of --help
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -26,25 +27,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return command(options)
     except ControllerError as error:
-        print(f"haptic-panel: {error}", file=sys.stderr)
+        print(line(str(error), Priority.ERROR), file=sys.stderr)
         return error.exit_code
     except ModuleNotFoundError as error:
         missing = missing_package(error.name)
         if missing is None:
             raise
-        print(f"haptic-panel: {missing}", file=sys.stderr)
+        print(line(missing, Priority.ERROR), file=sys.stderr)
         return ConfigError.exit_code
     except BrokenPipeError:
         sys.stderr.close()
         return 1
     except OSError as error:
-        print(f"haptic-panel: {error}", file=sys.stderr)
+        print(line(str(error), Priority.ERROR), file=sys.stderr)
         return 1
     except MemoryError:
-        print("haptic-panel: not enough memory for what was asked", file=sys.stderr)
+        print(line("not enough memory for what was asked", Priority.ERROR), file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("haptic-panel: interrupted", file=sys.stderr)
+        print(line("interrupted", Priority.ERROR), file=sys.stderr)
         return 130
 
 

@@ -13,10 +13,12 @@ from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
 from controller.hardware import await_panel, await_session, open_thermometer, open_touch, tracked
 from controller.housekeeping import Housekeeping
+from controller.log import LOG, Priority, tell
 from controller.prepare_scene import populate
+from controller.reloading import ReloadFile
 from controller.scene import Scene
 from controller.scene_change import SceneChanger
-from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.source import TouchSource
@@ -49,6 +51,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     clock = MonotonicClock()
     with ExitStack() as stack:
         notifier = stack.enter_context(Notifier.from_environment())
+        change = SceneChanger(board, scene_name, bank)
+        stack.callback(change.close)
         cells = populate(bank, scene, scene_name)  # before memory is locked and anything is armed
         link, session = await_session(board, clock.now_s)
         stack.callback(link.close)
@@ -58,18 +62,18 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             panel = await_panel(board)
             touch = LiveSource(panel, board)
         else:
-            touch = open_touch(board, replay, clock.now_s() + board.limits.ramp_ms * 1e-3 + REPLAY_AFTER_S)
+            touch = open_touch(board, replay, clock.now_s() + board.limits.arming_s + REPLAY_AFTER_S)
         stack.callback(touch.close)
         source = tracked(touch, board)
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
         if commands is not None:
             stack.callback(commands.close)
-        change = SceneChanger(board, scene_name, bank)
-        stack.callback(change.close)
         thermometer = open_thermometer(board)
         if thermometer is not None:
             stack.callback(thermometer.close)
-        housekeeping = Housekeeping(board, session, notifier, Watchdog.from_environment(notifier), thermometer)
+        housekeeping = Housekeeping(
+            board, session, notifier, Watchdog.from_environment(notifier), thermometer, ReloadFile.from_environment()
+        )
         assembly = assemble(
             board,
             scene,
@@ -84,7 +88,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            tell(warning)
+            tell(warning, Priority.WARNING)
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
         try:
             assembly.loop.run()
@@ -100,6 +104,7 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "board": board.name,
         "state": housekeeping.condition.state.value,
         "cause": housekeeping.condition.cause,
+        "log_lines_lost": LOG.lost,
         "warnings": in_words(source.warnings),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),

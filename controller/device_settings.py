@@ -78,7 +78,7 @@ class I2cTouch(TouchPanel, frozen=True, kw_only=True):
 
 
 class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft5x06"):
-    """FocalTech FT5x06, FT6x36, and EDT modules with them."""
+    """FocalTech FT5x06, FT6x36, and EDT modules with them, M06 included."""
 
     address: Address = 0x38
     width: Extent
@@ -86,7 +86,7 @@ class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft
 
 
 class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt911"):
-    """Goodix GT911; which address it takes is decided by the interrupt line at reset."""
+    """Goodix GT911 and its kin (`gt911.PRODUCTS`); which address it takes is decided by the interrupt line at reset."""
 
     address: Literal[0x14, 0x5D] = 0x5D
 

@@ -81,6 +81,8 @@ class EventLoop:
         self._outputs = Outputs(session, board, clock, time_base, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
+        self._quiet_until_s = -NEVER  # no emission begins before
+        self._listened = False  # and something waited for that
         self._report_ns = -1  # from the kernel's timestamp of the report just read to our read of it
         self._registered: dict[str, int] = {}
         self._wakeup: Wakeup | None = None
@@ -231,6 +233,8 @@ class EventLoop:
         started_ns = time.perf_counter_ns()
         now_s = self._clock.now_s()
         self._progress(now_s)
+        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp make ghosts as well
+            self._source.emitted(now_s, self._session.ramp_end_s)
         self._read(now_s)
         if self._commands is not None:
             self._commands.serve(now_s, self)
@@ -238,13 +242,15 @@ class EventLoop:
             self._change_scene(now_s)
         panel_s = self._time_base.fpga_s(now_s)
         self._performance.advance(panel_s + self._lead_s + ROUNDING_S)
+        self._quiet_until_s = -NEVER
         if self._outputs.on:
             if not self._playback.repeating:
                 self._performance.add_spots(panel_s, panel_s + self._lead_s)
+            self._listen(now_s)
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
-            elif trigger_at_s is None and self._performance.due and self._session.free_s() <= now_s and not self._held(now_s):
+            elif trigger_at_s is None and self._may_play(now_s) and self._session.free_s() <= now_s:
                 self._play(now_s, started_ns)
             elif trigger_at_s is None and self._moving is not None:
                 self._prefetch(now_s)
@@ -288,13 +294,18 @@ class EventLoop:
         else:
             self._counters.scenes_refused += 1
             self._counters.scene_refused = prepared.reason
+        if not prepared.ticket:
+            self._counters.reloads += 1
+            self._counters.reload_refused = prepared.reason
         if prepared.ticket and self._commands is not None:
             self._commands.loaded(prepared.ticket, prepared.reason)
 
     def _play(self, now_s: float, started_ns: int) -> None:
         """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
         performance, playback = self._performance, self._playback
-        emissions = performance.take(playback.duration_s, self._time_base.fpga_s(now_s))
+        within_s = NEVER if self._listened else playback.duration_s  # what was held back has become due together
+        emissions = performance.take(within_s, self._time_base.fpga_s(now_s))
+        self._listened = False
         period_s = performance.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
             self._prepare(emissions, started_ns, count=ENDLESS, period_s=period_s, at_s=emissions[0].time_s)
@@ -308,6 +319,26 @@ class EventLoop:
                 performance.spots_from(panel_s)
         beats = [emission.time_s for emission in emissions if emission.period_s]
         self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
+
+    def _listen(self, now_s: float) -> None:
+        """Let the panel have the silence that it asks for; what the FPGA repeats is stopped, and goes on in its beat."""
+        playback = self._playback
+        if not self._performance.due and not playback.repeating:
+            return
+        next_s = now_s if self._performance.due else playback.next_repetition_s(now_s)
+        self._quiet_until_s = self._source.quiet_until_s(now_s, next_s)
+        self._listened |= self._performance.due and self._quiet_until_s > now_s
+        if not playback.repeating or playback.next_repetition_s(now_s) >= self._quiet_until_s:
+            return
+        next_s = playback.next_repetition_s(self._quiet_until_s)
+        last_s = playback.stop_repeating(now_s)
+        if last_s is not None:
+            self._source.emitted(last_s, last_s + playback.duration_s)
+            self._performance.spots_from(self._time_base.fpga_s(next_s))
+
+    def _may_play(self, now_s: float) -> bool:
+        """Whether something is due and held back neither for the panel nor for a beat."""
+        return self._performance.due and self._quiet_until_s <= now_s and not self._held(now_s)
 
     def _held(self, now_s: float) -> bool:
         """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
@@ -347,7 +378,7 @@ class EventLoop:
         trigger_at_s = self._playback.trigger_at_s
         if self._outputs.on and not self._outputs.wanted:
             return now_s
-        if self._outputs.on and self._performance.due and trigger_at_s is None and not self._held(now_s):
+        if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
             return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()
         next_s = self._performance.next_s()
@@ -359,6 +390,10 @@ class EventLoop:
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating and self._outputs.on:
             times.append(self._time_base.host_s(self._performance.next_spot_s()) - self._lead_s)
+        if self._quiet_until_s > now_s:
+            times.append(self._quiet_until_s)
+            if self._playback.repeating:
+                times.append(self._playback.next_repetition_s(now_s))
         times += [self._outputs.next_s(), commands_s]
         return min(times)
 

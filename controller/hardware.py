@@ -45,8 +45,7 @@ def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareF
     gateware : GatewareFactory
         What computes the gateware's pins.
     """
-    settings = board.link
-    return SimulatedLink(settings, now_s, gateware(Parameters.of(settings.clock_hz, settings.slots, gateware_hash())))
+    return SimulatedLink(board.link, now_s, gateware(Parameters.of(board, gateware_hash())))
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:

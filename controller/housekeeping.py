@@ -9,8 +9,10 @@ from typing import Protocol
 from controller.board import Board
 from controller.fpga.session import Session
 from controller.latency import Counters
+from controller.log import Priority, tell
 from controller.panel_state import Condition, PanelState
-from controller.service import Notifier, Watchdog, tell
+from controller.reloading import ReloadFile
+from controller.service import Notifier, Watchdog
 
 PLAYING_S = 1.0  # since the last emission, for which the panel is said to be playing
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
@@ -94,6 +96,8 @@ class Housekeeping:
     watchdog : Watchdog
     thermometer : Thermometer or None
         None: the plate is taken to be as warm as the bank says.
+    reload_file : ReloadFile, optional
+        Told what became of each reload.
 
     Attributes
     ----------
@@ -104,7 +108,13 @@ class Housekeeping:
     """
 
     def __init__(
-        self, board: Board, session: Session, notifier: Notifier, watchdog: Watchdog, thermometer: Thermometer | None
+        self,
+        board: Board,
+        session: Session,
+        notifier: Notifier,
+        watchdog: Watchdog,
+        thermometer: Thermometer | None,
+        reload_file: ReloadFile | None = None,
     ) -> None:
         self.scale = 1.0
         self.condition = Condition()
@@ -112,6 +122,7 @@ class Housekeeping:
         self._notifier = notifier
         self._watchdog = watchdog
         self._thermometer = thermometer
+        self._reload_file = reload_file or ReloadFile(None)
         self._read_s = math.inf if thermometer is None else -math.inf
         self._period_s = board.temperature.period_s if board.temperature else math.inf
         self._loop: Watched | None = None
@@ -125,7 +136,7 @@ class Housekeeping:
         self._scene_stays = ""
         self._played_s = -math.inf
         self._counters: Counters | None = None
-        self._emissions = self._loaded = self._refused = 0
+        self._emissions = self._loaded = self._refused = self._reloads = 0
 
     def watch(
         self, loop: Watched, counters: Counters, panel: Panel | None, told: Callable[[Condition], None] | None = None
@@ -164,8 +175,11 @@ class Housekeeping:
         if counters.scenes_refused != self._refused:
             self._refused = counters.scenes_refused
             self._scene_stays = f"the scene stays as it was: {counters.scene_refused}"
-            tell(self._scene_stays)
+            tell(self._scene_stays, Priority.WARNING)
             self._notifier.status(self._status)
+        if counters.reloads != self._reloads and not loop.reloading:  # else another is on its way, and waited for too
+            self._reloads = counters.reloads
+            self._reload_file.tell(counters.reloads, counters.reload_refused)
         if self._read_s <= now_s and loop.outputs.on:  # an FPGA that is lost takes no other bit clock
             self._follow_temperature(loop, now_s)
 
@@ -208,11 +222,13 @@ class Housekeeping:
         if now.outputs_on != before.outputs_on and now.outputs_on:
             tell("the outputs are on")
         if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
-            tell(f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}")
+            asked = now.state is PanelState.DISARMED
+            said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
+            tell(said, Priority.INFO if asked else Priority.WARNING)
         if now.panel_present and not before.panel_present:
             tell("the touch panel is back")
         elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):
-            tell(f"{now.state.value}: {now.cause}")
+            tell(f"{now.state.value}: {now.cause}", Priority.WARNING)
 
     @property
     def _status(self) -> str:
@@ -229,7 +245,10 @@ class Housekeeping:
         self._temperature_c = None if math.isnan(temperature_c) else temperature_c
         if self._thermometer.cause != self._temperature_cause:
             self._temperature_cause = self._thermometer.cause
-            tell(self._temperature_cause or "the temperature sensor is read again")
+            if self._temperature_cause:
+                tell(self._temperature_cause, Priority.WARNING)
+            else:
+                tell("the temperature sensor is read again")
         if scale == self.scale:
             return
         if self._session.set_bit_period(scale):  # else something plays: the next turn but one

@@ -132,6 +132,8 @@ class Counters:
     scenes_loaded: int = 0
     scenes_refused: int = 0
     scene_refused: str = ""  # why the last one was
+    reloads: int = 0  # of these, asked for by SIGHUP
+    reload_refused: str = ""  # why the last one of them was; empty if it was not
     skipped: Skipped = field(default_factory=Skipped)
     report_latency: LatencyHistogram = field(default_factory=LatencyHistogram)  # from the kernel's timestamp to our read
     upload_latency: Stages = field(default_factory=Stages)

@@ -144,6 +144,17 @@ class Playback:
         """When the endless repetition next starts an emission, after a time; never without one."""
         return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s
 
+    def stop_repeating(self, now_s: float) -> float | None:
+        """End the endless repetition; when its last emission began, or None if its first one has yet to."""
+        running = self._running
+        if running is None or now_s < running.trigger_s:
+            return None
+        self._session.stop()
+        last_s = running.last_start_s(self._session.ready_s())
+        self.free_s = max(self.free_s, last_s + self._busy_s)
+        self._running = None
+        return last_s
+
     def prepare(
         self,
         emissions: Sequence[Emission],

@@ -1,18 +1,15 @@
-"""Prepares a scene in a process of its own: `python -m controller.prepare_scene BOARD SCENE BANK`, for the running loop.
+"""What has to be done before a scene can be played: at the start, and for another scene in a process of its own.
 
-What would keep the loop waiting is done here: reading and checking the file, and reading the waveforms it can ask for,
-so that they are in the page cache. The result goes to stdout, pickled: the scene, or a sentence that says why not.
+Reading and checking the file, and reading the waveforms it can ask for, so that they are in the page cache.
 """
 
 from __future__ import annotations
 
-import pickle
-import sys
 from pathlib import Path
 
 from controller.bank.reader import Bank
-from controller.board import Board, load_board
-from controller.errors import BankError, ControllerError
+from controller.board import Board
+from controller.errors import BankError
 from controller.scene import Scene, find_scene, load_scene, reach
 
 
@@ -53,19 +50,3 @@ def populate(bank: Bank, scene: Scene, called: str) -> int:
         bank.words(cell)
         bank.response(cell)
     return len(cells)
-
-
-def main(arguments: list[str]) -> int:
-    """Prepare what the arguments name, and write it."""
-    board, name, bank_file = arguments
-    prepared: Scene | str
-    try:
-        prepared = prepare(load_board(Path(board)), name, Path(bank_file))
-    except ControllerError as error:
-        prepared = str(error)
-    sys.stdout.buffer.write(pickle.dumps(prepared))
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -24,7 +24,7 @@ import math
 from controller.errors import ConfigError
 from controller.finger_state import COMMAND, Emission, FingerState, spot_emission
 from controller.scene_file import find_scene
-from controller.scene_map import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene_map import OUTSIDE, Area, Meshes, Scene, Spot, edge_warnings, load_scene, reach
 from controller.touch.samples import TouchSample
 from controller.trains import Running, Train
 
@@ -34,6 +34,7 @@ __all__ = [
     "Area",
     "Emission",
     "FingerState",
+    "Meshes",
     "Scene",
     "Spot",
     "UnknownEffect",

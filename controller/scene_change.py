@@ -1,44 +1,80 @@
-"""Another scene, and a bank that was replaced, while the loop goes on: prepared by a child process, taken over at once."""
+"""Another scene, and a bank that was replaced, while the loop goes on: prepared by a helper process, taken over at once.
+
+Nothing here waits for another process. The helper (`scene_helper`) is started before the loop has its priority, because
+whoever starts a program waits until the new process has had its turn, and that of an ordinary process may be long in coming.
+"""
 
 from __future__ import annotations
 
+import ctypes
 import os
-import pickle
-import subprocess
+import resource
+import signal
+import socket
 import sys
+import time
 from pathlib import Path
+
+import msgspec
 
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.board import Board
 from controller.errors import ConfigError, ControllerError
+from controller.scene import Scene
+from controller.scene_file import find_scene
+from controller.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
 from controller.scene_source import Prepared
 
-CHUNK_BYTES = 1 << 16
+LIMIT_S = 30.0  # for one preparation; the bank may have to be read from a slow card
+GRACE_S = 5.0  # beyond which the helper itself is taken to hang
+CHUNK_BYTES = 1 << 16  # read in one turn of the loop
+MOST_FILES = 1 << 20  # that may be open at the start, where there is no limit
+PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.scene_helper import main; main()"
 
 
 class SceneChanger:
-    """`SceneChange` by a child process.
+    """`SceneChange` by a helper process, which is started here.
 
     Parameters
     ----------
     board : Board
     name : str
-        Of the scene that is played.
+        Of the scene that is played, or its path.
     bank : Bank
         That it is played from.
+    limit_s : float
+        For one preparation.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such scene.
     """
 
-    def __init__(self, board: Board, name: str, bank: Bank) -> None:
-        self._board = board
-        self._name = name
+    def __init__(self, board: Board, name: str, bank: Bank, limit_s: float = LIMIT_S) -> None:
+        self._board = msgspec.structs.replace(board, folder=board.folder.absolute())
+        self._name = str(find_scene(board, name).absolute())
         self._bank = bank
         self._bank_is = _identity(bank.path)
-        self._child: subprocess.Popen[bytes] | None = None
-        self._wanted = ("", 0)
+        self._limit_s = limit_s
+        self._cpus = os.sched_getaffinity(0)
+        self._pid = 0
+        self._socket: socket.socket | None = None
+        self._gone: list[int] = []  # processes that were ended, and whose end has not been asked for yet
+        self._wanted: tuple[str, int] | None = None
+        self._request = b""
+        self._asked_again = False
+        self._until_s = 0.0
         self._again = False
         self._failed: Prepared | None = None
         self._said = bytearray()
+        self._start()
+
+    @property
+    def pid(self) -> int:
+        """Number of the helper process."""
+        return self._pid
 
     def begin(self, name: str | None, ticket: int) -> None:
         """Prepare a scene; None: the one that is played, read again.
@@ -49,64 +85,134 @@ class SceneChanger:
             If another is being prepared for somebody: what was asked for last would not be what is answered. A reload
             is put off until then.
         """
-        if self._child is not None:
+        if self._wanted is not None:
             if ticket:
                 raise ConfigError("another scene is being prepared: ask again when it is there")
             self._again = True
             return
         self._wanted = (self._name if name is None else name, ticket)
+        self._until_s = time.monotonic() + self._limit_s + GRACE_S
+        self._request = pack_request(self._board, self._wanted[0], self._bank.path.absolute())
         self._said.clear()
-        command = [sys.executable, "-m", "controller.prepare_scene", str(self._board.folder), self._wanted[0], str(self._bank.path)]
-        try:
-            self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
-        except OSError as error:  # no memory, no processes left
-            self._failed = Prepared(ticket, None, reason=f"no process to prepare a scene: {error.strerror}")
-            return
-        assert self._child.stdout is not None
-        os.set_blocking(self._child.stdout.fileno(), False)
+        self._asked_again = False
+        if not self._send():
+            self._ask_again()
 
     def fileno(self) -> int | None:
-        """Readable when the child has said something; None while there is none."""
-        return None if self._child is None or self._child.stdout is None else self._child.stdout.fileno()
+        """Readable when the helper has said something; None while nothing is prepared."""
+        return None if self._wanted is None or self._socket is None else self._socket.fileno()
 
     def take(self) -> Prepared | None:
         """What was prepared; None while it is not done."""
+        if self._wanted is not None and self._failed is None:
+            self._read()
         failed, self._failed = self._failed, None
-        if failed is not None:
-            return failed
-        child = self._child
-        if child is None or child.stdout is None:
-            return None
-        try:
-            while data := os.read(child.stdout.fileno(), CHUNK_BYTES):
-                self._said += data
-        except BlockingIOError:
-            return None
-        child.stdout.close()
-        child.wait()  # it has closed its output, and ends
-        self._child = None
-        prepared = self._prepared()
+        if failed is None:
+            if self._wanted is None or not self._complete():
+                return None
+            failed = self._prepared()
+        self._wanted = None
         if self._again:
             self._again = False
             self.begin(None, 0)
-        return prepared
+        return failed
 
     def close(self) -> None:
-        """End a child that still works."""
-        if self._child is not None:
-            self._child.kill()
-            self._child.wait()
-            if self._child.stdout is not None:
-                self._child.stdout.close()
-            self._child = None
+        """End the helper, and what it works at."""
+        self._end_helper()
+        for pid in self._gone:
+            os.waitpid(pid, 0)
+        self._gone.clear()
+
+    def _start(self) -> None:
+        """Another helper. Forking alone does not wait for the new process, as all that starts a program in one call does."""
+        ours, theirs = socket.socketpair()
+        folder = str(Path(__file__).resolve().parent.parent)
+        command = [sys.executable, "-I", "-c", PROGRAM.format(folder), repr(self._limit_s)]
+        files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+        files = MOST_FILES if files == resource.RLIM_INFINITY else files
+        pid = _fork()
+        if pid < 0:  # no memory, no processes left
+            ours.close()
+            theirs.close()
+            return
+        if pid == 0:
+            try:
+                os.dup2(theirs.fileno(), 0)
+                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+                os.closerange(3, files)
+                os.sched_setaffinity(0, self._cpus)  # the loop may have its own core by now
+                os.execve(command[0], command, _environment())
+            finally:
+                os._exit(127)
+        theirs.close()
+        ours.setblocking(False)
+        self._pid, self._socket = pid, ours
+
+    def _end_helper(self) -> None:
+        """Let go of the helper, without waiting for its end."""
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+            os.kill(self._pid, signal.SIGKILL)
+            self._gone.append(self._pid)
+        self._gone = [pid for pid in self._gone if os.waitpid(pid, os.WNOHANG) == (0, 0)]
+
+    def _send(self) -> bool:
+        try:
+            return self._socket is not None and self._socket.send(self._request, socket.MSG_NOSIGNAL) == len(self._request)
+        except OSError:
+            return False
+
+    def _ask_again(self) -> None:
+        """The helper has died: ask another one, but not for ever."""
+        if self._asked_again:
+            self._fail("the process that prepares scenes ends again and again")
+            return
+        self._asked_again = True
+        self._said.clear()
+        self._end_helper()
+        self._start()
+        if not self._send():
+            self._fail("no process to prepare a scene")
+
+    def _read(self) -> None:
+        """Take a piece of what the helper says."""
+        if self._socket is None:
+            return
+        try:
+            more = self._socket.recv(CHUNK_BYTES)
+        except BlockingIOError:
+            if time.monotonic() > self._until_s:
+                self._fail("the process that prepares scenes hangs, and was ended; ask again")
+            return
+        except OSError:
+            more = b""
+        if not more:
+            self._ask_again()
+        self._said += more
+
+    def _complete(self) -> bool:
+        """Whether the whole answer is there, or what is there can be none."""
+        try:
+            return len(self._said) >= HEADER.size and len(self._said) >= HEADER.size + length(self._said)
+        except MessageError:
+            return True
+
+    def _fail(self, reason: str) -> None:
+        assert self._wanted is not None
+        self._end_helper()
+        self._failed = Prepared(self._wanted[1], None, reason=reason)
 
     def _prepared(self) -> Prepared:
+        assert self._wanted is not None
         name, ticket = self._wanted
         try:
-            said = pickle.loads(bytes(self._said))  # of our own child
-        except (pickle.UnpicklingError, EOFError):
-            return Prepared(ticket, None, reason=f"preparing the scene {name!r} failed: see the log")
-        if isinstance(said, str):
+            said = unpack_scene(bytes(self._said))
+        except MessageError as error:
+            self._end_helper()  # what it says next could not be told from the rest of this
+            return Prepared(ticket, None, reason=f"what prepares scenes answers wrongly: {error}")
+        if not isinstance(said, Scene):
             return Prepared(ticket, None, reason=said)
         self._name = name
         bank_is = _identity(self._bank.path)
@@ -120,6 +226,23 @@ class SceneChanger:
             return Prepared(ticket, None, reason=str(error))
         self._bank, self._bank_is = bank, bank_is
         return Prepared(ticket, said, selection)
+
+
+def _fork() -> int:
+    """Fork for an exec; below 0 if that cannot be. The C library's own call also has the linear algebra give its memory back."""
+    plain = getattr(ctypes.PyDLL(None), "_Fork", None)  # glibc 2.34
+    if plain is not None:
+        return int(plain())
+    try:
+        return os.fork()
+    except OSError:
+        return -1
+
+
+def _environment() -> dict[str, str]:
+    """Ours, without what is the service manager's, and with sums on one thread."""
+    notify = {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}
+    return {name: value for name, value in os.environ.items() if name not in notify} | {"OPENBLAS_NUM_THREADS": "1"}
 
 
 def _identity(path: Path) -> tuple[int, ...]:

@@ -1,21 +1,26 @@
-"""What a scene is: regions ready to be asked, spots, effects that commands can play; what it reaches and asks for. Pure."""
+"""What a scene is: regions ready to be asked, spots, effects that commands can play; what it reaches and asks for. Pure.
+
+Types say what may be in a scene that comes from another process (`scene_message`).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
+from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
 from controller.board import Board
 from controller.effects import EffectTable
+from controller.records import Positive
 from controller.scene_file import RegionRead, Shape, read_scene, spot_at
-from controller.shapes import Boxes
+from controller.shapes import Boxes, Place
 from controller.spacings import Spacing, spacing_of
-from controller.trains import Train, train_of
+from controller.trains import Loudness, Train, train_of
 
 OUTSIDE = -1
 SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
@@ -25,17 +30,16 @@ MESHES = 32  # each way: in each mesh the regions that a finger there can be in
 class Spot(NamedTuple):
     """A point that is played all the time; its beats are `phase` of a period late."""
 
-    x_m: float
-    y_m: float
-    rate_hz: float
+    x_m: Place
+    y_m: Place
+    rate_hz: Annotated[float, Meta(ge=0.1, le=1000)]
     region: str
-    amplitude: float = 1.0
-    phase: float = 0.0
+    amplitude: Loudness = 1.0
+    phase: Annotated[float, Meta(ge=0, lt=1)] = 0.0
     alternate: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Area:
+class Area(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
     """One region, ready to be asked: what begins on each occasion, and what happens as a finger moves."""
 
     name: str
@@ -59,21 +63,19 @@ class Area:
         return max(sum(1 / t.period_s for t in trains if t.period_s) for trains in (self.press, self.enter, self.leave))
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """Regions in the order in which they are asked, and what a command can play, by name."""
+class Meshes(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    """A grid over all regions: its lower left corner, meshes per m, and the regions that a finger in each can be in."""
 
-    areas: tuple[Area, ...]
-    effects: Mapping[str, Train] = field(default_factory=dict)
-    spots: tuple[Spot, ...] = field(init=False)
-    _low_x: float = field(init=False, repr=False)
-    _low_y: float = field(init=False, repr=False)
-    _per_x: float = field(init=False, repr=False)
-    _per_y: float = field(init=False, repr=False)
-    _meshes: tuple[tuple[int, ...], ...] = field(init=False, repr=False)
+    low_x: Place
+    low_y: Place
+    per_x: Positive
+    per_y: Positive
+    regions: Annotated[tuple[tuple[int, ...], ...], Meta(min_length=MESHES * MESHES, max_length=MESHES * MESHES)]
 
-    def __post_init__(self) -> None:
-        bounds = [area.shape.bounds for area in self.areas] or [(0.0, 0.0, 1.0, 1.0)]
+    @classmethod
+    def of(cls, areas: tuple[Area, ...]) -> Meshes:
+        """The grid of some regions."""
+        bounds = [area.shape.bounds for area in areas] or [(0.0, 0.0, 1.0, 1.0)]
         low_x, low_y, high_x, high_y = (f(side) for f, side in zip((min, min, max, max), zip(*bounds, strict=True), strict=True))
         # A hair wider, so that what lies on the far rim has a mesh too.
         mesh_x, mesh_y = ((high - low) * (1 + 1e-9) / MESHES for low, high in ((low_x, high_x), (low_y, high_y)))
@@ -85,27 +87,37 @@ class Scene:
             low_y + row * mesh_y - hair,
             low_y + (row + 1) * mesh_y + hair,
         )
-        met = [area.shape.meets(boxes) for area in self.areas]
+        met = np.zeros((MESHES * MESHES, len(areas)), bool)
+        for index, area in enumerate(areas):
+            met[:, index] = area.shape.meets(boxes)
         known: dict[tuple[int, ...], tuple[int, ...]] = {}
         meshes = []
-        for mesh in range(MESHES * MESHES):
-            candidates = tuple(index for index, meets in enumerate(met) if meets[mesh])
+        for regions in met:
+            candidates = tuple(regions.nonzero()[0].tolist())
             meshes.append(known.setdefault(candidates, candidates))
-        for name, value in (
-            ("spots", tuple(area.spot for area in self.areas if area.spot)),
-            ("_low_x", low_x),
-            ("_low_y", low_y),
-            ("_per_x", 1 / mesh_x),
-            ("_per_y", 1 / mesh_y),
-            ("_meshes", tuple(meshes)),
-        ):
-            object.__setattr__(self, name, value)
+        return cls(low_x, low_y, 1 / mesh_x, 1 / mesh_y, tuple(meshes))
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Regions in the order in which they are asked, and what a command can play, by name; `meshes` if they are known."""
+
+    areas: tuple[Area, ...]
+    effects: Mapping[str, Train] = field(default_factory=dict)
+    given: InitVar[Meshes | None] = None
+    spots: tuple[Spot, ...] = field(init=False)
+    meshes: Meshes = field(init=False, repr=False)
+
+    def __post_init__(self, given: Meshes | None) -> None:
+        object.__setattr__(self, "spots", tuple([area.spot for area in self.areas if area.spot]))
+        object.__setattr__(self, "meshes", Meshes.of(self.areas) if given is None else given)
 
     def region_at(self, x_m: float, y_m: float) -> int:
         """Index of the first region that contains a point, or OUTSIDE."""
-        column, row = int((x_m - self._low_x) * self._per_x), int((y_m - self._low_y) * self._per_y)
+        meshes = self.meshes
+        column, row = int((x_m - meshes.low_x) * meshes.per_x), int((y_m - meshes.low_y) * meshes.per_y)
         if 0 <= column < MESHES and 0 <= row < MESHES:
-            for index in self._meshes[column * MESHES + row]:
+            for index in meshes.regions[column * MESHES + row]:
                 if self.areas[index].shape.contains(x_m, y_m):
                     return index
         return OUTSIDE

@@ -11,7 +11,6 @@ import os
 import re
 import resource
 import socket
-import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -129,13 +128,6 @@ class Watchdog:
         if now_s >= self._due_s:
             self._due_s = now_s + self._period_s
             self._notifier.alive()
-
-
-def tell(sentence: str) -> None:
-    """One line to the log; a log that is full or gone is no reason to stop."""
-    with contextlib.suppress(OSError):
-        sys.stderr.write(f"haptic-panel: {sentence}\n")
-        sys.stderr.flush()
 
 
 def enter_realtime(settings: Realtime) -> list[str]:

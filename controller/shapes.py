@@ -1,15 +1,21 @@
-"""Shapes on the plate: which points they contain and which boxes they meet. Metres throughout."""
+"""Shapes on the plate: which points they contain and which boxes they meet. Metres throughout.
+
+Their types say what a shape that comes from another process may be.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Point = tuple[float, float]
+Place = Annotated[float, Meta(ge=-1, le=3)]  # a plate has at most 2 m
+Point = tuple[Place, Place]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +32,13 @@ class Boxes:
         return (self.x_low <= x_m) & (x_m <= self.x_high) & (self.y_low <= y_m) & (y_m <= self.y_high)
 
 
-@dataclass(frozen=True, slots=True)
-class Rectangle:
+class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
     """A rectangle along the axes, its rim included."""
 
-    x_low: float
-    y_low: float
-    x_high: float
-    y_high: float
+    x_low: Place
+    y_low: Place
+    x_high: Place
+    y_high: Place
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -59,13 +64,12 @@ class Rectangle:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
     """A disc, its rim included."""
 
-    x_m: float
-    y_m: float
-    radius_m: float
+    x_m: Place
+    y_m: Place
+    radius_m: Annotated[float, Meta(gt=0, le=3)]
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -90,11 +94,10 @@ class Circle:
         return near
 
 
-@dataclass(frozen=True, slots=True)
-class Polygon:
+class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
     """A polygon without crossings, given by its corners in either sense of turning."""
 
-    corners: tuple[Point, ...]
+    corners: Annotated[tuple[Point, ...], Meta(min_length=3, max_length=1000)]
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

@@ -8,10 +8,13 @@ part of a spacing away from it.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from msgspec import Meta
 
 from controller.effects import EffectTable
 from controller.shapes import Circle, Polygon, Rectangle
+from controller.trains import Loudness
 
 ROUNDING_M = 1e-9  # so that a spacing reached exactly is reached
 REST_M = 0.25e-3  # noise of a finger at rest; of finer spacings a quarter
@@ -22,10 +25,10 @@ REARM_MOST_M = 0.5e-3
 class Spacing(NamedTuple):
     """What a region does as a finger moves. `axis`: 0 lines across x, 1 across y, None the way; `origin_m`: one of the lines."""
 
-    spacing_m: float
-    axis: int | None
-    origin_m: float
-    amplitude: float
+    spacing_m: Annotated[float, Meta(ge=1e-5, le=1)]
+    axis: Annotated[int, Meta(ge=0, le=1)] | None
+    origin_m: Annotated[float, Meta(ge=-1, le=4)]
+    amplitude: Loudness
 
     def begin(self, x_m: float, y_m: float) -> Way | Lines:
         """Progress of a finger that comes in here."""

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from msgspec import Meta
 
 from controller.effects import WEAKEST, EffectTable
 
 SILENT = WEAKEST / 2  # an envelope below it is nearer to silence than to the weakest emission
 NO_BEAT = -1
+MOST_BEATS = 3_600_000  # an hour at the highest rate
+Loudness = Annotated[float, Meta(ge=SILENT, le=1)]
+Seconds = Annotated[float, Meta(ge=0, le=3600)]
 
 
 class Train(NamedTuple):
     """Emissions of equal spacing; a lone emission is a train of one. `envelope`: (s from the start, amplitude)."""
 
-    amplitude: float = 1.0
-    beats: int = 1
-    period_s: float = 0.0
-    first_s: float = 0.0
-    envelope: tuple[tuple[float, float], ...] = ()
+    amplitude: Loudness = 1.0
+    beats: Annotated[int, Meta(ge=1, le=MOST_BEATS)] = 1
+    period_s: Seconds = 0.0
+    first_s: Seconds = 0.0
+    envelope: Annotated[tuple[tuple[Seconds, Annotated[float, Meta(ge=0, le=1)]], ...], Meta(max_length=1000)] = ()
 
     def loudness(self, beat: int, share: float) -> float:
         """Amplitude of a beat: 0, or WEAKEST to 1, whichever is nearest to the product of train, envelope and share."""

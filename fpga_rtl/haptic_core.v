@@ -1,27 +1,33 @@
 // The gateware of a haptic panel but for its board: frames by SPI or UART, trigger and permits in, 32 channels out.
 // Pin to pin: a trigger's first word is out 8 clocks after the first clock edge that samples the trigger high;
-// a lost permit has the outputs low 2 clocks after the first edge that samples it low.
+// a lost permit has the outputs low 2 clocks after the first edge that samples it low, which is 3 after the pin at most.
 `default_nettype none
 `include "registers.vh"
 
 module haptic_core #(
-    parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
-    parameter        SLOTS               = 4,              // 1 to 16
+    // of the board: controller/fpga/gateware.py makes them from its board.toml; without them nothing is built
+    parameter [31:0] CLOCK_HZ            = 32'd0,
+    parameter [31:0] SLOTS               = 32'd0,          // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,
     parameter [31:0] BOARD               = 32'h204D4953,   // 'SIM '
     parameter [31:0] BAUD                = 32'd1_000_000,
-    // hard limits of what the host may set
-    parameter [31:0] HEARTBEAT_TICKS_MAX = CLOCK_HZ / 4,   // 250 ms
-    parameter [31:0] EDGE_WINDOW_TICKS   = CLOCK_HZ / 4,
-    parameter [31:0] PULSE_TICKS_MIN     = CLOCK_HZ / 2_500_000 > 4 ? CLOCK_HZ / 2_500_000 : 4,  // 0.4 us
-    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd125_000,    // 500 kHz over the window
-    parameter [31:0] TOTAL_EDGES_MAX     = 32'd4_000_000,
-    parameter [31:0] EMISSION_TICKS_MAX  = CLOCK_HZ / 100, // 10 ms
-    parameter [31:0] DUTY_SHARE_MAX      = 32'd65_536,
-    parameter [31:0] DUTY_TICKS_MAX      = CLOCK_HZ
+    parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
+    parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
+    // hard limits: safety_island.v
+    parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
+    parameter [31:0] HV_SETTLE_TICKS     = 32'd0,
+    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd0,
+    parameter [31:0] EDGE_WINDOW_TICKS   = 32'd0,
+    parameter [31:0] PULSE_TICKS_MIN     = 32'd0,
+    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd0,
+    parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
+    parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
+    parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
+    input  wire        clock_lost_i,       // at any time: the outputs are low at once, clock or not
     input  wire        spi_sck_i,
     input  wire        spi_cs_n_i,
     input  wire        spi_mosi_i,
@@ -38,28 +44,30 @@ module haptic_core #(
     output wire        waiting_o,          // a play waits for the trigger
     output wire        fault_o
 );
+    generate
+        if (CLOCK_HZ == 32'd0 || SLOTS == 32'd0 || SLOTS > 32'd16 || BIT_PERIOD_RESET == 32'd0 || RAMP_SAMPLES_RESET == 32'd0) begin : not_given
+            clock_and_slots_of_the_board_are_missing from_the_parameters ();
+        end
+    endgenerate
+
     localparam BUFFER_BITS = $clog2(SLOTS + 1);
     localparam ALIVE_HALF_TICKS = CLOCK_HZ / 40_000 > 0 ? CLOCK_HZ / 40_000 : 1;
 
     // Pins that have no clock, through two flip-flops; a trigger is high for FILTER_TICKS, low as long before the next
     reg [3:0]  trigger_q;
     reg        triggered_q, command_q;
-    reg [1:0]  run_permit_q, temperature_ok_q;
     reg [63:0] now_q, input_time_q;
     reg [1:0]  permits_q;
     wire       trigger_high    = trigger_q[3:1] == 3'b111;
     wire       trigger_low     = trigger_q[3:1] == 3'b000;
     wire       command;
     wire       trigger         = (trigger_high && !triggered_q) || command_q;
-    wire       run_permit      = run_permit_q[1];
-    wire       temperature_ok  = temperature_ok_q[1];
+    wire       run_permit, temperature_ok;
 
     always @(posedge clk_i) begin
         trigger_q        <= {trigger_q[2:0], trigger_i};
         triggered_q      <= trigger_high || (triggered_q && !trigger_low);
         command_q        <= command;
-        run_permit_q     <= {run_permit_q[0], run_permit_i};
-        temperature_ok_q <= {temperature_ok_q[0], temperature_ok_i};
         permits_q        <= {temperature_ok, run_permit};
         now_q            <= now_q + 64'd1;
         if (permits_q != {temperature_ok, run_permit}) input_time_q <= now_q;
@@ -67,8 +75,6 @@ module haptic_core #(
             trigger_q        <= 4'b1111;   // high at reset is no edge
             triggered_q      <= 1'b1;
             command_q        <= 1'b0;
-            run_permit_q     <= 2'b00;
-            temperature_ok_q <= 2'b00;
             permits_q        <= 2'b00;
             now_q            <= 64'd0;
             input_time_q     <= 64'd0;
@@ -228,16 +234,16 @@ module haptic_core #(
     wire [16:0] duty_share;
     wire [17:0] ramp_samples;
     wire        arm, disarm, clear, stop;
-    wire        off, armed, ramp_up, ramp_down, stopping, alive, shut;
+    wire        off, settling, armed, ramp_up, ramp_down, stopping, alive, shut;
     wire [3:0]  queued;
     wire        quiet, settled;
 
-    wire channels_at_fault = fault[`FAULT_SHORT_PULSE] || fault[`FAULT_CHANNEL_EDGES];
     register_file #(
-        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
-        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
-        .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX), .DUTY_SHARE_MAX(DUTY_SHARE_MAX),
-        .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
+        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD),
+        .BIT_PERIOD_RESET(BIT_PERIOD_RESET), .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET), .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX),
+        .HV_SETTLE_TICKS(HV_SETTLE_TICKS), .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
+        .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX),
+        .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX), .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) register_file (
         .clk_i(clk_i), .rst_i(rst_i),
         .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
@@ -245,7 +251,7 @@ module haptic_core #(
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
         .off_i(off), .quiet_i((off || armed) && quiet && queued == 4'd0), .permitted_i(run_permit && temperature_ok),
         .uart_i(from_uart), .refused_i({uart_refuse, spi_refuse}), .gap_i(gap),
-        .fault_i(fault), .fault_channels_i(channels_at_fault ? fault_channels : 32'd0), .fault_count_i(fault_count), .fault_time_i(fault_time),
+        .fault_i(fault), .fault_channels_i(fault_channels), .fault_count_i(fault_count), .fault_time_i(fault_time),
         .inputs_i({trigger_q[1], temperature_ok, run_permit}), .input_time_i(input_time_q),
         .triggers_i(triggers), .ignored_i(ignored), .trigger_time_i(trigger_time),
         .emissions_i(emissions), .emission_time_i(emission_time),
@@ -338,44 +344,45 @@ module haptic_core #(
         .trigger_time_o(trigger_time), .emission_time_o(emission_time)
     );
 
-    // Only the link that armed keeps the outputs on, by its ARM and what it sends behind that
-    reg  armed_by_uart_q;
-    wire heartbeat = arm || (accept && !off && from_uart == armed_by_uart_q);
-    always @(posedge clk_i) begin
-        if (arm) armed_by_uart_q <= from_uart;
-        if (rst_i) armed_by_uart_q <= 1'b0;
-    end
-
     // The way to the pins
-    wire [4:0] limits;
-    stage_limits #(.WINDOW_TICKS(EDGE_WINDOW_TICKS)) stage_limits (
-        .clk_i(clk_i), .rst_i(rst_i), .channel_i(channel_o), .active_i(playing || ramp_up || ramp_down),
-        .emission_i(playing), .start_i(start), .clear_i(clear),
-        .pulse_ticks_i(pulse_ticks), .channel_edges_i(channel_edges), .total_edges_i(total_edges),
-        .emission_ticks_i(emission_ticks), .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
-        .cause_o(limits), .channels_o(fault_channels), .duty_level_o(duty_level)
-    );
-
-    output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS)) output_gate (
-        .clk_i(clk_i), .rst_i(rst_i),
-        .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heartbeat_i(heartbeat), .heartbeat_ticks_i(heartbeat_ticks),
-        .run_permit_i(run_permit), .temperature_good_i(temperature_ok), .underrun_i(underrun), .limits_i(limits),
-        .ramp_done_i(ramp_done), .settled_i(settled), .channel_mask_i(channel_mask), .bit_ticks_i(bit_period[31:16]),
-        .drive_i(drive), .now_i(now_q), .ended_i(ended),
-        .off_o(off), .armed_o(armed), .ramp_up_o(ramp_up), .ramp_down_o(ramp_down), .stopping_o(stopping),
+    safety_island #(
+        .ALIVE_HALF_TICKS(ALIVE_HALF_TICKS), .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX), .HV_SETTLE_TICKS(HV_SETTLE_TICKS),
+        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS), .PULSE_TICKS_MIN(PULSE_TICKS_MIN),
+        .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
+        .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
+    ) safety_island (
+        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i),
+        .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heard_i(accept), .link_i(from_uart),
+        .channel_mask_i(channel_mask), .heartbeat_ticks_i(heartbeat_ticks), .pulse_ticks_i(pulse_ticks),
+        .channel_edges_i(channel_edges), .total_edges_i(total_edges), .emission_ticks_i(emission_ticks),
+        .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
+        .drive_i(drive), .bit_ticks_i(bit_period[31:16]), .playing_i(playing), .start_i(start), .ended_i(ended),
+        .underrun_i(underrun), .ramp_done_i(ramp_done), .settled_i(settled), .now_i(now_q),
+        .run_permit_o(run_permit), .temperature_ok_o(temperature_ok),
+        .off_o(off), .settling_o(settling), .ramp_up_o(ramp_up), .armed_o(armed), .stopping_o(stopping), .ramp_down_o(ramp_down),
         .alive_o(alive), .shut_o(shut),
-        .fault_o(fault), .fault_count_o(fault_count), .fault_time_o(fault_time), .underruns_o(underruns),
-        .emissions_o(emissions),
+        .fault_o(fault), .fault_channels_o(fault_channels), .fault_count_o(fault_count), .fault_time_o(fault_time),
+        .duty_level_o(duty_level), .underruns_o(underruns), .emissions_o(emissions),
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
 
-    assign waiting_o = waiting;
-    assign fault_o = fault != 16'd0;
+    reg waiting_q, fault_q;                  // pads: no glitch of the logic before them
+    always @(posedge clk_i or posedge clock_lost_i) begin
+        if (clock_lost_i) begin
+            waiting_q <= 1'b0;
+            fault_q <= 1'b0;
+        end else begin
+            waiting_q <= waiting && !rst_i;
+            fault_q <= fault != 16'd0 && !rst_i;
+        end
+    end
+    assign waiting_o = waiting_q;
+    assign fault_o = fault_q;
 
     // The answer
     wire [15:0] state;
     assign state[`STATE_ARMED]            = armed;
-    assign state[`STATE_RAMPING]          = ramp_up || ramp_down || stopping;
+    assign state[`STATE_RAMPING]          = settling || ramp_up || ramp_down || stopping;
     assign state[`STATE_PLAYING]          = playing;
     assign state[`STATE_REPEATING]        = repeating;
     assign state[`STATE_PENDING]          = queued != 4'd0;

@@ -1,19 +1,23 @@
 // The only way from a waveform to a pin.
 // Channels move only while armed, permitted, cool, within the limits and fed by the host; else they are low, as is
 // the high-voltage enable.
-// A fault is kept, with its cause, until it is cleared by command; arming is refused until then.
+// A fault is kept, with its cause, until it is cleared by command; a cause counts for as long as anything is on, the
+// words on their way after a ramp down included. A state that does not exist counts as off.
+// The high voltage has HV_SETTLE_TICKS before the first word of a ramp up. Without a clock the outputs are low too.
 `default_nettype none
 `include "registers.vh"
 
 module output_gate #(
-    parameter ALIVE_HALF_TICKS = 2500  // half a period of hv_alive_o; at least 10 kHz
+    parameter [31:0] ALIVE_HALF_TICKS = 32'd2_000,  // half a period of hv_alive_o; at least 10 kHz
+    parameter [31:0] HV_SETTLE_TICKS  = 32'd0  // of the board
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
+    input  wire        clock_lost_i,       // at any time: the outputs are low at once, clock or not
     input  wire        arm_i,              // pulse, already checked
     input  wire        disarm_i,           // pulse
     input  wire        clear_i,            // pulse
-    input  wire        heartbeat_i,        // pulse for every accepted frame
+    input  wire        heartbeat_i,        // pulse: the host that armed lives
     input  wire [31:0] heartbeat_ticks_i,
     input  wire        run_permit_i,       // synchronised; low stops
     input  wire        temperature_good_i, // synchronised; low stops
@@ -28,6 +32,7 @@ module output_gate #(
     input  wire        ended_i,            // pulse: in the next clock the pins have ended an emission
     output wire        off_o,
     output wire        armed_o,
+    output wire        settling_o,         // the high voltage settles, the channels are low
     output wire        ramp_up_o,
     output wire        ramp_down_o,
     output wire        stopping_o,         // disarming waits for the word that plays
@@ -43,7 +48,9 @@ module output_gate #(
     output wire        hv_alive_o,
     output wire        focus_o
 );
-    localparam [2:0] OFF = 3'd0, RAMP_UP = 3'd1, ON = 3'd2, STOPPING = 3'd3, RAMP_DOWN = 3'd4;
+    localparam [2:0] OFF = 3'd0, RAMP_UP = 3'd1, ON = 3'd2, STOPPING = 3'd3, RAMP_DOWN = 3'd4, SETTLING = 3'd5;
+    localparam        SETTLE_BITS = $clog2(HV_SETTLE_TICKS + 32'd2);
+    localparam [31:0] LAST_SETTLE = HV_SETTLE_TICKS == 32'd0 ? 32'd0 : HV_SETTLE_TICKS - 32'd1;
 
     reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
@@ -51,7 +58,8 @@ module output_gate #(
     reg [8:0]  fault_q;
     reg [31:0] fault_count_q, underruns_q;
     reg [63:0] fault_time_q;
-    reg [2:0]  on_later_q;                 // state, until it is in step with drive_i
+    reg [SETTLE_BITS-1:0] settle_left_q;
+    reg [2:0]  on_later_q, moves_later_q;  // state, until it is in step with drive_i
     reg [31:0] channel_q;
     reg        hv_enable_q;
     reg        focus_q;
@@ -61,15 +69,20 @@ module output_gate #(
     reg        hv_alive_q;
 
     wire       host_silent = silent_q;
-    wire       on          = state_q != OFF;
+    wire       settling    = state_q == SETTLING;
+    wire       moves       = state_q == RAMP_UP || state_q == ON || state_q == STOPPING || state_q == RAMP_DOWN;
+    wire       on          = settling || moves;
+    wire       exists      = on || state_q == OFF;
+    wire       live        = on || on_later_q != 3'd0 || hv_enable_q;
     wire [8:0] cause;
-    assign cause[`FAULT_NO_PERMIT]        = on && !run_permit_i;
-    assign cause[`FAULT_HOST_SILENT]      = on && host_silent;
-    assign cause[`FAULT_OVER_TEMPERATURE] = on && !temperature_good_i;
-    assign cause[`FAULT_UNDERRUN]         = on && underrun_i;
-    assign cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i & {5{on}};
+    assign cause[`FAULT_NO_PERMIT]        = live && !run_permit_i;
+    assign cause[`FAULT_HOST_SILENT]      = live && host_silent;
+    assign cause[`FAULT_OVER_TEMPERATURE] = live && !temperature_good_i;
+    assign cause[`FAULT_UNDERRUN]         = live && underrun_i;
+    assign cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i & {5{live}};
     wire       shut = cause != 9'd0;
-    wire       open = on_later_q[2] && !shut;
+    wire       stays = exists && !shut;
+    wire       open  = on_later_q[2] && stays;
 
     always @(posedge clk_i) begin
         if (heartbeat_i) begin
@@ -85,10 +98,11 @@ module output_gate #(
             fault_count_q <= fault_count_q + 32'd1;
             fault_time_q  <= now_i;
         end
-        if (on && underrun_i) underruns_q <= underruns_q + 32'd1;
+        if (live && underrun_i) underruns_q <= underruns_q + 32'd1;
 
         case (state_q)
-            OFF:       if (arm_i) state_q <= RAMP_UP;
+            OFF:       if (arm_i) state_q <= SETTLING;
+            SETTLING:  if (disarm_i) state_q <= OFF; else if (settle_left_q == {SETTLE_BITS{1'b0}}) state_q <= RAMP_UP;
             RAMP_UP:   if (disarm_i) state_q <= RAMP_DOWN; else if (ramp_done_i) state_q <= ON;
             ON:        if (disarm_i) state_q <= STOPPING;
             STOPPING:  if (settled_i) state_q <= RAMP_DOWN;
@@ -97,30 +111,17 @@ module output_gate #(
         endcase
         if (shut) state_q <= OFF;
 
-        on_later_q  <= {on_later_q[1:0], on} & {3{!shut}};
-        channel_q   <= open ? drive_i & channel_mask_i : 32'd0;
-        hv_enable_q <= open;
+        settle_left_q <= settling ? settle_left_q - 1'b1 : LAST_SETTLE[SETTLE_BITS-1:0];
+        on_later_q    <= {on_later_q[1:0], on} & {3{stays}};
+        moves_later_q <= {moves_later_q[1:0], moves} & {3{stays}};
 
         if (ended_i && open) emissions_q <= emissions_q + 32'd1;
-        if (focus_left_q == 16'd0) focus_q <= 1'b0;
-        else focus_left_q <= focus_left_q - 16'd1;
-        if (ended_i) begin
-            focus_q      <= 1'b1;
-            focus_left_q <= bit_ticks_i - 16'd1;
-        end
-        if (!open) begin
-            focus_q      <= 1'b0;
-            focus_left_q <= 16'd0;
-        end
-
-        if (alive_left_q == 32'd0) begin
-            alive_left_q <= ALIVE_HALF_TICKS - 1;
-            hv_alive_q   <= !hv_alive_q;
-        end else alive_left_q <= alive_left_q - 32'd1;
-        if (!open) begin
-            alive_left_q <= 32'd0;
-            hv_alive_q   <= 1'b0;
-        end
+        if (!open)                        focus_left_q <= 16'd0;
+        else if (ended_i)                 focus_left_q <= bit_ticks_i - 16'd1;
+        else if (focus_left_q != 16'd0)   focus_left_q <= focus_left_q - 16'd1;
+        if (!open)                        alive_left_q <= 32'd0;
+        else if (alive_left_q == 32'd0)   alive_left_q <= ALIVE_HALF_TICKS - 1;
+        else                              alive_left_q <= alive_left_q - 32'd1;
 
         if (rst_i) begin
             state_q      <= OFF;
@@ -130,19 +131,33 @@ module output_gate #(
             fault_count_q <= 32'd0;
             fault_time_q  <= 64'd0;
             underruns_q   <= 32'd0;
-            on_later_q   <= 3'b000;
-            channel_q    <= 32'd0;
-            hv_enable_q  <= 1'b0;
-            focus_q      <= 1'b0;
-            focus_left_q <= 16'd0;
-            emissions_q  <= 32'd0;
-            alive_left_q <= 32'd0;
-            hv_alive_q   <= 1'b0;
+            settle_left_q <= {SETTLE_BITS{1'b0}};
+            on_later_q    <= 3'b000;
+            moves_later_q <= 3'b000;
+            focus_left_q  <= 16'd0;
+            emissions_q   <= 32'd0;
+            alive_left_q  <= 32'd0;
+        end
+    end
+
+    // What leaves: low with the next clock of a fault or reset, low at once where there is no clock
+    always @(posedge clk_i or posedge clock_lost_i) begin
+        if (clock_lost_i) begin
+            channel_q   <= 32'd0;
+            hv_enable_q <= 1'b0;
+            hv_alive_q  <= 1'b0;
+            focus_q     <= 1'b0;
+        end else begin
+            channel_q   <= open && moves_later_q[2] && !rst_i ? drive_i & channel_mask_i : 32'd0;
+            hv_enable_q <= open && !rst_i;
+            hv_alive_q  <= open && !rst_i && (hv_alive_q ^ (alive_left_q == 32'd0));
+            focus_q     <= open && !rst_i && (ended_i || focus_left_q != 16'd0);
         end
     end
 
     assign off_o       = state_q == OFF;
     assign armed_o     = state_q == ON;
+    assign settling_o  = settling;
     assign ramp_up_o   = state_q == RAMP_UP;
     assign ramp_down_o = state_q == RAMP_DOWN;
     assign alive_o     = !host_silent;

@@ -8,15 +8,19 @@ module register_file #(
     parameter [31:0] SLOTS               = 32'd4,
     parameter [31:0] BUILD_HASH          = 32'd0,
     parameter [31:0] BOARD               = 32'd0,
-    parameter [31:0] EDGE_WINDOW_TICKS   = 32'd20_000_000,
-    // limits of the limits
-    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd20_000_000,
-    parameter [31:0] PULSE_TICKS_MIN     = 32'd4,
-    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd16_777_215,
-    parameter [31:0] TOTAL_EDGES_MAX     = 32'd536_870_911,
-    parameter [31:0] EMISSION_TICKS_MAX  = 32'd800_000,
-    parameter [31:0] DUTY_SHARE_MAX      = 32'd65_536,
-    parameter [31:0] DUTY_TICKS_MAX      = 32'd80_000_000
+    // of the board
+    parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
+    parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
+    parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
+    parameter [31:0] HV_SETTLE_TICKS     = 32'd0,
+    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd0,
+    parameter [31:0] EDGE_WINDOW_TICKS   = 32'd0,
+    parameter [31:0] PULSE_TICKS_MIN     = 32'd0,
+    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd0,
+    parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
+    parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
+    parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -66,12 +70,8 @@ module register_file #(
     localparam [31:0] BIT_TICKS_LOW    = FEWEST < `BIT_TICKS_MIN ? `BIT_TICKS_MIN : FEWEST;
     localparam [31:0] MOST             = CLOCK_HZ / `BIT_CLOCK_HZ_MIN;
     localparam [31:0] BIT_TICKS_HIGH   = MOST < BIT_TICKS_LOW ? BIT_TICKS_LOW : MOST;
-    localparam [31:0] WANTED           = CLOCK_HZ / `BIT_CLOCK_HZ_RESET;
-    localparam [31:0] BIT_TICKS_RESET  = WANTED < BIT_TICKS_LOW ? BIT_TICKS_LOW : WANTED;
     localparam [31:0] BIT_PERIOD_LOW   = {BIT_TICKS_LOW[15:0], 16'd0};
     localparam [31:0] BIT_PERIOD_HIGH  = {BIT_TICKS_HIGH[15:0], 16'd0};
-    localparam [31:0] BIT_PERIOD_RESET = {BIT_TICKS_RESET[15:0], 16'd0};
-    localparam [31:0] RAMP_RESET       = `RAMP_SAMPLES_RESET;
     localparam [31:0] GEOMETRY         = {`CHANNELS, 5'd0, `WAVEFORM_WORDS, SLOTS[7:0]};
     localparam [31:0] PARAMETERS       = {8'd0, `FILTER_TICKS, `TRIGGER_LATENCY_TICKS, `QUEUE_PLAYS};
 
@@ -138,6 +138,15 @@ module register_file #(
             `REGISTER_SLOTS_LOADED:      value = loaded_i;
             `REGISTER_QUEUE:             value = {28'd0, queued_i};
             `REGISTER_DUTY_LEVEL:        value = duty_level_i;
+            `REGISTER_HV_SETTLE_TICKS:   value = HV_SETTLE_TICKS;
+            `REGISTER_CHANNEL_MASK_MAX:  value = CHANNEL_MASK_MAX;
+            `REGISTER_HEARTBEAT_TICKS_MAX: value = HEARTBEAT_TICKS_MAX;
+            `REGISTER_PULSE_TICKS_MIN:   value = PULSE_TICKS_MIN;
+            `REGISTER_CHANNEL_EDGES_MAX: value = CHANNEL_EDGES_MAX;
+            `REGISTER_TOTAL_EDGES_MAX:   value = TOTAL_EDGES_MAX;
+            `REGISTER_EMISSION_TICKS_MAX: value = EMISSION_TICKS_MAX;
+            `REGISTER_DUTY_SHARE_MAX:    value = DUTY_SHARE_MAX;
+            `REGISTER_DUTY_TICKS_MAX:    value = DUTY_TICKS_MAX;
             default:                     value = 32'd0;
         endcase
     end
@@ -166,7 +175,8 @@ module register_file #(
         setting  = 1'b1;
         in_range = 1'b1;
         case (register)
-            `REGISTER_IDLE_WORD, `REGISTER_CHANNEL_MASK: ;
+            `REGISTER_IDLE_WORD: ;
+            `REGISTER_CHANNEL_MASK:    in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;
             `REGISTER_BIT_PERIOD:      in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH
                                                   && word0[31:16] >= pulse_ticks_q;
             `REGISTER_RAMP_SAMPLES:    in_range = word0 != 32'd0 && word0 <= `RAMP_SAMPLES_MAX;
@@ -182,7 +192,7 @@ module register_file #(
     end
 
     always @(posedge clk_i) begin
-        known_q    <= address_i <= `REGISTER_DUTY_LEVEL;
+        known_q    <= address_i <= `REGISTER_DUTY_TICKS_MAX;
         control_q  <= address_i == `REGISTER_CONTROL;
         idle_q     <= register == `REGISTER_BIT_PERIOD;
         arm_q      <= word0 == `CONTROL_ARM;
@@ -241,9 +251,9 @@ module register_file #(
         end
         if (rst_i) begin
             idle_word_q       <= 32'd0;
-            channel_mask_q    <= 32'hFFFFFFFF;
+            channel_mask_q    <= CHANNEL_MASK_MAX;
             bit_period_q      <= BIT_PERIOD_RESET;
-            ramp_samples_q    <= RAMP_RESET[17:0];
+            ramp_samples_q    <= RAMP_SAMPLES_RESET[17:0];
             heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
             pulse_ticks_q     <= PULSE_TICKS_MIN[15:0];
             channel_edges_q   <= CHANNEL_EDGES_MAX[23:0];

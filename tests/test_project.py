@@ -123,6 +123,16 @@ def test_the_three_lines_of_the_readme_are_whole():
     lines = [line for line in text.splitlines() if "python3 -m venv .venv" in line]
     assert len(lines) == 3
     assert all("apt-get" in line and "build-essential" in line for line in lines)
+    assert all(line.startswith("echo 'haptic-panel: ") and "minutes" in line for line in lines), "what happens, and how long"
+    assert all("--no-install-recommends" in line and "pip install -q" not in line for line in lines)
     assert lines[0].endswith(".venv/bin/haptic-panel run")
     assert lines[1].endswith(".venv/bin/pytest")
     assert lines[2] == f"{lines[1]} -m kernel"
+
+
+def test_no_line_that_is_shown_installs_by_a_name_that_may_be_a_strangers():
+    """The registry's `haptic-panel` need not be ours: always a folder, a wheel, or others' well-known packages."""
+    shown = [path for room in ("controller", "boards", "systemd", "fpga_rtl") for path in (ROOT / room).rglob("*")]
+    for path in [ROOT / "README.md", *shown]:
+        if path.suffix in (".py", ".md", ".sh", ".service") or path.name == "Makefile":
+            assert not re.search(r"pip install[^\n]*['\" ]haptic-panel", path.read_text()), path

@@ -1,5 +1,4 @@
 import math
-import pickle
 import random
 import tracemalloc
 
@@ -34,6 +33,7 @@ from controller.scene import (
     stopped,
     taken_over,
 )
+from controller.scene_message import pack_scene, unpack_scene
 from controller.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -211,7 +211,7 @@ def test_spots_are_at_the_centre_or_where_told(scene_of):
 
 def test_a_scene_is_not_changed_and_can_be_handed_to_another_process(scene_of):
     scene = scene_of(square(f"{TRAIN}, {TEXTURE}"), square(ALWAYS, "spot", 100))
-    copy = pickle.loads(pickle.dumps(scene))
+    copy = unpack_scene(pack_scene(scene))
     assert copy == scene
     assert touch(copy, at(60), at(66))[0] == touch(scene, at(60), at(66))[0]
     assert copy == scene

@@ -3,7 +3,22 @@
 `default_nettype none
 
 module top #(
-    parameter [31:0] BUILD_HASH = 32'd0             // CRC-32 of fpga_rtl, given by the Makefile
+    // From board.toml by the Makefile (controller/fpga/gateware.py); without them nothing is built
+    parameter [31:0] CLOCK_HZ            = 32'd0,
+    parameter [31:0] SLOTS               = 32'd0,
+    parameter [31:0] BUILD_HASH          = 32'd0,
+    parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
+    parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
+    parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
+    parameter [31:0] HV_SETTLE_TICKS     = 32'd0,
+    parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd0,
+    parameter [31:0] EDGE_WINDOW_TICKS   = 32'd0,
+    parameter [31:0] PULSE_TICKS_MIN     = 32'd0,
+    parameter [31:0] CHANNEL_EDGES_MAX   = 32'd0,
+    parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
+    parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
+    parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
 ) (
     input  wire        iceclk,                      // 12 MHz
     input  wire        rs232_rx,                    // from the FTDI's channel B to the FPGA
@@ -23,7 +38,12 @@ module top #(
     output wire        configured,                  // has its clock and is out of reset
     output wire        fault
 );
-    localparam [31:0] CLOCK_HZ = 32'd30_000_000;    // board.toml says the same
+    localparam [31:0] PLL_HZ = 32'd30_000_000;
+    generate
+        if (CLOCK_HZ != PLL_HZ) begin : not_given
+            link_clock_hz_in_board_toml_is_not_the_pll_s from_the_parameters ();
+        end
+    endgenerate
 
     // 12 MHz * 80 / 32: the recipe of `icepll -i 12 -o 30`; VCO at 960 MHz
     wire clk, locked;
@@ -33,7 +53,8 @@ module top #(
         .REFERENCECLK(iceclk), .PLLOUTGLOBAL(clk), .LOCK(locked), .RESETB(1'b1), .BYPASS(1'b0)
     );
 
-    // Reset from configuration until the PLL has been locked for 15 clocks; a lost lock resets at once
+    // Reset from configuration until the PLL has been locked for 15 clocks. A lost lock has the outputs low at once, clock or
+    // not (clock_lost_i); all else is reset when the clock is back.
     reg [15:0] released_q = 16'd0;
     always @(posedge clk or negedge locked) begin
         if (!locked) released_q <= 16'd0;
@@ -42,9 +63,14 @@ module top #(
 
     wire waiting;
     haptic_core #(
-        .CLOCK_HZ(CLOCK_HZ), .SLOTS(2), .BUILD_HASH(BUILD_HASH), .BOARD("HX8K"), .BAUD(1_000_000)
+        .BOARD("HX8K"), .BAUD(1_000_000),
+        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BIT_PERIOD_RESET(BIT_PERIOD_RESET),
+        .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET), .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX), .HV_SETTLE_TICKS(HV_SETTLE_TICKS),
+        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS), .PULSE_TICKS_MIN(PULSE_TICKS_MIN),
+        .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
+        .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) core (
-        .clk_i(clk), .rst_i(!configured),
+        .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),
         .uart_rx_i(rs232_rx), .uart_tx_o(rs232_tx),
         .trigger_i(trigger), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),

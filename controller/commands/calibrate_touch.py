@@ -16,7 +16,7 @@ from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.errors import CalibrationError
 from controller.hardware import open_touch
-from controller.touch.board_lines import board_lines, write_calibration
+from controller.touch.board_lines import board_lines, check_writable, write_calibration
 from controller.touch.calibration import MOST, Calibration, Point, calibrate, check_targets, default_targets
 from controller.touch.held_touches import HELD_S, HeldTouches
 from controller.touch.recording import Recording
@@ -49,6 +49,8 @@ def calibrate_touch(options: argparse.Namespace) -> int:
     board = load_board(find_board(options.board))
     targets = [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets)
     check_targets(targets, board.plate)
+    if options.write:
+        check_writable(board.folder / "board.toml")
     clock: Clock = MonotonicClock()
     replay = None
     if options.replay:

@@ -70,7 +70,7 @@ def gateware_check(options: argparse.Namespace) -> int:
     session = open_session(link, board, clock.now_s)
     done = bring_up.check(session, board, clock, options.bits, channels, options.pause_s, progress_bar("bits"), take_capture)
     link.close()
-    expected = _expected(board, done.registers)
+    expected = _expected(board)
     complaints = [
         f"{name} is {done.registers[name]}, not {value}" for name, value in expected.items() if done.registers[name] != value
     ]
@@ -81,9 +81,9 @@ def gateware_check(options: argparse.Namespace) -> int:
     return 1 if complaints else 0
 
 
-def _expected(board: Board, registers: dict[str, int]) -> dict[str, int]:
-    """What registers have to hold after bring-up, by their names: identity, the board's settings, and no fault."""
-    settings = configuration.settings(board, registers["edge_window_ticks"])
+def _expected(board: Board) -> dict[str, int]:
+    """What registers have to hold after bring-up, by their names: identity, the board's limits and settings, and no fault."""
+    built_in, settings = configuration.limits(board), configuration.settings(board)
     identity = {
         Register.IDENTITY: IDENTITY_MAGIC,
         Register.PROTOCOL: PROTOCOL_VERSION,
@@ -91,7 +91,7 @@ def _expected(board: Board, registers: dict[str, int]) -> dict[str, int]:
         Register.CLOCK_HZ: board.link.clock_hz,
     }
     at_rest = dict.fromkeys((Register.FAULT, Register.FAULT_CHANNELS, Register.UNDERRUNS, Register.PLAYS_MISSED, Register.QUEUE), 0)
-    return {register.name.lower(): value for register, value in (identity | settings | at_rest).items()}
+    return {register.name.lower(): value for register, value in (identity | built_in | settings | at_rest).items()}
 
 
 def _channels(options: argparse.Namespace, board: Board) -> list[int]:

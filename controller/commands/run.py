@@ -14,6 +14,7 @@ from controller.commands.output import picture_path, progress_bar, show
 from controller.device_settings import RecordingTouch
 from controller.errors import ConfigError
 from controller.hardware import recording_path
+from controller.log import Priority, line
 from controller.scene import edge_warnings, load_scene
 from controller.scene_file import find_scene
 from controller.tables import run_table, service_table
@@ -74,7 +75,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
-            print(f"haptic-panel: {scene_file}: {warning}", file=sys.stderr)
+            print(line(f"{scene_file}: {warning}", Priority.WARNING), file=sys.stderr)
         figures = {"bank": str(bank.path)} | serve(board, scene, str(scene_file), bank, replay)
     show(options, figures, service_table)
     return 0

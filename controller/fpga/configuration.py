@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from typing import Final
 
 from controller.board import Board
 from controller.errors import LinkError
-from controller.fpga.registers import CHANNELS, DUTY_FULL, IDENTITY_MAGIC, PROTOCOL_VERSION, Register
+from controller.fpga.gateware import Parameters
+from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register
+
+LIMITS: Final = {  # fixed when the gateware is built, and the key of board.toml that each comes from
+    Register.CHANNEL_MASK_MAX: "actuators",
+    Register.HV_SETTLE_TICKS: "limits.hv_settle_us",
+    Register.HEARTBEAT_TICKS_MAX: "limits.heartbeat_timeout_ms",
+    Register.EDGE_WINDOW_TICKS: "link.clock_hz",
+    Register.PULSE_TICKS_MIN: "limits.min_pulse_us",
+    Register.CHANNEL_EDGES_MAX: "limits.max_channel_edge_rate_hz",
+    Register.TOTAL_EDGES_MAX: "limits.max_total_edge_rate_hz",
+    Register.EMISSION_TICKS_MAX: "limits.longest_emission_ms",
+    Register.DUTY_SHARE_MAX: "limits.max_duty",
+    Register.DUTY_TICKS_MAX: "limits.duty_budget_ms",
+}
 
 
 class UnfitFpga(LinkError):
     """Another FPGA than this software and this board need: it says so itself, and waiting does not change it."""
 
 
-def ramp_samples(board: Board) -> int:
-    """Drive words in the ramp of a board."""
-    return max(1, round(board.limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
-
-
 def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> None:
-    """Refuse any FPGA but the one this host was made for.
+    """Refuse any FPGA but the one this host was made for, with the limits of this board.
 
     Raises
     ------
     UnfitFpga
-        If it is another one, or too small for the board.
+        If it is another one, too small for the board, or built for another.
     LinkError
         If it does not answer.
     """
@@ -48,28 +57,51 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
+    built = {register: (read(register), value) for register, value in limits(board).items()}
+    other = [
+        f"{register.name} is {found}, not {value} ({LIMITS[register]})"
+        for register, (found, value) in built.items()
+        if found != value
+    ]
+    if other:
+        raise UnfitFpga(
+            f"the FPGA was built with the limits of another board: {'; '.join(other)};"
+            f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
+        )
 
 
-def settings(board: Board, edge_window_ticks: int) -> dict[Register, int]:
-    """Registers as the board says, in the order in which they are written.
+def limits(board: Board) -> dict[Register, int]:
+    """Registers with the limits that the gateware has to be built with."""
+    parameters = Parameters.of(board, 0)
+    return {register: getattr(parameters, register.name.lower()) for register in LIMITS}
 
-    Parameters
-    ----------
-    edge_window_ticks : int
-        Over which the FPGA counts edges.
-    """
-    limits, clock_hz = board.limits, board.link.clock_hz
-    window_s = edge_window_ticks / clock_hz
+
+def settings(board: Board) -> dict[Register, int]:
+    """Registers as the board says, in the order in which they are written: the limits are those built in."""
+    parameters = Parameters.of(board, 0)
     return {
         Register.IDLE_WORD: board.idle_word,
         Register.CHANNEL_MASK: board.channel_mask,
         Register.BIT_PERIOD: board.bit_period,
-        Register.RAMP_SAMPLES: ramp_samples(board),
-        Register.HEARTBEAT_TICKS: round(limits.heartbeat_timeout_ms * 1e-3 * clock_hz),
-        Register.PULSE_TICKS: math.floor(limits.min_pulse_us * 1e-6 * clock_hz),
-        Register.CHANNEL_EDGES: math.floor(limits.max_channel_edge_rate_hz * window_s),
-        Register.TOTAL_EDGES: math.floor(limits.max_total_edge_rate_hz * window_s),
-        Register.EMISSION_TICKS: round(limits.longest_emission_ms * 1e-3 * clock_hz),
-        Register.DUTY_SHARE: round(limits.max_duty * DUTY_FULL),
-        Register.DUTY_TICKS: round(limits.duty_budget_ms * 1e-3 * clock_hz),
+        Register.RAMP_SAMPLES: parameters.ramp_samples_reset,
+        Register.HEARTBEAT_TICKS: parameters.heartbeat_ticks_max,
+        Register.PULSE_TICKS: parameters.pulse_ticks_min,
+        Register.CHANNEL_EDGES: parameters.channel_edges_max,
+        Register.TOTAL_EDGES: parameters.total_edges_max,
+        Register.EMISSION_TICKS: parameters.emission_ticks_max,
+        Register.DUTY_SHARE: parameters.duty_share_max,
+        Register.DUTY_TICKS: parameters.duty_ticks_max,
     }
+
+
+def ramp_ticks(board: Board, bit_period: int) -> int:
+    """Clocks from DISARM until the outputs have arrived, and from ARM once the high voltage has settled."""
+    samples = (
+        Parameters.of(board, 0).ramp_samples_reset + 5
+    )  # the word that sounds, the idle word behind it, and the FPGA its own way
+    return samples * bit_period >> 16
+
+
+def arming_ticks(board: Board, bit_period: int) -> int:
+    """Clocks from ARM until the outputs have arrived."""
+    return Parameters.of(board, 0).hv_settle_ticks + ramp_ticks(board, bit_period)

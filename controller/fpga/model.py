@@ -319,7 +319,7 @@ class GatewareModel:
             elif event.kind is _Kind.PERMIT_NOTED:
                 noted = True
             elif event.kind is _Kind.UNDERRUN:
-                cause |= Fault.UNDERRUN if self._gate.state is not Gate.OFF else Fault(0)
+                cause |= Fault.UNDERRUN if self._gate.live(tick) else Fault(0)
             elif event.kind is _Kind.FRAME:
                 frame = event
             elif event.kind is _Kind.LANDING:

@@ -157,7 +157,7 @@ class Commands:
         still = self.gate.state in (Gate.OFF, Gate.ON) and self.player.quiet(tick) and not self.queue.plays
         result = self.registers.write(address, value, disarmed=disarmed, quiet=still)
         if result is Result.OK and address == Register.DUTY_SHARE:
-            self.gate.limits.activity(tick + 1, active=False)
+            self.gate.limits.activity(tick + 2, active=False)  # clamped once more on its way
         return result
 
     def _read(self, tick: int, link: Conversation, address: int) -> Result:

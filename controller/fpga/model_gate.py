@@ -26,6 +26,7 @@ class Gate(Enum):
     ON = 2
     STOPPING = 3
     RAMP_DOWN = 4
+    SETTLING = 5
 
 
 class OutputGate:
@@ -44,21 +45,31 @@ class OutputGate:
         self.ramp_end = 0
         self._ramp_start = 0
         self._ramp_from = 0  # the tick of STOPPING from which on the way down may begin
+        self._settled_tick = 0  # the last of SETTLING
+        self._live_until = 0  # what was on its way as the state came to OFF has passed the pins in this tick
 
     @property
     def ramping(self) -> bool:
         """Gliding up or down, or about to."""
-        return self.state in (Gate.RAMP_UP, Gate.STOPPING, Gate.RAMP_DOWN)
+        return self.state in (Gate.SETTLING, Gate.RAMP_UP, Gate.STOPPING, Gate.RAMP_DOWN)
+
+    def live(self, tick: int) -> bool:
+        """Anything is on, the pins at least: a cause of a fault counts."""
+        return self.state is not Gate.OFF or tick < self._live_until
 
     def next_change(self, now: int) -> int | None:
         """The tick of the next end of a ramp or of the next fault that can be foreseen."""
-        if self.state is Gate.OFF:
+        if not self.live(now):
             return None
         ticks = [self.silent_from if all(self.permits.values()) else now]
         limit = self.limits.next_change(now)
         if limit is not None:
             ticks.append(limit)
-        if self.state is Gate.STOPPING:
+        if self.state is Gate.OFF:
+            return change if (change := max(min(ticks), now)) < self._live_until else None
+        if self.state is Gate.SETTLING:
+            ticks.append(self._settled_tick)
+        elif self.state is Gate.STOPPING:
             ticks.append(self._ramp_from)
         elif self.ramping:
             ticks.append(self.ramp_end - 1)
@@ -66,7 +77,7 @@ class OutputGate:
 
     def cause(self, tick: int) -> Fault:
         """Why the outputs have to go off in this tick, but for an underrun."""
-        if self.state is Gate.OFF:
+        if not self.live(tick):
             return Fault(0)
         cause = Fault(self.limits.cause(tick) << _LIMITS_SHIFT)
         if not self.permits[Permit.RUN]:
@@ -80,13 +91,17 @@ class OutputGate:
         self.silent_from = tick + 1 + self._registers.heartbeat_ticks
 
     def arm(self, tick: int) -> None:
-        """Glide to the idle word."""
-        self._ramp(tick + 1, Gate.RAMP_UP, ramp_bits(self._registers.ramp_samples, up=True))
+        """Have the high voltage settle, then glide to the idle word."""
+        self.state = Gate.SETTLING
+        self._settled_tick = tick + self._registers.parameters.hv_settle_ticks
+        self.pins.put_word(tick + 1 + PIN_TICKS, 0, hv=1)
 
     def disarm(self, tick: int, settled_from: int) -> None:
         """Glide to 0, once the idle word is old enough, or back from where the way up has come to."""
         samples, bit_ticks = self._registers.ramp_samples, self._registers.bit_ticks
-        if self.state is Gate.ON:
+        if self.state is Gate.SETTLING:
+            self._come_to_off(tick + 1)
+        elif self.state is Gate.ON:
             self.state = Gate.STOPPING
             self._ramp_from = max(tick + 1, settled_from)
         elif self.state is Gate.RAMP_UP and tick == self.ramp_end - 1:
@@ -98,12 +113,16 @@ class OutputGate:
 
     def move_ramp(self, tick: int) -> bool:
         """Begin or end a ramp with this tick; True if one ends."""
-        if self.state is Gate.STOPPING and tick == self._ramp_from:
+        if self.state is Gate.SETTLING and tick == self._settled_tick:
+            self._ramp(tick + 1, Gate.RAMP_UP, ramp_bits(self._registers.ramp_samples, up=True))
+        elif self.state is Gate.STOPPING and tick == self._ramp_from:
             self._ramp(tick + 1, Gate.RAMP_DOWN, ramp_bits(self._registers.ramp_samples, up=False))
         elif self.state in (Gate.RAMP_UP, Gate.RAMP_DOWN) and tick == self.ramp_end - 1:
-            up = self.state is Gate.RAMP_UP
-            self.state = Gate.ON if up else Gate.OFF
-            self.pins.put_word(self.ramp_end + PIN_TICKS, self._registers.idle_word if up else 0, hv=int(up))
+            if self.state is Gate.RAMP_UP:
+                self.state = Gate.ON
+                self.pins.put_word(self.ramp_end + PIN_TICKS, self._registers.idle_word, hv=1)
+            else:
+                self._come_to_off(self.ramp_end)
             self.limits.activity(self.ramp_end, active=False)
             return True
         return False
@@ -123,6 +142,7 @@ class OutputGate:
         self.fault_count += 1
         self.fault_tick = tick
         self.state = Gate.OFF
+        self._live_until = tick + 1
         self.pins.put_word(tick + 1, 0, hv=0)
         self.pins.cut_focus()
         self.limits.activity(tick + 1, active=False)
@@ -132,6 +152,12 @@ class OutputGate:
         """Forget the causes of a fault."""
         self.faults = Fault(0)
         self.limits.clear(tick)
+
+    def _come_to_off(self, tick: int) -> None:
+        """Off from state tick `tick` on, without a fault: the words on their way still come."""
+        self.state = Gate.OFF
+        self._live_until = tick + PIN_TICKS
+        self.pins.put_word(tick + PIN_TICKS, 0, hv=0)
 
     def _ramp(self, tick: int, state: Gate, bits: NDArray[np.bool_]) -> None:
         bit_ticks = self._registers.bit_ticks

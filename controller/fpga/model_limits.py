@@ -22,6 +22,11 @@ CHANNELS = 32
 EDGE_TICKS = 2  # from a change to what it causes: short pulse, edges of one channel
 TOTAL_TICKS = 3  # the same for the edges of all
 CHANNEL_EDGES_MAX = 2**24 - 1  # more counts as this
+PARTS = 16  # in which edges are counted: the one that runs and those before it
+_FETCH_TICKS = 3  # by which the parts of channel 0 begin later than those of all; each further channel is one later
+_ALL = CHANNELS  # place of the edges of all channels, behind those of each
+_PHASES: Ticks = np.array([*range(_FETCH_TICKS, _FETCH_TICKS + CHANNELS), 0])
+_PLACES = np.arange(CHANNELS + 1)
 FULL_FLOW = 1 << 16  # into the bucket in an active tick
 BUCKET_MAX = 2**48 - 1
 
@@ -38,15 +43,46 @@ class LimitSettings:
     duty_ticks: int = 2**32 - 1
 
 
+class _Counts(NamedTuple):
+    """Edges of each channel and of all, in the parts that count."""
+
+    part: Ticks  # (33,) number of the part that runs
+    made: Ticks  # (PARTS, 33) edges in it and in the parts before it, by number modulo PARTS
+    live: Ticks  # (33,) their sums
+    until: int  # the tick in which the next part begins, whosever it is
+
+    def at(self, tick: int, part_ticks: int) -> _Counts:
+        """What counts from a later tick on."""
+        if tick < self.until:
+            return self
+        part = (tick - _PHASES) // part_ticks
+        made, live = self.made.copy(), self.live.copy()
+        passed = part - self.part
+        for step in range(1, min(int(passed.max()), PARTS) + 1):
+            place = _PLACES[passed >= step]
+            number = (self.part[place] + step) % PARTS
+            live[place] -= made[number, place]
+            made[number, place] = 0
+        return _Counts(part, made, live, int((_PHASES + (part + 1) * part_ticks).min()))
+
+    def after(self, edges: Ticks) -> _Counts:
+        """With (33,) more edges in the parts that run."""
+        made = self.made.copy()
+        made[self.part % PARTS, _PLACES] += edges
+        return self._replace(made=made, live=self.live + edges)
+
+
+_NOTHING = np.zeros(CHANNELS + 1, np.int64)
+_NO_EDGES = _Counts(_NOTHING - 1, np.zeros((PARTS, CHANNELS + 1), np.int64), _NOTHING, 0)
+
+
 class _State(NamedTuple):
     """What is known of the pins before a plan."""
 
     word: int = 0
     last_change: int | None = None
     recent: int = 0  # channels that changed since the pins last rested
-    window: int = 0
-    counts: NDArray[np.int64] = np.zeros(CHANNELS, np.int64)
-    total: int = 0
+    counts: _Counts = _NO_EDGES
 
 
 class _Sound(NamedTuple):
@@ -96,7 +132,7 @@ class StageLimits:
 
     def __init__(self, settings: LimitSettings, window_ticks: int) -> None:
         self._settings = settings
-        self._window_ticks = window_ticks
+        self._part_ticks = part_ticks(window_ticks)
         self._plans: list[_Plan] = []
         self._settled = _State()
         self._culprits = 0  # of what was settled, since `clear`
@@ -217,15 +253,13 @@ class StageLimits:
             return plan
         ticks, changes = ticks[moved], changes[moved]
         last_change, recent = self._judge_pulses(plan, ticks, changes)
-        window, counts, total = before.window, before.counts, before.total
+        counts = before.counts
         while ticks.size:
-            if (here := int(ticks[0]) // self._window_ticks) != window:
-                window, counts, total = here, np.zeros(CHANNELS, np.int64), 0
-            end = (window + 1) * self._window_ticks
-            inside = len(ticks) if ticks[-1] < end else int(np.searchsorted(ticks, end))
-            counts, total = self._judge_edges(plan, ticks[:inside], changes[:inside], counts, total)
+            counts = counts.at(int(ticks[0]), self._part_ticks)
+            inside = len(ticks) if ticks[-1] < counts.until else int(np.searchsorted(ticks, counts.until))
+            counts = self._judge_edges(plan, ticks[:inside], changes[:inside], counts)
             ticks, changes = ticks[inside:], changes[inside:]
-        plan.after = _State(int(words[-1]), last_change, recent, window, counts, total)
+        plan.after = _State(int(words[-1]), last_change, recent, counts)
         return plan
 
     def _judge_pulses(self, plan: _Plan, ticks: Ticks, changes: Words) -> tuple[int, int]:
@@ -244,27 +278,31 @@ class StageLimits:
             recent |= change
         return last, recent
 
-    def _judge_edges(
-        self, plan: _Plan, ticks: Ticks, changes: Words, counts: NDArray[np.int64], total: int
-    ) -> tuple[NDArray[np.int64], int]:
-        """Note edges too many within one window; the counts afterwards."""
+    def _judge_edges(self, plan: _Plan, ticks: Ticks, changes: Words, counts: _Counts) -> _Counts:
+        """Note edges too many, while no part begins; the counts afterwards."""
+        before, total = counts.live[:CHANNELS], int(counts.live[_ALL])
         limit = min(self._settings.channel_edges, CHANNEL_EDGES_MAX)
         bits = np.unpackbits(changes.astype("<u4", copy=False).view(np.uint8), bitorder="little").reshape(-1, CHANNELS)
         eights = np.add.reduceat(bits.view(np.uint64), np.arange(0, len(bits), 255))  # eight sums at once, ten times faster
         made = eights.view(np.uint8).sum(axis=0, dtype=np.int64)
-        after = counts + made
-        total_after = total + int(made.sum())
-        if total_after > self._settings.total_edges:
+        after = before + made
+        edges = np.append(made, made.sum())
+        if total + edges[_ALL] > self._settings.total_edges:
             totals = total + bits.sum(axis=1).cumsum()
             for tick in ticks[totals > self._settings.total_edges].tolist():
                 plan.causes[tick + TOTAL_TICKS] = plan.causes.get(tick + TOTAL_TICKS, 0) | TOTAL_EDGES
         if (after > limit).any():
-            too_many = bits.astype(bool) & (counts + bits.cumsum(axis=0) > limit)
+            too_many = bits.astype(bool) & (before + bits.cumsum(axis=0) > limit)
             words = np.packbits(too_many, axis=1, bitorder="little").view("<u4")[:, 0]
             for at in words.nonzero()[0].tolist():
                 _note(plan, int(ticks[at]), CHANNEL_EDGES, int(words[at]))
-            after = np.maximum(np.minimum(after, limit), counts)  # what is too many is not counted
-        return after, total_after
+            edges[:CHANNELS] = np.maximum(np.minimum(after, limit), before) - before  # what is too many is not counted
+        return counts.after(edges)
+
+
+def part_ticks(window_ticks: int) -> int:
+    """Ticks of a part: whole rounds of a turn for each channel, so that all parts but the one that runs are a window at least."""
+    return -(-window_ticks // (CHANNELS * (PARTS - 1))) * CHANNELS
 
 
 def _note(plan: _Plan, tick: int, cause: int, channels: int) -> None:

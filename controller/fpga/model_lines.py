@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from controller.fpga.capture import Capture
 from controller.fpga.gateware import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
 
+PAD_TICKS = 1  # from the state to `waiting_o` and `fault_o`, which have a register each
 ANSWER_TICKS = 4  # from the fall of chip select to the first bit of the answer on MISO
 RELEASE_TICKS = 3  # from its rise until MISO is low
 SHIFT_TICKS = 1  # from the fall of SCK to the next bit
@@ -61,15 +62,22 @@ class Lines:
         """A capture with these lines, up to now."""
         miso = np.concatenate([np.zeros(0, np.int64), *self._miso])
         due = miso <= now
-        taken = replace(
+        self._miso = [miso[~due]]
+        return replace(
             capture,
-            waiting_ticks=np.array(self._waits, np.uint64),
-            fault_ticks=np.array(self._faults, np.uint64),
+            waiting_ticks=_taken(self._waits, now),
+            fault_ticks=_taken(self._faults, now),
             miso_ticks=miso[due].astype(np.uint64),
             uart_ticks=np.array(uart_ticks if self._noting_frames else [], np.uint64),
         )
-        self._waits, self._faults, self._miso = [], [], [miso[~due]]
-        return taken
+
+
+def _taken(changes: list[int], now: int) -> NDArray[np.uint64]:
+    """The changes that have come to their pin, which are taken off the list."""
+    due = sum(tick + PAD_TICKS <= now for tick in changes)
+    taken = np.array(changes[:due], np.uint64) + np.uint64(PAD_TICKS)
+    del changes[:due]
+    return taken
 
 
 def miso_changes(select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> NDArray[np.int64]:

@@ -7,7 +7,6 @@ from controller.fpga.model_limits import LimitSettings
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
-    BIT_CLOCK_HZ_RESET,
     BIT_TICKS_MIN,
     CHANNELS,
     FILTER_TICKS,
@@ -15,7 +14,6 @@ from controller.fpga.registers import (
     PROTOCOL_VERSION,
     QUEUE_PLAYS,
     RAMP_SAMPLES_MAX,
-    RAMP_SAMPLES_RESET,
     REGISTERS,
     TRIGGER_LATENCY_TICKS,
     WAVEFORM_WORDS,
@@ -24,6 +22,17 @@ from controller.fpga.registers import (
 )
 
 _ALL_ONES = 0xFFFFFFFF
+HARD_LIMITS = (
+    "HV_SETTLE_TICKS",
+    "CHANNEL_MASK_MAX",
+    "HEARTBEAT_TICKS_MAX",
+    "PULSE_TICKS_MIN",
+    "CHANNEL_EDGES_MAX",
+    "TOTAL_EDGES_MAX",
+    "EMISSION_TICKS_MAX",
+    "DUTY_SHARE_MAX",
+    "DUTY_TICKS_MAX",
+)
 
 
 class RegisterFile:
@@ -33,7 +42,7 @@ class RegisterFile:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
         most = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest)
-        self._values = {
+        self._values: dict[Register, int] = {
             Register.IDENTITY: IDENTITY_MAGIC,
             Register.PROTOCOL: PROTOCOL_VERSION,
             Register.BUILD_HASH: p.build_hash,
@@ -43,9 +52,9 @@ class RegisterFile:
             Register.PARAMETERS: QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16,
             Register.EDGE_WINDOW_TICKS: p.edge_window_ticks,
             Register.IDLE_WORD: 0,
-            Register.CHANNEL_MASK: _ALL_ONES,
-            Register.BIT_PERIOD: max(fewest, p.clock_hz // BIT_CLOCK_HZ_RESET) << 16,
-            Register.RAMP_SAMPLES: RAMP_SAMPLES_RESET,
+            Register.CHANNEL_MASK: p.channel_mask_max,
+            Register.BIT_PERIOD: p.bit_period_reset,
+            Register.RAMP_SAMPLES: p.ramp_samples_reset,
             Register.HEARTBEAT_TICKS: p.heartbeat_ticks_max,
             Register.PULSE_TICKS: p.pulse_ticks_min,
             Register.CHANNEL_EDGES: p.channel_edges_max,
@@ -53,7 +62,7 @@ class RegisterFile:
             Register.EMISSION_TICKS: p.emission_ticks_max,
             Register.DUTY_SHARE: p.duty_share_max,
             Register.DUTY_TICKS: p.duty_ticks_max,
-        }
+        } | {Register[name]: getattr(p, name.lower()) for name in HARD_LIMITS}
         self._ranges = {
             Register.IDLE_WORD: (0, _ALL_ONES),
             Register.CHANNEL_MASK: (0, _ALL_ONES),
@@ -121,7 +130,7 @@ class RegisterFile:
             low = max(low, self._values[Register.PULSE_TICKS] << 16)
         elif register == Register.PULSE_TICKS:
             high = self.bit_ticks
-        if not low <= value <= high:
+        if not low <= value <= high or (register == Register.CHANNEL_MASK and value & ~self.parameters.channel_mask_max):
             return Result.BAD_VALUE
         self._values[register] = value
         self._set_limits()

@@ -27,9 +27,7 @@ QUEUE_PLAYS: Final = 8
 BIT_TICKS_MIN: Final = 4
 BIT_CLOCK_HZ_MAX: Final = 2_000_000
 BIT_CLOCK_HZ_MIN: Final = 100_000
-BIT_CLOCK_HZ_RESET: Final = 500_000
 RAMP_SAMPLES_MAX: Final = 262143
-RAMP_SAMPLES_RESET: Final = 5000
 DUTY_FULL: Final = 65536
 
 FILTER_TICKS: Final = 3
@@ -116,6 +114,15 @@ class Register(IntEnum):
     SLOTS_LOADED = 39
     QUEUE = 40
     DUTY_LEVEL = 41
+    HV_SETTLE_TICKS = 42
+    CHANNEL_MASK_MAX = 43
+    HEARTBEAT_TICKS_MAX = 44
+    PULSE_TICKS_MIN = 45
+    CHANNEL_EDGES_MAX = 46
+    TOTAL_EDGES_MAX = 47
+    EMISSION_TICKS_MAX = 48
+    DUTY_SHARE_MAX = 49
+    DUTY_TICKS_MAX = 50
 
 
 REGISTERS: Final[dict[Register, Description]] = {
@@ -136,14 +143,14 @@ REGISTERS: Final[dict[Register, Description]] = {
         "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; directly before ARM), 6 TRIGGER",
     ),
     Register.IDLE_WORD: Description("RW", "31:0", "0", "level of each channel while armed and not playing"),
-    Register.CHANNEL_MASK: Description("RW", "31:0", "0xFFFFFFFF", "channels that may move; the others are low"),
+    Register.CHANNEL_MASK: Description("RW", "31:0", "largest", "channels that may move; the others are low"),
     Register.BIT_PERIOD: Description(
         "RW",
         "31:0",
-        "500 kHz",
+        "the board's",
         "time one drive word is held, in 65536ths of a tick: 2 MHz to 100 kHz, 4 ticks or more; written while nothing plays",
     ),
-    Register.RAMP_SAMPLES: Description("RW", "17:0", "5000", "drive words in the glide between 0 and idle"),
+    Register.RAMP_SAMPLES: Description("RW", "17:0", "the board's", "drive words in the glide between 0 and idle"),
     Register.HEARTBEAT_TICKS: Description(
         "RW", "31:0", "largest", "ticks without a good frame of the link that armed until HOST_SILENT; at most what is built in"
     ),
@@ -163,7 +170,9 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
     Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
     Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
-    Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW was read last, by the link that asks"),
+    Register.FAULT_TIME_HIGH: Description(
+        "RO", "31:0", "0", "high half of the time whose LOW was read last, by the link that asks"
+    ),
     Register.INPUTS: Description("RO", "2:0", "the pins", "levels of the pins: run permit (0), temperature good (1), trigger (2)"),
     Register.INPUT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last change of run permit or temperature; holds its HIGH"),
     Register.INPUT_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
@@ -180,11 +189,24 @@ REGISTERS: Final[dict[Register, Description]] = {
         "RO", "31:0", "0", "scheduled plays dropped because their time had passed or something sounded"
     ),
     Register.UNDERRUNS: Description("RO", "31:0", "0", "emissions that overtook their upload"),
-    Register.FRAME_ERRORS: Description("RO", "31:0", "0", "frames refused for sync word, length or CRC, or as BUSY by the UART; of the link that asks"),
-    Register.SEQUENCE_GAPS: Description("RO", "31:0", "0", "accepted frames before this one whose number did not follow the one before; of the link that asks"),
+    Register.FRAME_ERRORS: Description(
+        "RO", "31:0", "0", "frames refused for sync word, length or CRC, or as BUSY by the UART; of the link that asks"
+    ),
+    Register.SEQUENCE_GAPS: Description(
+        "RO", "31:0", "0", "accepted frames before this one whose number did not follow the one before; of the link that asks"
+    ),
     Register.SLOTS_LOADED: Description("RO", "15:0", "0", "bit k: slot k holds a waveform whose CRC matches"),
     Register.QUEUE: Description("RO", "7:0", "0", "plays accepted and not yet begun"),
     Register.DUTY_LEVEL: Description("RO", "31:0", "0", "ticks of emission that have run ahead of DUTY_SHARE"),
+    Register.HV_SETTLE_TICKS: Description("RO", "31:0", "built in", "ticks from hv_enable to the first edge of a ramp up"),
+    Register.CHANNEL_MASK_MAX: Description("RO", "31:0", "built in", "channels that have a stage: no other ever moves"),
+    Register.HEARTBEAT_TICKS_MAX: Description("RO", "31:0", "built in", "most that HEARTBEAT_TICKS can be"),
+    Register.PULSE_TICKS_MIN: Description("RO", "31:0", "built in", "least that PULSE_TICKS can be"),
+    Register.CHANNEL_EDGES_MAX: Description("RO", "31:0", "built in", "most that CHANNEL_EDGES can be"),
+    Register.TOTAL_EDGES_MAX: Description("RO", "31:0", "built in", "most that TOTAL_EDGES can be"),
+    Register.EMISSION_TICKS_MAX: Description("RO", "31:0", "built in", "most that EMISSION_TICKS can be"),
+    Register.DUTY_SHARE_MAX: Description("RO", "31:0", "built in", "most that DUTY_SHARE can be"),
+    Register.DUTY_TICKS_MAX: Description("RO", "31:0", "built in", "most that DUTY_TICKS can be"),
 }
 
 

@@ -147,7 +147,7 @@ def main(name: str = "simulated") -> None:
     """Serve the gateware of a board, in real time, until interrupted."""
     board = load_board(find_board(name))
     link = board.link
-    model = GatewareModel(Parameters.of(link.clock_hz, link.slots, build_hash(data_folder("fpga_rtl"))))
+    model = GatewareModel(Parameters.of(board, build_hash(data_folder("fpga_rtl"))))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     with contextlib.suppress(KeyboardInterrupt), PseudoTerminal(panel.receive) as terminal:
         sys.stdout.write(f"{terminal.device}\n")

@@ -51,6 +51,8 @@ class Session:
         If it is set, each heartbeat tells it the FPGA's time, for plays that are scheduled.
     bit_period : int
         Time for which one drive word is held now, in 65536ths of a clock of the FPGA.
+    ramp_end_s : float
+        When the outputs have arrived at their levels after the last arming or disarming.
 
     Raises
     ------
@@ -77,6 +79,7 @@ class Session:
         self._beat_ticks = 0  # the FPGA's time at that heartbeat
         self.clock_relation: ClockRelation | None = None
         self.bit_period = board.bit_period
+        self.ramp_end_s = -math.inf
         if bring_up:
             self.bring_up()
 
@@ -159,7 +162,8 @@ class Session:
         self._ours = True
         self.exchange.insist(send)
         self._on = True
-        return self._ramp_end_s()
+        self.ramp_end_s = self._in_s(configuration.arming_ticks(self._board, self.bit_period))
+        return self.ramp_end_s
 
     def require_armed(self) -> None:
         """Raise LinkError unless the FPGA says that it is armed."""
@@ -172,7 +176,8 @@ class Session:
         """Have the outputs glide to 0 V; the time at which they are off."""
         self._on = False
         self.exchange.insist(lambda _: self._commanded(Control.DISARM))
-        return self._ramp_end_s()
+        self.ramp_end_s = self._in_s(configuration.ramp_ticks(self._board, self.bit_period))
+        return self.ramp_end_s
 
     def off(self) -> None:
         """Outputs off as far as this host can still say so; the FPGA does it without us when the heartbeat ends."""
@@ -337,6 +342,16 @@ class Session:
             self.exchange.stop()  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
             raise
 
+    def stop(self) -> None:
+        """End what is repeated with the emission that sounds, and leave nothing to play.
+
+        Raises
+        ------
+        LinkError
+            If the link damages whatever is tried.
+        """
+        self.exchange.insist(lambda _: self._commanded(Control.STOP))
+
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
         return self._link.trigger()
@@ -409,7 +424,7 @@ class Session:
                 self.exchange.control(Control.DISARM)
                 raise LinkError("the FPGA was still armed and is told to disarm: try again when its ramp has passed")
             raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
-        settings = configuration.settings(self._board, self.exchange.read(Register.EDGE_WINDOW_TICKS))
+        settings = configuration.settings(self._board)
         settings[Register.BIT_PERIOD] = self.bit_period
         for register, value in settings.items():
             try:
@@ -420,8 +435,5 @@ class Session:
             if self.exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 
-    def _ramp_end_s(self) -> float:
-        samples = (
-            configuration.ramp_samples(self._board) + 5
-        )  # the word that sounds, the idle word behind it, and the FPGA its own way
-        return self.ready_s() + samples * self.bit_period / 65536 / self._board.link.clock_hz
+    def _in_s(self, ticks: int) -> float:
+        return self.ready_s() + ticks / self._board.link.clock_hz

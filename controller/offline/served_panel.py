@@ -3,19 +3,22 @@
     python -m controller.offline.served_panel /tmp/panel.sock
 
 Everything but the FPGA and the touch panel is what runs on the device: loop, scene, bank, socket, scheduling. The
-FPGA is its model; two fingers go to and fro for ever. It ends with SIGTERM or Ctrl-C.
+FPGA is its model; two fingers go to and fro for ever. It ends with SIGTERM or Ctrl-C. With --background the command
+returns when the panel plays, and the panel goes on.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+import os
+import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import msgspec
 from threadpoolctl import threadpool_limits
 
 from controller.application_socket.command_socket import CommandSocket
@@ -27,12 +30,14 @@ from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
 from controller.hardware import open_session, open_simulated, tracked
 from controller.housekeeping import Housekeeping
+from controller.log import Priority, tell
 from controller.offline.bank_builder import build_bank
 from controller.prepare_scene import populate
+from controller.records import as_record
 from controller.scene import load_scene
 from controller.scene_change import SceneChanger
 from controller.scene_file import find_scene
-from controller.service import Notifier, Watchdog, enter_realtime, tell
+from controller.service import Notifier, Watchdog, enter_realtime
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -44,7 +49,7 @@ AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0
 DRAIN_S = 1.0  # what the simulated pins did is forgotten this often
 
 
-def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float) -> None:
+def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float, ready: Callable[[], None]) -> None:
     """Run the simulated panel until a signal comes.
 
     Parameters
@@ -53,6 +58,8 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
         Of the socket, in place of the board's.
     touched_s : float
         For how long the two fingers are down.
+    ready : callable
+        Called when the panel is armed.
     """
     clock = MonotonicClock()
     scene = load_scene(find_scene(board), board)
@@ -64,7 +71,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
-        tell(warning)
+        tell(warning, Priority.WARNING)
     drain_s = clock.now_s()
 
     def progress(now_s: float) -> None:
@@ -79,7 +86,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     try:
         assembly = assemble(board, scene, bank, clock, session, source, commands=commands, change=change, progress=progress)
         housekeeping.watch(assembly.loop, assembly.counters, None, commands.changed)
-        assembly.loop.run()
+        assembly.loop.run(ready)
     finally:
         change.close()
         commands.close()
@@ -106,26 +113,52 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
     parser.add_argument("--commands-per-s", type=float, default=500.0, metavar="N", help="that one client may send (default: 500)")
     parser.add_argument("--touched-s", type=float, default=3600.0, metavar="S", help="for how long the fingers are down")
+    parser.add_argument("--background", action="store_true", help="return when the panel plays; it goes on until it is ended")
+    parser.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
+    if options.background:
+        return _in_background(sys.argv[1:] if arguments is None else arguments)
+
+    def ready() -> None:
+        _say(f"playing; its socket is {options.socket}, and `kill {os.getpid()}` or Ctrl-C ends it")
+        if options.ready_fd is not None:
+            os.write(options.ready_fd, b"1")
+            os.close(options.ready_fd)
+
     try:
         board = load_board(find_board(options.board))
-        settings = msgspec.convert(
-            {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}, ApplicationSocket
-        )
+        asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
+        settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
         with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
             path = Path(folder) / "whole plate.bank"
-            build_bank(board, path, PITCH_M, measure_sgemm=False)
+            _say(f"building a bank of the whole plate, {PITCH_M * 1e3:g} mm from cell to cell: some seconds")
+            report = build_bank(board, path, PITCH_M, progress=True, measure_sgemm=False)
+            _say(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
             started_s = time.monotonic()
             with Bank.open(path, board) as bank:
-                serve(board, settings, bank, options.touched_s)
-        sys.stderr.write(f"served for {time.monotonic() - started_s:.0f} s\n")
+                serve(board, settings, bank, options.touched_s, ready)
+        _say(f"served for {time.monotonic() - started_s:.0f} s")
     except ControllerError as error:
         sys.stderr.write(f"error: {error}\n")
         return error.exit_code
-    except msgspec.ValidationError as error:
-        sys.stderr.write(f"error: --commands-per-s {options.commands_per_s:g}: {error}\n")
-        return 2
     return 0
+
+
+def _in_background(arguments: Sequence[str]) -> int:
+    """Start this again as a process of its own; 0 when it plays, else the exit code with which it ended."""
+    own = [argument for argument in arguments if argument != "--background"]
+    told, tells = os.pipe()
+    with os.fdopen(told, "rb") as answer:
+        command = [sys.executable, "-m", "controller.offline.served_panel", *own, "--ready-fd", str(tells)]
+        panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(tells,), start_new_session=True)
+        os.close(tells)
+        playing = answer.read(1)
+    return 0 if playing else panel.wait()
+
+
+def _say(what: str) -> None:
+    sys.stderr.write(f"served_panel: {what}\n")
+    sys.stderr.flush()
 
 
 if __name__ == "__main__":

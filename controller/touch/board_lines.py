@@ -40,6 +40,18 @@ def with_calibration(text: str, calibration: Calibration) -> str:
     return changed
 
 
+def check_writable(file: Path) -> None:
+    """Refuse a board.toml that could not be changed, before anybody touches five marks for it.
+
+    Raises
+    ------
+    CalibrationError
+        If its folder takes no new file from this user.
+    """
+    if not os.access(file.resolve().parent, os.W_OK | os.X_OK):
+        raise CalibrationError(f"{file}: cannot be written (Permission denied): do it as root, or without --write")
+
+
 def write_calibration(file: Path, calibration: Calibration) -> None:
     """Change the two lines of a board.toml in place: all of it or nothing, whatever interrupts.
 

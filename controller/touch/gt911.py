@@ -1,4 +1,7 @@
-"""Touch controllers Goodix GT911 (data sheet and programming guide rev. 09; the kernel's goodix.c has the same map)."""
+"""Touch controllers Goodix GT911 and its kin (data sheet and programming guide rev. 09).
+
+The kernel's goodix.c drives the chips of `PRODUCTS` by the same map; those of the GT1x line keep their configuration elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,7 @@ CONFIG: Final = b"\x80\x47"  # version, largest x, largest y (2 bytes each), con
 CONFIG_BYTES: Final = 7
 PRODUCT_ID: Final = b"\x81\x40"  # 4 ASCII characters, zeros behind them; then the firmware's version, 2 bytes
 PRODUCT_BYTES: Final = 6
+PRODUCTS: Final = ("911", "9110", "9111", "912", "9147", "927", "9271", "928", "967")
 STATUS: Final = b"\x81\x4e"  # bit 7: a report is ready, bits 3:0: its contacts, which follow
 READY: Final = 0x80
 POINT_BYTES: Final = 8  # number, x, y, size (2 bytes each), reserved
@@ -74,11 +78,37 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
     return contacts
 
 
+def product_of(identity: bytes, bus: str) -> str:
+    """Number of the chip that gave these registers from `PRODUCT_ID` on.
+
+    Raises
+    ------
+    TouchError
+        If it is none of `PRODUCTS`.
+    """
+    name = identity[:4].rstrip(b"\0")
+    if name.decode("ascii", "replace") in PRODUCTS:
+        return name.decode("ascii")
+    if not name.strip(b"\xff"):
+        raise TouchError(
+            f"what answers as touch panel on {bus} gives nothing but 0x{identity[0]:02X}: "
+            "is it powered, out of reset, and is nothing else holding the bus?"
+        )
+    if not (name.isalnum() and name.isascii()):
+        raise TouchError(
+            f"what answers as touch panel on {bus} is no Goodix chip (it gives {name!r}): is the address another chip's?"
+        )
+    raise TouchError(
+        f"the touch panel on {bus} is a Goodix {name.decode('ascii')!r}, which this driver does not know: "
+        f'it drives {", ".join(PRODUCTS)}; with a kernel driver it can be used as kind = "linux_input"'
+    )
+
+
 class Gt911:
     """One such chip; a `Chip`."""
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
-        self.name = "GT911 touch panel"
+        self.name = "Goodix touch panel"
         self.edge = Edge.FALLING
         self._settings = settings
         self._warnings = warnings
@@ -107,11 +137,9 @@ class Gt911:
             product = bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
         else:
             product = self._find(bus)
-        name = product[:4].rstrip(b"\0").decode("ascii", "replace")
-        if name != "911":
-            raise TouchError(f"what answers as GT911 on {self._settings.bus} calls itself {name!r}: is the address another chip's?")
+        name = f"GT{product_of(product, self._settings.bus)}"
         config = bus.read(self._address, CONFIG, CONFIG_BYTES)
-        self._description = self._described(config, int.from_bytes(product[4:6], "little"))
+        self._description = self._described(name, config, int.from_bytes(product[4:6], "little"))
         self.edge = Edge.RISING if config[6] & 0x03 in RISING_INTERRUPT else Edge.FALLING
         bus.send(self._clear)
 
@@ -145,12 +173,12 @@ class Gt911:
             self._use(other)
             return product
 
-    def _described(self, config: bytes, firmware: int) -> DeviceDescription:
+    def _described(self, name: str, config: bytes, firmware: int) -> DeviceDescription:
         width = self._settings.width or int.from_bytes(config[1:3], "little")
         height = self._settings.height or int.from_bytes(config[3:5], "little")
         if not width or not height:
-            raise TouchError(f"the GT911 on {self._settings.bus} has no configuration: give width and height in board.toml")
-        return describe("GT911", firmware, width, height, sized=True)
+            raise TouchError(f"the {name} on {self._settings.bus} has no configuration: give width and height in board.toml")
+        return describe(name, firmware, width, height, sized=True)
 
 
 def open_gt911(settings: Gt911Touch) -> I2cReader:

@@ -179,7 +179,6 @@ class I2cReader:
         return self._contacts.report((), now_s)
 
     def _start(self) -> Iterator[float]:
-        self._lines.rest()
         yield from self._chip.start(self._bus, self._lines)
         self._lines.listen(self._chip.edge)
         self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)

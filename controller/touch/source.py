@@ -70,3 +70,22 @@ class TrackedTouch(TouchSource, Protocol):
         period_s : float
             Above 0 it is repeated so, until the next call; `emitted(now_s, now_s)` where nothing follows.
         """
+
+    def quiet_until_s(self, now_s: float, next_s: float) -> float:
+        """Until when no emission may begin, so that a contact that may be a ghost shows whether it is one.
+
+        To be asked before anything is played, and while anything is repeated. It is at most one emission and the life of
+        its ghosts ahead, and what it may take of the time is bounded.
+
+        Parameters
+        ----------
+        now_s : float
+            In the loop's clock.
+        next_s : float
+            When the next emission would begin, now or later.
+
+        Returns
+        -------
+        float
+            `now_s` or earlier: go ahead.
+        """

@@ -18,13 +18,14 @@ from math import hypot, inf
 from typing import Any
 
 from controller.device_settings import TouchPanel
-from controller.touch.ghost_guard import NEAR_M, GhostGuard
+from controller.touch.ghost_guard import GhostGuard, Listening
 from controller.touch.panel import Counts
 from controller.touch.prediction import Motion
 from controller.touch.report_rate import ReportRate
 from controller.touch.samples import TouchSample
 from controller.touch.source import TouchSource
 
+NEAR_M = 5e-3
 BRIDGED_PERIODS = 1.5
 UNTOLD_PERIODS = 1.5  # a report that told nothing of a contact is taken for one that found it still there
 CONFIRMING_REPORTS = 2
@@ -39,6 +40,7 @@ class TrackerCounts:
     flickers: int = 0  # gone before enough reports had told them
     palms: int = 0
     bridged: int = 0  # lost and found again
+    listened_s: float = 0.0  # emissions were held back for so long, that suspects could be judged
     longest_hold_s: float = 0.0  # from the first report of a suspect to its first sample
     longest_ghost_s: float = 0.0  # from first report to last; close to `ghost_ms`, that is too short
 
@@ -46,12 +48,12 @@ class TrackerCounts:
 class _Contact:
     """One contact of the source, waiting, played or refused."""
 
-    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "stayed_since_s", "suspect")
+    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "suspect")
 
     def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
         self.finger = finger  # as the loop knows it: the source's number of its first contact
         self.motion = motion
-        self.first_s = self.stayed_since_s = motion.time_s
+        self.first_s = motion.time_s
         self.reports = 1
         self.size_m = 0.0
         self.suspect = suspect
@@ -103,6 +105,7 @@ class Tracker:
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
         self._guard = GhostGuard(settings.ghost_s)
+        self._listening = Listening(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
         self._fingers: dict[int, _Contact] = {}  # played, by the loop's number
         self._released: dict[int, _Contact] = {}  # of the last read: what they feel as they are lifted is decided after it
@@ -125,6 +128,7 @@ class Tracker:
     def figures(self) -> dict[str, Any]:
         """What was held back or refused, and how the panel reports, ready for JSON; None where too little is known."""
         median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
+        self.tracking.listened_s = round(self._listening.total_s, 6)
         return asdict(self.tracking) | {
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
@@ -139,17 +143,18 @@ class Tracker:
         self._source.close()
 
     def next_time_s(self) -> float | None:
-        """When the source wants to be read, or a contact that waits is due."""
+        """When the source wants to be read, a contact that waits is due, or silence may be asked for again."""
         source_s = self._source.next_time_s()
-        if source_s is None:
-            return None if self._due_s == inf else self._due_s
-        return min(source_s, self._due_s)
+        next_s = min(inf if source_s is None else source_s, self._due_s, self._listening.again_s)
+        return None if next_s == inf else next_s
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
         self._now_s = now_s
         if self._released:
             self._released.clear()
+        if now_s >= self._listening.again_s:
+            self._listening.again_s = inf
         samples = self._source.read(now_s)
         known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
         reports = self._source.counts.reports
@@ -197,6 +202,21 @@ class Tracker:
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
         """An emission sounds, or is repeated until the next call; see `TrackedTouch.emitted`."""
         self._guard.emitted(start_s, end_s, period_s)
+        for contact in self._contacts.values():  # what is stopped frees suspects earlier than was known
+            if contact.suspect and not contact.played and not contact.refused:
+                self._due_s = min(self._due_s, self._played_from_s(contact))
+
+    def quiet_until_s(self, now_s: float, next_s: float) -> float:
+        """Until when no emission may begin; see `TrackedTouch.quiet_until_s`."""
+        silent_s = -inf
+        for contact in self._contacts.values():
+            if contact.suspect and not contact.played and not contact.refused:
+                silent_s = max(silent_s, self._guard.silent_s(contact.first_s, now_s))
+        if silent_s <= next_s:
+            self._listening.end(now_s)
+        elif self._listening.begin(now_s, silent_s):
+            return silent_s
+        return now_s
 
     def _take(self, sample: TouchSample, given: list[TouchSample]) -> None:
         contact = self._contacts.get(sample.finger)
@@ -215,10 +235,7 @@ class Tracker:
         if sample.size_m > self._max_size_m:
             self._refuse(contact, time_s, given)
             return
-        motion = contact.motion
-        if contact.suspect and not contact.played and hypot(x_m - motion.x_m, y_m - motion.y_m) > NEAR_M:
-            contact.stayed_since_s = time_s
-        motion.report(x_m, y_m, time_s)
+        contact.motion.report(x_m, y_m, time_s)
         contact.reports += 1
         contact.size_m = sample.size_m
         if contact.played:
@@ -230,15 +247,15 @@ class Tracker:
         """Contact for a number of the source that is new: a lost finger found again, or one that waits."""
         finger, x_m, y_m, time_s, _, size_m = sample
         palm = size_m > self._max_size_m
-        for lost in self._lost:
-            if not palm and hypot(x_m - lost.motion.x_m, y_m - lost.motion.y_m) <= NEAR_M and time_s <= self._bridged_until_s(lost):
-                self._lost.remove(lost)
-                lost.lost_s = inf
-                self._contacts[finger] = lost
-                self.tracking.bridged += 1
-                if self._bridged is not None:
-                    self._bridged(lost.finger, finger)
-                return lost
+        found = None if palm or not self._lost else self._found_again(x_m, y_m, time_s)
+        if found is not None:
+            self._lost.remove(found)
+            found.lost_s = inf
+            self._contacts[finger] = found
+            self.tracking.bridged += 1
+            if self._bridged is not None:
+                self._bridged(found.finger, finger)
+            return found
         contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
         contact.size_m = size_m
         contact.refused = palm
@@ -246,6 +263,16 @@ class Tracker:
         self.tracking.held_back += contact.suspect and not palm
         self._contacts[finger] = contact
         return contact
+
+    def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
+        """The lost finger that a new contact is: of those that would be near by now, the nearest."""
+        found, nearest_m = None, NEAR_M
+        for lost in self._lost:
+            at_x_m, at_y_m = lost.motion.place(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
+            off_m = hypot(x_m - at_x_m, y_m - at_y_m)
+            if off_m <= nearest_m and time_s <= self._bridged_until_s(lost):
+                found, nearest_m = lost, off_m
+        return found
 
     def _lift(self, contact: _Contact, time_s: float) -> None:
         if contact.refused:
@@ -310,7 +337,7 @@ class Tracker:
         if contact.reports < self._confirm_reports:
             due_s += (self._confirm_reports - 1) * UNTOLD_PERIODS * self.rate.period_s
         if contact.suspect:
-            due_s = max(due_s, self._guard.cleared_s(contact.first_s, contact.stayed_since_s))
+            due_s = max(due_s, self._guard.cleared_s(contact.first_s))
         return due_s
 
     def _bridged_until_s(self, lost: _Contact) -> float:

@@ -6,7 +6,6 @@ pins while a frame is on the wire comes before that frame in the script.
 
 import zlib
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -34,11 +33,22 @@ from controller.fpga.registers import Control, Register
 CLOCK_HZ = 12_000_000
 SLOTS = 3
 BUILD_HASH = build_hash(data_folder("fpga_rtl"))
-PARAMETERS = replace(
-    Parameters.of(CLOCK_HZ, SLOTS, BUILD_HASH),
+PARAMETERS = Parameters(
+    clock_hz=CLOCK_HZ,
+    slots=SLOTS,
+    build_hash=BUILD_HASH,
+    board=int.from_bytes(b"SIM ", "little"),
+    bit_period_reset=24 << 16,
+    ramp_samples_reset=5000,
+    channel_mask_max=0xFFFFFFFF,
+    hv_settle_ticks=25,
+    heartbeat_ticks_max=3_000_000,
     edge_window_ticks=5000,
+    pulse_ticks_min=4,
     channel_edges_max=100_000,
+    total_edges_max=4_000_000,
     emission_ticks_max=120_000,
+    duty_share_max=65_536,
     duty_ticks_max=400_000,
 )
 
@@ -46,6 +56,7 @@ BIT_TICKS = 6
 RAMP_SAMPLES = 9
 UART = UartTiming.of(PARAMETERS)
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
+SETTLE_TICKS = PARAMETERS.hv_settle_ticks
 IDLE_WORD = 0x96969696
 FRAME_TICKS = frame_ticks(frames.FRAME_BYTES)
 JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is carried out
@@ -141,7 +152,7 @@ class Script:
     def arm(self):
         self.send(frames.pack_unlock, BUILD_HASH)
         release = self.control(Control.ARM)
-        self.wait(RAMP_TICKS + 10)
+        self.wait(SETTLE_TICKS + RAMP_TICKS + 10)
         return release
 
     def upload(self, slot, words):

@@ -36,7 +36,7 @@ def link(board):
         yield opened
         opened.close()
         return
-    model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+    model = GatewareModel(Parameters.of(board, BUILD))
     with PseudoTerminal(UartPanel(model, board.link.clock_hz, BAUD, time.monotonic).receive) as terminal:
         opened = SerialLink(terminal.device, BAUD, time.monotonic)
         yield opened
@@ -47,7 +47,7 @@ class ModelLink:
     """The model, given one frame after the other."""
 
     def __init__(self, board):
-        self._model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+        self._model = GatewareModel(Parameters.of(board, BUILD))
         self._tick = 100
 
     def exchange(self, sent, lengths, received):

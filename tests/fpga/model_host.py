@@ -1,7 +1,6 @@
 """The gateware model with its pins in the hands of a test: frames one after another, triggers, and what comes out."""
 
 import zlib
-from dataclasses import replace
 
 import numpy as np
 
@@ -15,7 +14,25 @@ CLOCK_HZ = 20_000_000
 HASH = 0xC0FFEE
 SLOTS = 2
 HEARTBEAT_TICKS = 400_000
-PARAMETERS = replace(Parameters.of(CLOCK_HZ, SLOTS, HASH), heartbeat_ticks_max=HEARTBEAT_TICKS)
+SETTLE_TICKS = 60
+PARAMETERS = Parameters(
+    clock_hz=CLOCK_HZ,
+    slots=SLOTS,
+    build_hash=HASH,
+    board=int.from_bytes(b"SIM ", "little"),
+    bit_period_reset=40 << 16,
+    ramp_samples_reset=5000,
+    channel_mask_max=0xFFFFFFFF,
+    hv_settle_ticks=SETTLE_TICKS,
+    heartbeat_ticks_max=HEARTBEAT_TICKS,
+    edge_window_ticks=CLOCK_HZ // 4,
+    pulse_ticks_min=8,
+    channel_edges_max=125_000,
+    total_edges_max=4_000_000,
+    emission_ticks_max=CLOCK_HZ // 100,
+    duty_share_max=65_536,
+    duty_ticks_max=CLOCK_HZ,
+)
 BIT_TICKS = 10  # 2 MHz, the fastest
 SLOWEST_BIT_TICKS = 200
 RAMP_SAMPLES = 8
@@ -109,7 +126,7 @@ class Host:
     def arm(self, **settings):
         self.settings(**settings)
         assert self.unlock_and_arm() is Result.OK
-        self.tick += RAMP_SAMPLES * SLOWEST_BIT_TICKS
+        self.tick += SETTLE_TICKS + RAMP_SAMPLES * SLOWEST_BIT_TICKS
         return self
 
     def play(self, slot=0, **named):

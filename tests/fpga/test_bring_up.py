@@ -47,7 +47,7 @@ class Wired:
 
 def opened(board, **wires):
     clock = VirtualClock()
-    model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+    model = GatewareModel(Parameters.of(board, BUILD))
     link = SimulatedLink(board.link, clock.now_s, Wired(model, **wires))
     return clock, link, Session(link, board, BUILD, clock.now_s)
 
@@ -196,7 +196,7 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, mon
     figures = json.loads(capsys.readouterr().out)
     assert figures["complaints"] == []
     assert figures["channels_moved"][31] == [31]
-    model = GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD))
+    model = GatewareModel(Parameters.of(board, BUILD))
     clock = VirtualClock()
     monkeypatch.setattr("controller.commands.gateware.MonotonicClock", lambda: clock)
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)

@@ -38,7 +38,7 @@ class LongWires(SimulatedLink):
 @pytest.fixture
 def wired(board):
     clock = VirtualClock()
-    link = LongWires(board.link, clock.now_s, GatewareModel(Parameters.of(board.link.clock_hz, board.link.slots, BUILD)))
+    link = LongWires(board.link, clock.now_s, GatewareModel(Parameters.of(board, BUILD)))
     return link, Session(link, board, BUILD, clock.now_s)
 
 

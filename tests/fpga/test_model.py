@@ -47,10 +47,10 @@ def short(kind, argument=0, *words):
         (Result.OK, frames.pack_test, (bytes(20),)),
         (Result.UNKNOWN_TYPE, short(7), ()),
         (Result.UNKNOWN_TYPE, short(255), ()),
-        (Result.UNKNOWN_REGISTER, frames.pack_read, (42,)),
+        (Result.UNKNOWN_REGISTER, frames.pack_read, (len(Register),)),
         (Result.UNKNOWN_REGISTER, frames.pack_read, (0x0300,)),
         (Result.UNKNOWN_REGISTER, frames.pack_read, (0x7FFF,)),
-        (Result.UNKNOWN_REGISTER, frames.pack_write, (42, 0)),
+        (Result.UNKNOWN_REGISTER, frames.pack_write, (len(Register), 0)),
         (Result.UNKNOWN_REGISTER, frames.pack_write, (READ_MEMORY, 0)),
         (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 0)),
         (Result.BAD_VALUE, frames.pack_write, (Register.CONTROL, 7)),
@@ -390,7 +390,7 @@ def test_the_memory_that_sounds_cannot_be_read_meanwhile_and_other_memory_can(ar
 def test_a_frame_of_another_kind_leaves_the_data_of_the_last_read(host):
     host.read(Register.IDENTITY)
     assert host.write(Register.IDLE_WORD, 3) is Result.OK
-    assert host.result(frames.pack_read, 42) is Result.UNKNOWN_REGISTER
+    assert host.result(frames.pack_read, len(Register)) is Result.UNKNOWN_REGISTER
     assert host.status().data == int.from_bytes(b"HPNL", "little")
 
 

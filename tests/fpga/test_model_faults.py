@@ -18,6 +18,7 @@ from model_host import (
     ON,
     PARAMETERS,
     RAMP_SAMPLES,
+    SETTLE_TICKS,
     WORDS,
     Host,
     T,
@@ -26,6 +27,7 @@ from model_host import (
 
 from controller.fpga import frames
 from controller.fpga.gateware import Permit
+from controller.fpga.model_limits import PARTS, part_ticks
 from controller.fpga.model_pins import modulate, ramp_bits
 from controller.fpga.registers import DUTY_FULL, Control, Fault, Register, Result, Start, State
 
@@ -71,7 +73,8 @@ def test_arming_glides_to_the_idle_word_and_disarming_back(host):
     assert capture.hv[0] == 1
     assert set(capture.words.tolist()) <= {0, IDLE}
     assert word_at(capture, host.tick) == IDLE
-    rise = int(capture.ticks[0])
+    rise = int(capture.ticks[0]) + SETTLE_TICKS
+    assert capture.words[capture.ticks < rise].tolist() == [0]
     up = [word_at(capture, rise + BIT_TICKS * n) == IDLE for n in range(500)]
     assert up == ramp_bits(500, up=True).tolist()
     host.send(frames.pack_control, Control.DISARM)
@@ -246,16 +249,17 @@ def test_edges_are_forgotten_with_their_window():
     host.store(0, TOGGLING)
     for _ in range(6):
         host.play()
-        host.tick += 20_000 - host.tick % 20_000 + 100  # each in its own
+        host.tick += PARTS * part_ticks(20_000)  # 30 edges each time
         host.trigger()
         host.tick += 1000
     assert host.status().faults == Fault(0)
     host.play()
     host.play()
-    host.tick += 20_000 - host.tick % 20_000 + 100
-    for _ in range(2):
-        host.trigger()
-        host.tick += 1000
+    host.tick += PARTS * part_ticks(20_000)
+    host.trigger()
+    host.tick += 19_000  # a window of 20,000 ticks that slides holds both
+    host.trigger()
+    host.tick += 1000
     status = host.status()
     assert (status.faults, status.emissions) == (Fault.CHANNEL_EDGES, 7)
 

@@ -8,14 +8,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from limits_reference import NO_LIMITS, Inputs, limits_reference
 
-from controller.fpga.model_limits import CHANNEL_EDGES, DUTY, LONG_EMISSION, SHORT_PULSE, TOTAL_EDGES, LimitSettings, StageLimits
+from controller.fpga.model_limits import (
+    CHANNEL_EDGES,
+    DUTY,
+    LONG_EMISSION,
+    SHORT_PULSE,
+    TOTAL_EDGES,
+    LimitSettings,
+    StageLimits,
+    part_ticks,
+)
 
 WINDOW_TICKS = 60
-DAY_TICKS = 200
+DAY_TICKS = 720  # more than 16 parts of 32
 words = st.sampled_from([0, 1, 2, 3, 0x80000000, 0xFFFFFFFF]) | st.integers(0, 2**32 - 1)
 plans = st.tuples(
-    st.integers(0, 60),  # begins this long after the plan before was made
-    st.lists(st.tuples(st.integers(1, 30), words), min_size=1, max_size=40),
+    st.integers(0, 60) | st.integers(0, 350),  # begins this long after the plan before was made
+    st.lists(st.tuples(st.integers(1, 30) | st.integers(1, 200), words), min_size=1, max_size=40),
 )
 limits = st.builds(
     LimitSettings,
@@ -77,9 +86,10 @@ def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
     expected = reference(limit_settings, inputs)
     assert seen == [(tick.cause, tick.channels, tick.duty_level) for tick in expected[:DAY_TICKS]]
     planned = max([*starts, *emissions, *activities], default=0)
-    for now in range(planned, DAY_TICKS):
-        following = [after for after in range(now + 1, DAY_TICKS) if expected[after].cause]
-        assert foreseen[now] == (following[0] if following else limits_.next_change(DAY_TICKS))
+    following = limits_.next_change(DAY_TICKS)
+    for now in reversed(range(planned, DAY_TICKS)):
+        assert foreseen[now] == following
+        following = now if expected[now].cause else following
 
 
 def test_planned_words_that_never_come_do_not_count():
@@ -92,8 +102,8 @@ def test_planned_words_that_never_come_do_not_count():
     limits_.show(np.array([300, 310]), np.array([1, 0], np.uint32))
     assert (limits_.cause(312), limits_.next_change(0)) == (CHANNEL_EDGES, 312)
     assert limits_.channels(312) == 1
-    limits_.show(np.array([300, 1000]), np.array([1, 0], np.uint32))
-    assert limits_.next_change(0) is None, "the second edge is in the next window"
+    limits_.show(np.array([300, 1000 + 16 * part_ticks(1000)]), np.array([1, 0], np.uint32))
+    assert limits_.next_change(0) is None, "the second edge is beyond all parts of the first"
 
 
 @pytest.mark.parametrize(

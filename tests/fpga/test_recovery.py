@@ -63,7 +63,7 @@ class Panel:
 
     def __init__(self):
         self.clock = VirtualClock()
-        parameters = Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD)
+        parameters = Parameters.of(BOARD, BUILD)
         self.gateware = RestartingGateware(GatewareModel, parameters)
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
@@ -139,7 +139,7 @@ def test_a_reset_while_armed_is_noticed_by_the_next_heartbeat_and_all_is_well_ag
     assert panel.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
     back_s = panel.clock.now_s()
     assert panel.plays()
-    assert panel.off_between(lost_s, back_s - BOARD.limits.ramp_ms * 1e-3 - 1e-3)
+    assert panel.off_between(lost_s, back_s - BOARD.limits.arming_s - 1e-3)
 
 
 def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
@@ -155,7 +155,7 @@ def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
 def test_a_reset_before_arming_never_arms_without_the_boards_limits(ran_s, away_s):
     clock = VirtualClock()
     clock._now_s = 5.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     clock._now_s += ran_s
     session = Session(link, BOARD, BUILD, clock.now_s)
@@ -201,7 +201,7 @@ def test_a_brown_out_in_the_midst_of_an_upload_ends_in_work(panel, frame, dark_s
     panel.recover(caught.value)
     back_s = panel.clock.now_s()
     assert panel.plays()
-    assert panel.off_between(lost_s, back_s - BOARD.limits.ramp_ms * 1e-3 - 1e-3)
+    assert panel.off_between(lost_s, back_s - BOARD.limits.arming_s - 1e-3)
 
 
 def test_an_fpga_that_is_away_for_long_is_waited_for(panel):
@@ -225,8 +225,8 @@ def test_garbage_on_the_line_for_a_while_switches_off_and_work_goes_on(panel):
     panel.recover(error)
     back_s = panel.clock.now_s()
     assert panel.plays()
-    safe_s = TIMEOUT_S + BOARD.limits.ramp_ms * 1e-3
-    assert panel.off_between(lost_s + safe_s, back_s - BOARD.limits.ramp_ms * 1e-3 - 1e-3)
+    safe_s = TIMEOUT_S + BOARD.limits.arming_s
+    assert panel.off_between(lost_s + safe_s, back_s - BOARD.limits.arming_s - 1e-3)
 
 
 @settings(max_examples=25, deadline=None)
@@ -314,7 +314,7 @@ def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, besi
     with pytest.raises(FaultError) as caught:
         panel.outputs.failed(error, panel.clock.now_s())
     assert caught.value is error
-    panel.wait(BOARD.limits.ramp_ms * 1e-3 + 1e-3)
+    panel.wait(BOARD.limits.arming_s + 1e-3)
     assert State.HV_ENABLE not in panel.session.heartbeat().state
 
 
@@ -338,7 +338,7 @@ def test_the_rule(error, action):
 def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
     clock = VirtualClock()
     clock._now_s = 1.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
     outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), Counters())
     clock._now_s += 1.0
@@ -393,7 +393,7 @@ def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_ea
 
 def simulated(clock, dark_s):
     """A link to an FPGA that is without supply at first."""
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD.link.clock_hz, BOARD.link.slots, BUILD))
+    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     link.reset(dark_s)
     return link
@@ -428,8 +428,8 @@ def test_a_step_that_fails_while_the_outputs_come_on_tells_the_fpga_at_once(pane
     while panel.outputs.cause == "gone for a moment":
         panel.advance()
     assert panel.outputs.cause == "its answer was damaged"
-    panel.wait(BOARD.limits.ramp_ms * 1e-3 + 1e-3)
-    assert BOARD.limits.ramp_ms * 1e-3 + 2e-3 < TIMEOUT_S, "sooner than by the heartbeat's end"
+    panel.wait(BOARD.limits.arming_s + 1e-3)
+    assert BOARD.limits.arming_s + 2e-3 < TIMEOUT_S, "sooner than by the heartbeat's end"
     assert State.HV_ENABLE not in panel.session.heartbeat().state
 
 

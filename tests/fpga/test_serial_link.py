@@ -12,6 +12,7 @@ from cobs import cobs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from controller.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
@@ -24,6 +25,7 @@ from controller.fpga.serial_peer import PseudoTerminal, UartPanel, decoded
 from controller.fpga.session import Session
 
 BUILD = 0x1234ABCD
+BOARD = load_board(find_board("simulated"))
 BAUD = 1_000_000
 PATIENT_S = 30.0  # for answers that do come: a busy machine is no error
 BRIEF_S = 0.02  # for those that never do
@@ -66,8 +68,8 @@ def flipped(byte):
     return bytes([byte ^ 0x10])
 
 
-def model(clock_hz, slots=4):
-    return GatewareModel(Parameters.of(clock_hz, slots, BUILD))
+def model(board):
+    return GatewareModel(Parameters.of(board, BUILD))
 
 
 @pytest.fixture
@@ -77,7 +79,7 @@ def clock():
 
 @pytest.fixture
 def line(board, clock):
-    return Line(UartPanel(model(board.link.clock_hz, board.link.slots), board.link.clock_hz, BAUD, clock.now_s))
+    return Line(UartPanel(model(board), board.link.clock_hz, BAUD, clock.now_s))
 
 
 @pytest.fixture
@@ -371,7 +373,7 @@ def edited(wire, edits):
 @settings(deadline=None, max_examples=300)
 def test_no_damage_makes_another_frame_of_one_and_the_next_is_whole(value, edits):
     """A register is written over a damaged line, then read over a good one: it holds what it did or what was sent."""
-    panel = UartPanel(model(80_000_000), 80_000_000, BAUD, lambda: 0.0)
+    panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     frame = bytearray(FRAME_BYTES)
 
     def send(damage, pack, *arguments):
@@ -399,7 +401,7 @@ def test_a_frame_cut_off_is_refused_for_its_length_even_where_filling_would_make
         frames.pack_write(frame, 0, 9, Register.IDLE_WORD, value)
         if frame[-1] == 0xFF:
             break
-    panel = UartPanel(model(80_000_000), 80_000_000, BAUD, lambda: 0.0)
+    panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     panel.receive(on_wire(frame)[: -1 - cut] + b"\0")
     frames.pack_nop(frame, 0, 1)
     status = parse_status(cobs.decode(panel.receive(bytes(ANSWER_BYTES) + on_wire(frame))[-ANSWER_BYTES:-1]))
@@ -409,7 +411,7 @@ def test_a_frame_cut_off_is_refused_for_its_length_even_where_filling_would_make
 
 def test_the_panel_gives_no_answer_while_one_is_on_its_way():
     """As `uart_peripheral.v`: without the guard, and from a host that sends less than a whole frame."""
-    panel = UartPanel(model(80_000_000), 80_000_000, BAUD, lambda: 0.0)
+    panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     frame = bytearray(FRAME_BYTES)
     frames.pack_nop(frame, 0, 1)
     panel.receive(b"\0")
@@ -420,7 +422,7 @@ def test_the_panel_gives_no_answer_while_one_is_on_its_way():
 
 
 def test_the_panel_takes_nothing_before_the_first_zero():
-    panel = UartPanel(model(80_000_000), 80_000_000, BAUD, lambda: 0.0)
+    panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     frame = bytearray(FRAME_BYTES)
     frames.pack_nop(frame, 0, 1)
     assert panel.receive(on_wire(frame)[len(GUARD) :]) == b""

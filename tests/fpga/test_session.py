@@ -8,9 +8,11 @@ import msgspec
 import numpy as np
 import pytest
 
+from controller.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
+from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.gateware import Parameters, Permit
@@ -23,8 +25,8 @@ BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")
 
 
-def gateware(settings, build_hash=BUILD, **other):
-    return GatewareModel(replace(Parameters.of(settings.clock_hz, settings.slots, build_hash), **other))
+def gateware(board, build_hash=BUILD, **other):
+    return GatewareModel(replace(Parameters.of(board, build_hash), **other))
 
 
 class NoisyLink(SimulatedLink):
@@ -58,7 +60,7 @@ def clock():
 
 @pytest.fixture
 def link(board, clock):
-    return NoisyLink(board.link, clock.now_s, gateware(board.link))
+    return NoisyLink(board.link, clock.now_s, gateware(board))
 
 
 @pytest.fixture
@@ -94,38 +96,54 @@ def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock,
 )
 def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, clock, change, said):
     settings = msgspec.structs.replace(board.link, **{k: v for k, v in change.items() if k != "build_hash"})
-    link = SimulatedLink(settings, clock.now_s, gateware(settings, change.get("build_hash", BUILD)))
+    other = msgspec.structs.replace(board, link=settings)
+    link = SimulatedLink(settings, clock.now_s, gateware(other, change.get("build_hash", BUILD)))
     with pytest.raises(LinkError, match=said):
         Session(link, board, BUILD, clock.now_s)
     link.close()
     assert not link.take_capture().hv.any()
 
 
-@pytest.mark.parametrize(
-    ("register", "smaller"),
-    [
-        ("EMISSION_TICKS", {"emission_ticks_max": 100_000}),
-        ("CHANNEL_EDGES", {"channel_edges_max": 1000}),
-        ("TOTAL_EDGES", {"total_edges_max": 1000}),
-        ("DUTY_SHARE", {"duty_share_max": 1000}),
-        ("DUTY_TICKS", {"duty_ticks_max": 1000}),
-        ("PULSE_TICKS", {"pulse_ticks_min": 121}),
-        ("HEARTBEAT_TICKS", {"heartbeat_ticks_max": 100_000}),
-    ],
-)
-def test_limits_wider_than_those_built_in_are_refused_by_name(board, clock, register, smaller):
-    link = SimulatedLink(board.link, clock.now_s, gateware(board.link, **smaller))
-    with pytest.raises(LinkError, match=f"does not take .* for {register}: The value is outside what the FPGA allows"):
+@pytest.mark.parametrize("by", [-1, 1])
+@pytest.mark.parametrize(("register", "key"), LIMITS.items())
+def test_a_bitstream_with_another_limit_is_refused_by_its_name_and_the_boards_key(board, clock, register, key, by):
+    name = register.name.lower()
+    built = getattr(Parameters.of(board, BUILD), name) + by
+    if register is Register.CHANNEL_MASK_MAX:
+        built = 0xFFFFFFFF - (1 << 5) + by
+    link = SimulatedLink(board.link, clock.now_s, gateware(board, **{name: built}))
+    with pytest.raises(
+        LinkError, match=rf"another board: {register.name} is {built}, not \d+ \({key}\); build its gateware with"
+    ) as said:
         Session(link, board, BUILD, clock.now_s)
+    assert "\n" not in str(said.value)
     link.close()
     assert not link.take_capture().hv.any()
 
 
-def test_the_fpga_is_told_every_limit_of_the_board(board, clock, link):
+def test_all_limits_that_differ_are_said_in_one_line(board, clock):
+    """The bitstream of the simulated panel behind the board.toml of the ULX3S, at its clock."""
+    other = load_board(find_board("ulx3s"))
+    loose = msgspec.structs.replace(other, limits=board.limits)
+    link = SimulatedLink(other.link, clock.now_s, gateware(loose))
+    with pytest.raises(LinkError) as said:
+        Session(link, other, BUILD, clock.now_s)
+    assert str(said.value) == (
+        "the FPGA was built with the limits of another board:"
+        " CHANNEL_EDGES_MAX is 37500, not 13250 (limits.max_channel_edge_rate_hz);"
+        " TOTAL_EDGES_MAX is 1000000, not 375000 (limits.max_total_edge_rate_hz);"
+        " EMISSION_TICKS_MAX is 156250, not 131250 (limits.longest_emission_ms);"
+        " DUTY_SHARE_MAX is 65536, not 19661 (limits.max_duty); DUTY_TICKS_MAX is 6250000, not 1875000 (limits.duty_budget_ms);"
+        f" build its gateware with {other.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
+    )
+
+
+def test_the_fpga_is_told_every_limit_of_the_board(board, clock):
     limits = msgspec.structs.replace(
         board.limits,
         heartbeat_timeout_ms=90.0,
         ramp_ms=7.0,
+        hv_settle_us=700.0,
         max_duty=0.3,
         duty_budget_ms=60.0,
         longest_emission_ms=2.2,
@@ -133,7 +151,8 @@ def test_the_fpga_is_told_every_limit_of_the_board(board, clock, link):
         max_channel_edge_rate_hz=12_345.0,
         max_total_edge_rate_hz=67_890.0,
     )
-    session = Session(link, msgspec.structs.replace(board, limits=limits), BUILD, clock.now_s)
+    other = msgspec.structs.replace(board, limits=limits)
+    session = Session(SimulatedLink(board.link, clock.now_s, gateware(other)), other, BUILD, clock.now_s)
     window_s = session.exchange.read(Register.EDGE_WINDOW_TICKS) / board.link.clock_hz
     told = {
         Register.IDLE_WORD: board.idle_word,
@@ -147,15 +166,21 @@ def test_the_fpga_is_told_every_limit_of_the_board(board, clock, link):
         Register.EMISSION_TICKS: 176_000,
         Register.DUTY_SHARE: 19_661,
         Register.DUTY_TICKS: 4_800_000,
+        Register.HV_SETTLE_TICKS: 56_000,
+        Register.CHANNEL_MASK_MAX: 0xFFFFFFFF,
     }
+    told |= {Register[f"{name}_MAX"]: told[Register[name]] for name in ("HEARTBEAT_TICKS", "CHANNEL_EDGES", "TOTAL_EDGES")}
+    told |= {Register[f"{name}_MAX"]: told[Register[name]] for name in ("EMISSION_TICKS", "DUTY_SHARE", "DUTY_TICKS")}
+    told |= {Register.PULSE_TICKS_MIN: told[Register.PULSE_TICKS]}
     assert {register: session.exchange.read(register) for register in told} == told
 
 
 @pytest.mark.parametrize("bit_clock_hz", [500e3, 300e3, 333_333.0, 299_999.0, 1.9e6])
-def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock, link, bit_clock_hz):
+def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock, bit_clock_hz):
     waveform = msgspec.structs.replace(board.waveform, bit_clock_hz=bit_clock_hz, duration_ms=500e3 / bit_clock_hz)
     limits = msgspec.structs.replace(board.limits, min_pulse_us=0.5)
-    session = Session(link, msgspec.structs.replace(board, waveform=waveform, limits=limits), BUILD, clock.now_s)
+    other = msgspec.structs.replace(board, waveform=waveform, limits=limits)
+    session = Session(SimulatedLink(board.link, clock.now_s, gateware(other)), other, BUILD, clock.now_s)
     found_hz = board.link.clock_hz * 65536 / session.exchange.read(Register.BIT_PERIOD)
     assert found_hz == pytest.approx(bit_clock_hz, rel=10e-6)
     assert found_hz != pytest.approx(bit_clock_hz * 1.01, rel=10e-6)
@@ -186,7 +211,7 @@ def test_arming_over_a_link_that_damages_everything_is_given_up_with_outputs_off
         session.arm()
     link.noise = {}
     session.off()
-    wait(clock, link, board.limits.ramp_ms * 1e-3)
+    wait(clock, link, board.limits.arming_s)
     assert State.HV_ENABLE not in session.heartbeat().state
 
 
@@ -256,7 +281,7 @@ def test_an_upload_whose_slot_is_still_checked_is_waited_for_at_any_sck(board, c
     for sck_hz in (40_000_000, 80_000_000 // 3, 25_000_000, 13_000_000, 4_000_000):
         settings = msgspec.structs.replace(board.link, sck_hz=sck_hz)
         on = msgspec.structs.replace(board, link=settings)
-        link = SimulatedLink(settings, clock.now_s, gateware(settings))
+        link = SimulatedLink(settings, clock.now_s, gateware(on))
         session = Session(link, on, BUILD, clock.now_s)
         clock._now_s = session.arm()
         for stop in (False, True):
@@ -278,7 +303,7 @@ def test_a_silent_link_is_explained(board, clock):
             received[:] = bytes(len(received))
 
     with pytest.raises(LinkError, match="is MISO wired"):
-        Session(Silent(board.link, clock.now_s, gateware(board.link)), board, BUILD, clock.now_s)
+        Session(Silent(board.link, clock.now_s, gateware(board)), board, BUILD, clock.now_s)
 
 
 def test_an_upload_comes_out_of_the_pins_word_by_word(board, clock, link, armed):
@@ -373,7 +398,7 @@ def test_time_on_the_wire_is_that_of_the_bits_at_sck_and_a_pause_between_frames(
 def test_a_session_that_is_armed_disarms_before_it_is_brought_up_again(board, clock, link, armed):
     with pytest.raises(LinkError, match="is told to disarm: try again when its ramp has passed"):
         armed.bring_up()
-    wait(clock, link, board.limits.ramp_ms * 1e-3 + 1e-3)
+    wait(clock, link, board.limits.arming_s + 1e-3)
     armed.bring_up()
     clock._now_s = armed.arm()
     armed.require_armed()

@@ -52,7 +52,7 @@ def test_its_sandbox_leaves_little_exposed():
 def test_it_starts_and_says_that_it_is_ready():
     pid = fresh_start()
     assert shown("ActiveState") == "active"
-    assert shown("StatusText") == "playing on board 'simulated'"
+    wait_for("the beacon of the scene", lambda: shown("StatusText") == "playing on board 'simulated'")
     assert shown("NRestarts") == "0"
     assert Path(f"/run/{UNIT}").stat().st_mode & 0o777 == 0o755
     assert main_pid() == pid
@@ -126,16 +126,41 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
     try:
         scene.write_text(good.replace('name = "arrow"', 'name = "spear"'))
         run("systemctl", "reload", UNIT)
-        wait_for("the scene", lambda: figure("scenes_loaded") == 1)
+        assert (figure("scenes_loaded"), shown("ActiveState")) == (1, "active")
         scene.write_text(good.replace('name = "arrow"', "name = 7"))
-        run("systemctl", "reload", UNIT)
-        wait_for("the refusal", lambda: figure("scenes_refused") == 1)
+        refused = subprocess.run(["systemctl", "reload", UNIT], check=False, capture_output=True, text=True)
+        assert refused.returncode == 1
+        assert f"Job for {UNIT}.service failed" in refused.stderr
+        assert (figure("scenes_refused"), shown("ActiveState")) == (1, "active")
         assert "the scene stays as it was: " in said()
         assert "scene.toml" in shown("StatusText")
         assert figure("scenes_loaded") == 1
         assert main_pid() == pid
+        warnings = journal("-p", "warning").splitlines()
+        assert [line for line in warnings if "the scene stays as it was: " in line and "scene.toml" in line]
+        assert not [line for line in warnings if "the outputs are on" in line]
+        scene.write_text(good)
+        run("systemctl", "reload", UNIT)
+        assert figure("scenes_loaded") == 2
     finally:
         scene.write_text(good)
+
+
+def test_a_panel_that_is_pulled_out_before_the_start_is_waited_for():
+    run("systemctl", "stop", UNIT)
+    good = panel_board.BOARD.read_text()
+    panel_board.BOARD.write_text(good.replace(os.ttyname(PANEL), "/run/touch"))
+    try:
+        pid = fresh_start()
+        assert shown("ActiveState") == "active"
+        assert shown("StatusText").startswith("waiting for panel: there is no serial port /run/touch")
+        assert figure("outputs") == "on"
+        Path("/run/touch").symlink_to(os.ttyname(PANEL))
+        wait_for("the panel", lambda: shown("StatusText") == "playing on board 'simulated'")
+        assert main_pid() == pid
+    finally:
+        panel_board.BOARD.write_text(good)
+        Path("/run/touch").unlink(missing_ok=True)
 
 
 def test_killed_it_is_started_again():

@@ -173,8 +173,8 @@ class FarEnd:
 
     Parameters
     ----------
-    settings : LinkSettings
-        Clock, slots and line names that the host uses.
+    board : Board
+        Clock, slots, limits and line names that the host uses.
     names : sequence of str
         Of all lines of the chip, in their order.
     factory : GatewareFactory
@@ -183,8 +183,8 @@ class FarEnd:
         Seconds on the wall for one of the gateware: for a guest that may be held up. The host's clock has to be as slow.
     """
 
-    def __init__(self, settings, names, factory=GatewareModel, slowness=1.0):
-        self.settings, self._names, self._factory, self._slowness = settings, names, factory, slowness
+    def __init__(self, board, names, factory=GatewareModel, slowness=1.0):
+        self.board, self._names, self._factory, self._slowness = board, names, factory, slowness
         context = multiprocessing.get_context("fork")
         self._pipe, theirs = context.Pipe()
         self._process = context.Process(target=self._serve, args=(theirs,), daemon=True)
@@ -220,8 +220,8 @@ class FarEnd:
         self._pipe.close()
 
     def _serve(self, pipe):
-        settings = self.settings
-        parameters = Parameters.of(settings.clock_hz, settings.slots, build_hash(data_folder("fpga_rtl")))
+        settings = self.board.link
+        parameters = Parameters.of(self.board, build_hash(data_folder("fpga_rtl")))
         roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
         roles.pop("", None)
         trace = GpioTrace(settings.gpio_chip, self._names)

@@ -61,7 +61,7 @@ class Panel:
     """Far end, link and session, armed; one for all tests, as each costs seconds."""
 
     def __init__(self):
-        self.far_end = FarEnd(SETTINGS, NAMES, HostGateware)
+        self.far_end = FarEnd(BOARD, NAMES, HostGateware)
         self.session = Session(SpiLink(SETTINGS, time.monotonic), BOARD, build_hash(data_folder("fpga_rtl")), time.monotonic)
         self.arm()
 

@@ -97,7 +97,7 @@ class Panel:
     """Far end, link and session, armed."""
 
     def __init__(self):
-        self.far_end = FarEnd(SETTINGS, NAMES, slowness=SLOWNESS)
+        self.far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
         self.link = SpiLink(SETTINGS, CLOCK.now_s)
         self.session = session_on(self.link)
         self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
@@ -279,7 +279,7 @@ def test_it_arms_uploads_and_plays_by_its_trigger_line():
 
 
 def test_what_is_wrong_with_the_wires_is_said():
-    far_end = FarEnd(SETTINGS, NAMES, slowness=SLOWNESS)
+    far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
     try:
         with opened() as link:
             for kind, said in [
@@ -367,7 +367,7 @@ def test_the_doctor_finds_the_devices_and_examines_the_link():
     settings = with_settings(slots=1)
     short = msgspec.structs.replace(BOARD.waveform, duration_ms=0.2)  # its memory is read word by word
     board = msgspec.structs.replace(BOARD, link=settings, waveform=short)
-    far_end = FarEnd(settings, NAMES, slowness=SLOWNESS)
+    far_end = FarEnd(board, NAMES, slowness=SLOWNESS)
     findings = {finding.about: finding for finding in look(board, CLOCK.now_s)}
     for about in ("SPI device", "spidev buffer", "GPIO lines", "priority", "locked memory"):
         assert findings[about].good, findings[about]

@@ -3,7 +3,7 @@
 # usage: run_container.sh PYTHON container_FILE.py...     exit code: of run_tests.py, or 99 where the container came to no end
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-"$here/install_packages.sh" systemd systemd-sysv systemd-container procps udev >/dev/null
+"$here/install_packages.sh" systemd systemd-sysv systemd-container procps udev python3-dev python3-venv >/dev/null
 as_root=()
 [ "$(id -u)" = 0 ] || as_root=(sudo)
 tree=$(mktemp -d)

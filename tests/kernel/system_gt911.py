@@ -50,7 +50,7 @@ class Bench:
         self.lines = GpioLines("panel-lines", LINES)
         self.lines.pull("TOUCH_INT", 1)
         self.lines.pull("TOUCH_RST", 1)
-        self.fpga = far_end_spi.FarEnd(load_board(panel_board.BOARD).link, LINES, HostGateware)
+        self.fpga = far_end_spi.FarEnd(load_board(panel_board.BOARD), LINES, HostGateware)
         self.chip = Gt911Chip(width=2100, height=1480)
         self.panel = far_end_i2c.FarEnd(self.chip, self.lines)
         Path("/sys/module/labdev/parameters/timeout_ms").write_text("20000")  # of both buses

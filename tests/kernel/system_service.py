@@ -6,7 +6,6 @@ not those of a board: what is asserted is what happens, and in which order.
 
 import os
 import signal
-import subprocess
 from pathlib import Path
 
 import panel_board
@@ -102,7 +101,7 @@ class Bench:
         panel_board.write(f'kind = "linux_input"\ndevice = "{NAME}"', LINK)
         self.lines = GpioLines("panel-lines", LINES)
         self.panel = Panel()
-        self.far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        self.far_end = FarEnd(load_board(panel_board.BOARD), LINES)
 
     def outputs_are(self, on):
         """Wait until the FPGA's outputs are on, or off."""
@@ -200,15 +199,18 @@ def test_an_fpga_that_was_without_supply_is_brought_up_again():
     assert main_pid() == pid
 
 
-def test_an_fpga_that_is_gone_is_told_at_the_start():
+def test_an_fpga_that_is_gone_at_the_start_is_told_and_waited_for():
     run("systemctl", "stop", UNIT)
     bench().far_end.close()
     try:
-        subprocess.run(["systemctl", "start", UNIT], check=False, capture_output=True)
-        assert "status=69/UNAVAILABLE" in journal()
-        assert "our own bytes came back" in journal()
+        pid = fresh_start()
+        assert shown("StatusText").startswith("waiting for FPGA: ")
+        assert "our own bytes came back" in journal("-p", "warning")
     finally:
-        bench().far_end = FarEnd(load_board(panel_board.BOARD).link, LINES)
+        bench().far_end = FarEnd(load_board(panel_board.BOARD), LINES)
+    bench().outputs_are(1)
+    bench().finger_is_felt()
+    assert main_pid() == pid
 
 
 def test_killed_it_leaves_the_outputs_off_until_it_is_back():

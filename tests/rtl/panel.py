@@ -26,6 +26,7 @@ from pin_script import (
     PARAMETERS,
     RAMP_SAMPLES,
     RAMP_TICKS,
+    SETTLE_TICKS,
     SLOTS,
     UART,
 )
@@ -56,9 +57,11 @@ __all__ = [
     "FRAME_TICKS",
     "IDLE_WORD",
     "JUDGED_TICKS",
+    "PAD_TICKS",
     "PARAMETERS",
     "RAMP_SAMPLES",
     "RAMP_TICKS",
+    "SETTLE_TICKS",
     "SLOTS",
     "Panel",
     "bank_entry_words",
@@ -70,6 +73,7 @@ CLOCK_PS = 1000 * CLOCK_NS
 PHASE_PS = CLOCK_PS // 2 + 500  # within a tick: inputs move half a nanosecond behind the clock's fall
 SCK_HALF_NS = SCK_TICKS * CLOCK_NS // 2  # half of the clock, the fastest allowed
 SCK_TO_RELEASE_NS = SCK_TO_RELEASE_TICKS * CLOCK_NS
+PAD_TICKS = 1  # from the state to waiting_o and fault_o, which have a register each
 UART_BIT_TICKS = CLOCK_HZ // BAUD
 UART_ANSWER_BITS = 12 * FRAME_BYTES  # more than an answer takes
 ORDER = ("uart", "permit", "exchange", "trigger")  # in which a model is given what happens in one tick
@@ -125,7 +129,7 @@ class Panel:
     def _rest(self):
         dut = self.dut
         dut.spi_sck_i.value = dut.spi_mosi_i.value = dut.trigger_i.value = 0
-        dut.run_permit_i.value = dut.temperature_ok_i.value = 0
+        dut.run_permit_i.value = dut.temperature_ok_i.value = dut.clock_lost_i.value = 0
         dut.spi_cs_n_i.value = dut.uart_rx_i.value = 1
 
     async def _begin(self):
@@ -206,9 +210,10 @@ class Panel:
         dut.spi_cs_n_i.value = 0
         mosi.value = level = int(sent[0])
         await Timer(INPUT_TICKS * CLOCK_NS, "ns")
-        pins = {State.WAITING: bool(dut.waiting_o.value), State.HV_ENABLE: bool(dut.hv_enable_o.value)}
-        fault = bool(dut.fault_o.value)
-        await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS) * CLOCK_NS, "ns")
+        enabled = bool(dut.hv_enable_o.value)
+        await Timer(PAD_TICKS * CLOCK_NS, "ns")
+        pins, fault = {State.WAITING: bool(dut.waiting_o.value), State.HV_ENABLE: enabled}, bool(dut.fault_o.value)
+        await Timer((SELECT_TO_SCK_TICKS - INPUT_TICKS - PAD_TICKS) * CLOCK_NS, "ns")
         for number, following in enumerate(sent[1:], 1):  # mode 0: MOSI moves with the fall of SCK
             answer = answer << 1 | int(miso.value)
             sck.value = 1
@@ -312,7 +317,7 @@ class Panel:
 
     async def arm_again(self, ramp_ticks=RAMP_TICKS):
         await self.unlock_and_arm()
-        await self.wait(ramp_ticks + 10)
+        await self.wait(SETTLE_TICKS + ramp_ticks + 10)
         status = await self.status()
         assert status.result is Result.OK, status
         assert State.ARMED | State.HV_ENABLE in status.state, status

@@ -13,10 +13,11 @@ from controller.fpga.registers import Fault
 
 HEARTBEAT_TICKS = 40
 ALIVE_HALF_TICKS = 7  # as test_rtl.py sets it
+SETTLE_TICKS = 9  # as benches.py sets it
 BIT_TICKS = 5
 ALL = 0xFFFFFFFF
-OFF, RAMP_UP, ON, STOPPING, RAMP_DOWN = "off", "ramp_up", "armed", "stopping", "ramp_down"
-STATES = (OFF, RAMP_UP, ON, STOPPING, RAMP_DOWN)
+OFF, SETTLING, RAMP_UP, ON, STOPPING, RAMP_DOWN = "off", "settling", "ramp_up", "armed", "stopping", "ramp_down"
+STATES = (OFF, SETTLING, RAMP_UP, ON, STOPPING, RAMP_DOWN)
 PULSES = ("arm", "disarm", "clear", "heartbeat", "underrun", "ramp_done", "ended")
 DRIVE_TICKS = 3  # drive_i is so much later than the state it belongs to
 
@@ -28,13 +29,19 @@ class Reference:
         self.fault, self.fault_count, self.fault_time, self.underruns, self.emissions = Fault(0), 0, 0, 0, 0
         self.channel = 0
         self.open_since = None  # tick in which the enable rose
+        self.settled_tick = None  # the last of SETTLING
         self.focus_until = 0
 
     def alive(self, tick):
         return self.heard is not None and tick <= self.heard[0] + self.heard[1]
 
+    @property
+    def live(self):
+        """Something is on, or on its way to the pins."""
+        return self.open_since is not None or any(state != OFF for state in (self.state, *self.states))
+
     def causes(self, tick, inputs):
-        if self.state == OFF:
+        if not self.live:
             return Fault(0)
         causes = Fault(inputs["limits"] << 4)
         for cause, holds in (
@@ -63,10 +70,10 @@ class Reference:
         }
 
     def advance(self, tick, inputs):
-        causes = self.causes(tick, inputs)
+        causes, live = self.causes(tick, inputs), self.live
         shut = bool(causes)
         opens = not shut and self.states[0] != OFF
-        self.channel = inputs["drive"] & inputs["channel_mask"] if opens else 0
+        self.channel = inputs["drive"] & inputs["channel_mask"] if opens and self.states[0] != SETTLING else 0
         if not opens:
             self.open_since, self.focus_until = None, 0
         else:
@@ -81,7 +88,7 @@ class Reference:
         if shut:
             self.fault_count += 1
             self.fault_time = inputs["now"]
-        self.underruns += bool(inputs["underrun"]) and self.state != OFF
+        self.underruns += bool(inputs["underrun"]) and live
         if inputs["heartbeat"]:
             self.heard = tick, inputs["heartbeat_ticks"]
         elif not self.alive(tick):
@@ -89,6 +96,10 @@ class Reference:
         self.states = [*self.states[1:], self.state]
         match self.state:
             case "off" if inputs["arm"]:
+                self.state, self.settled_tick = SETTLING, tick + SETTLE_TICKS
+            case "settling" if inputs["disarm"]:
+                self.state = OFF
+            case "settling" if tick == self.settled_tick:
                 self.state = RAMP_UP
             case "ramp_up" if inputs["disarm"]:
                 self.state = RAMP_DOWN
@@ -130,7 +141,9 @@ class Bench:
         bench = await cls.ready(dut)
         await bench.step(5)
         await bench.arm()
-        if state != RAMP_UP:
+        if state != SETTLING:
+            await bench.step(SETTLE_TICKS)
+        if state not in (SETTLING, RAMP_UP):
             await bench.step(ramp_done=1)
         if state in (STOPPING, RAMP_DOWN):
             await bench.step(disarm=1)
@@ -138,7 +151,7 @@ class Bench:
             bench.settings["settled"] = 1
             await bench.step()
         await bench.step(DRIVE_TICKS + 1, heartbeat=1)
-        assert bench.is_open()
+        assert bench.is_open() or (state == SETTLING and dut.hv_enable_o.value == 1)
         assert bench.reference.state == state
         return bench
 
@@ -178,17 +191,65 @@ class Bench:
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
-async def opens_with_the_first_word_of_the_state_that_was_armed(dut):
+async def opens_with_the_first_word_of_the_ramp_once_the_high_voltage_has_settled(dut):
     bench = await Bench.ready(dut)
     await bench.step(20)
     await bench.arm()
-    assert dut.ramp_up_o.value == 1
-    for _ in range(DRIVE_TICKS):
+    assert dut.settling_o.value == 1
+    for _ in range(DRIVE_TICKS + 1):
         assert bench.is_shut()
         await bench.step()
-    assert bench.is_shut(), "what drive_i shows here is older than the state"
-    await bench.step()
-    assert bench.is_open()
+    for _ in range(SETTLE_TICKS):
+        assert dut.hv_enable_o.value == 1
+        assert dut.channel_o.value == 0
+        await bench.step()
+    assert bench.is_open(), "the first word of the ramp: what drive_i showed before is older than that state"
+    assert dut.ramp_up_o.value == 1
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def disarming_while_the_high_voltage_settles_moves_no_channel(dut):
+    for ticks in range(SETTLE_TICKS):
+        bench = await Bench.ready(dut)
+        await bench.arm()
+        await bench.step(ticks)
+        await bench.step(disarm=1)
+        assert dut.off_o.value == 1
+        for _ in range(SETTLE_TICKS + DRIVE_TICKS + 2):
+            assert dut.channel_o.value == 0
+            await bench.step(heartbeat=1)
+        assert bench.is_shut()
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_permit_lost_while_words_are_on_their_way_behind_the_ramp_down_is_kept(dut):
+    for name, cause in (("run_permit", Fault.NO_PERMIT), ("temperature_good", Fault.OVER_TEMPERATURE)):
+        for ticks in range(DRIVE_TICKS + 3):
+            bench = await Bench.armed(dut, RAMP_DOWN)
+            await bench.step(ramp_done=1)
+            await bench.step(ticks)
+            on = bool(dut.hv_enable_o.value)
+            assert on == (ticks <= DRIVE_TICKS)
+            await bench.step(**{name: 0})
+            assert bench.is_shut()
+            assert Fault(int(dut.fault_o.value)) == (cause if on else Fault(0))
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def without_a_clock_everything_is_low_at_once_and_stays_so_until_it_is_armed_again(dut):
+    for state in STATES[1:]:
+        bench = await Bench.armed(dut, state)
+        await bench.step(ended=1)
+        assert dut.hv_enable_o.value == 1
+        dut.clock_lost_i.value = 1
+        await settled()  # no edge of the clock has come
+        assert bench.is_shut()
+        await clocks(dut, 3)
+        assert bench.is_shut()
+        dut.clock_lost_i.value = 0
+        await bench.reset()  # as the board's top does
+        await bench.step(20)
+        assert bench.is_shut()
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
@@ -259,7 +320,7 @@ async def shuts_with_the_next_clock_for_each_cause_in_each_state_and_counts_it_o
             assert int(dut.fault_o.value) == 0
             assert int(dut.fault_count_o.value) == 1, "counted for good"
             await bench.arm()
-            await bench.step(10)
+            await bench.step(SETTLE_TICKS + 10)
             assert bench.is_open()
 
 
@@ -290,7 +351,9 @@ async def does_not_reopen_for_a_moment_when_a_fault_is_cleared_and_armed_at_once
         for _ in range(DRIVE_TICKS):
             assert bench.is_shut()
             await bench.step()
-        await bench.step()
+        for _ in range(SETTLE_TICKS + 1):
+            assert dut.channel_o.value == 0
+            await bench.step(heartbeat=1)
         assert int(dut.channel_o.value) == 0x12345678
 
 
@@ -380,12 +443,17 @@ async def a_reset_in_any_state_has_all_low_with_the_next_clock(dut):
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
-async def a_state_that_does_not_exist_leads_to_off(dut):
-    for state in (5, 6, 7):
-        await Bench.armed(dut)
+async def a_state_that_does_not_exist_is_off(dut):
+    for state in (6, 7):
+        bench = await Bench.armed(dut)
         dut.state_q.value = state  # as a disturbed flip-flop would
+        await settled()
+        assert not any(int(getattr(dut, f"{name}_o").value) for name in STATES)
         await clocks(dut)
         assert dut.off_o.value == 1
+        for _ in range(10):
+            assert bench.is_shut(), "nothing that was on its way comes"
+            await clocks(dut)
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")

@@ -8,7 +8,6 @@ from clocked import after_reset, clocks, settled
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
-    BIT_CLOCK_HZ_RESET,
     BIT_TICKS_MIN,
     CHANNELS,
     FILTER_TICKS,
@@ -16,7 +15,6 @@ from controller.fpga.registers import (
     PROTOCOL_VERSION,
     QUEUE_PLAYS,
     RAMP_SAMPLES_MAX,
-    RAMP_SAMPLES_RESET,
     REGISTERS,
     TRIGGER_LATENCY_TICKS,
     WAVEFORM_WORDS,
@@ -72,12 +70,12 @@ class Reference:
             Register.PARAMETERS: QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16,
             Register.EDGE_WINDOW_TICKS: built["EDGE_WINDOW_TICKS"],
             Register.CONTROL: 0,
-        }
+        } | {Register[name]: int(getattr(dut, name).value) for name in BUILT_IN_LIMITS}
         self.settings = {
             Register.IDLE_WORD: 0,
-            Register.CHANNEL_MASK: ALL,
-            Register.BIT_PERIOD: max(clock_hz // BIT_CLOCK_HZ_RESET, self.bit_ticks_min) << 16,
-            Register.RAMP_SAMPLES: RAMP_SAMPLES_RESET,
+            Register.CHANNEL_MASK: self.constants[Register.CHANNEL_MASK_MAX],
+            Register.BIT_PERIOD: int(dut.BIT_PERIOD_RESET.value),
+            Register.RAMP_SAMPLES: int(dut.RAMP_SAMPLES_RESET.value),
             Register.PULSE_TICKS: self.pulse_min,
         } | self.most
         self.unlocked, self.high, self.frame_errors, self.gaps = False, 0, 0, 0
@@ -85,8 +83,10 @@ class Reference:
     def range_of(self, register):
         """Smallest and largest value allowed now."""
         match register:
-            case Register.IDLE_WORD | Register.CHANNEL_MASK:
+            case Register.IDLE_WORD:
                 return 0, ALL
+            case Register.CHANNEL_MASK:
+                return 0, self.constants[Register.CHANNEL_MASK_MAX]
             case Register.BIT_PERIOD:
                 return max(self.bit_ticks_min, self.settings[Register.PULSE_TICKS]) << 16, self.bit_ticks_max << 16
             case Register.RAMP_SAMPLES:
@@ -97,6 +97,11 @@ class Reference:
                 return 1, self.most[register]
             case _:
                 return 0, self.most[register]
+
+    def takes(self, register, value):
+        """A value is within its range now, and a mask within that of the channels there are."""
+        low, high = self.range_of(register)
+        return low <= value <= high and (register != Register.CHANNEL_MASK or value & ~high == 0)
 
     def control(self, words, off, fault, permitted):
         match words[0]:
@@ -133,8 +138,7 @@ class Reference:
         elif register != Register.BIT_PERIOD and not off:
             result = Result.ARMED
         else:
-            low, high = self.range_of(register)
-            result = Result.OK if low <= words[0] <= high else Result.BAD_VALUE
+            result = Result.OK if self.takes(register, words[0]) else Result.BAD_VALUE
             if result is Result.OK:
                 self.settings[register] = words[0]
         self.unlocked = unlocked
@@ -161,6 +165,7 @@ class Reference:
         return Result.OK, value
 
 
+BUILT_IN_LIMITS = [name for name in Register.__members__ if name.endswith(("_MAX", "_MIN"))] + ["HV_SETTLE_TICKS"]
 LIMITED = ("HEARTBEAT_TICKS", "CHANNEL_EDGES", "TOTAL_EDGES", "EMISSION_TICKS", "DUTY_SHARE", "DUTY_TICKS")
 
 
@@ -293,13 +298,15 @@ async def settings_take_the_values_allowed_and_only_while_they_may(dut):
     reference = bench.reference
     for register in reference.settings:
         low, high = reference.range_of(register)
-        for value in (low, high, min(low + 1, high), (low + high) // 2):
+        within = [value for value in (low, high, low + 1, (low + high) // 2, (low + high) // 4) if reference.takes(register, value)]
+        assert len(within) > 2
+        for value in within:
             assert await bench.write(register, value, ALL, ALL, ALL) is Result.OK, (register.name, value)
             assert await bench.read(register) == (Result.OK, value)
         refused = [
             value
-            for value in (low - 1, high + 1, ALL, 0x8000_0000 | low, low | 1 << 29)
-            if not low <= value <= high and 0 <= value <= ALL
+            for value in (low - 1, high + 1, ALL, 0x8000_0000 | low, low | 1 << 29, 1 << 19)
+            if not reference.takes(register, value) and 0 <= value <= ALL
         ]
         for value in refused:
             assert await bench.write(register, value) is Result.BAD_VALUE, (register.name, value)

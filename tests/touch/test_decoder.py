@@ -253,9 +253,10 @@ def passing(seed, *, period_s=8e-3, apart_m=3e-3, noise_m=0.1e-3, speeds=(0.3, 0
     velocity = np.array([[speed * f(first + k * between) for f in (np.cos, np.sin)] for k, speed in enumerate(speeds)])
     along = velocity[1] - velocity[0]
     aside = apart_m / 2 * np.array([-along[1], along[0]]) / np.hypot(*along) * random.choice([-1, 1])
-    d, found = decoder(Protocol.A), []
-    for k in range(-20, 21):
-        time_s = (k + random.uniform(-0.05, 0.05)) * period_s
+    d, found, phase = decoder(Protocol.A), [], random.uniform(-0.5, 0.5)
+    reports = int(0.06 / max(speeds) / period_s)  # on the plate, before they meet and after
+    for k in range(-reports, reports + 1):
+        time_s = (k + phase + random.uniform(-0.05, 0.05)) * period_s
         places = velocity * time_s + [0.105, 0.074] + np.array([-aside, aside]) + random.normal(0, noise_m, (2, 2))
         raw = np.rint(places * 1e4).astype(int).tolist()
         for finger in random.permutation(2).tolist():
@@ -268,11 +269,11 @@ def passing(seed, *, period_s=8e-3, apart_m=3e-3, noise_m=0.1e-3, speeds=(0.3, 0
 
 
 @pytest.mark.parametrize(
-    "how", [{}, {"noise_m": 0.3e-3}, {"speeds": (0.1, 0.6)}, {"period_s": 16e-3}, {"apart_m": 1.5e-3}], ids=str
+    "how", [{}, {"noise_m": 0.3e-3}, {"speeds": (0.5, 0.5)}, {"period_s": 16e-3}, {"apart_m": 1.5e-3}], ids=str
 )
 def test_protocol_a_keeps_fingers_that_pass_each_other_apart(how):
     swapped = sum(found[-1] != found[0] for found in (passing(seed, **how) for seed in range(100)))
-    assert swapped < 5
+    assert swapped < 5  # nearest first: 40 in the first case, 89 in the last
 
 
 def test_protocol_a_forgets_velocities_in_a_pause():

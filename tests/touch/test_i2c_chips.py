@@ -1,5 +1,7 @@
-"""Reports of the chips' data sheets, decoded; the drivers themselves run in the guest (tests/kernel/guest_panels.py)."""
+"""Reports of the chips' data sheets, decoded; the drivers themselves: test_i2c_drivers.py, and tests/kernel/guest_panels.py."""
 
+import functools
+import operator
 from collections import Counter
 
 import pytest
@@ -81,6 +83,20 @@ def test_every_contact_of_a_gt911_is_read_with_its_size(held, size):
     chip.touch(held, size)
     found = gt911.contacts_of(gt911_report(chip), Counter())
     assert found == [Contact(number, *place, size) for number, place in held.items()]
+
+
+@given(st.binary(min_size=26, max_size=26))
+def test_any_bytes_are_a_report_of_an_m06_or_refused(report):
+    with pytest.raises(ValueError, match="header"):
+        ft5x06.contacts_of_m06(b"\0" + report[1:], Counter())
+    body = b"\xaa\xaa\x1a" + report[3:25]
+    checksum = functools.reduce(operator.xor, body)
+    for number, x, y, size in ft5x06.contacts_of_m06(body + bytes([checksum]), Counter()):
+        assert 0 <= number < MAX_CONTACTS
+        assert 0 < x + y < 8192
+        assert size == 0
+    with pytest.raises(ValueError, match="checksum"):
+        ft5x06.contacts_of_m06(body + bytes([checksum ^ 1]), Counter())
 
 
 @pytest.mark.parametrize("contacts_of", [ft5x06.contacts_of, gt911.contacts_of])

@@ -53,6 +53,25 @@ def test_a_finger_lost_for_one_report_stays_the_same():
     assert t.tracking.bridged == 1
 
 
+def test_a_fast_finger_that_is_lost_for_a_report_is_the_same_where_it_would_be_by_now():
+    steps = [(1 + k * PERIOD_S, [touch(k > 6, 50 + 10 * k)] if k != 6 else []) for k in range(12)]  # 1 m/s
+    t = tracker(*steps)
+    assert {s.finger for s in played(t, 1.115)} == {0}
+    assert t.tracking.bridged == 1
+
+
+def test_two_fingers_that_are_lost_together_while_they_pass_each_other_are_not_swapped():
+    def passing(k):  # 150 mm/s each, 2 mm apart; the panel tells first the one that it told last before
+        places = [touch(0, 80 + 1.5 * k, 50.0), touch(1, 98 - 1.5 * k, 52.0)]
+        return places if k < 6 else [] if k == 6 else [places[1]._replace(finger=2), places[0]._replace(finger=3)]
+
+    t = tracker(*[(1 + k * PERIOD_S, passing(k)) for k in range(12)])
+    samples = played(t, 1.115)
+    assert t.tracking.bridged == 2
+    for finger, y_mm in ((0, 50), (1, 52)):
+        assert {round(s.y_m * 1e3, 6) for s in samples if s.finger == finger} == {y_mm}
+
+
 def test_a_finger_found_again_is_predicted_again():
     steps = [(1 + k * PERIOD_S, [touch(k > 20, 50 + k)] if k != 20 else []) for k in range(60)]
     t = tracker(*steps, lag_ms=10.0)

@@ -1,0 +1,33 @@
+"""`haptic-panel reload`: what the unit's ExecReload= runs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from typing import TYPE_CHECKING
+
+from controller.errors import ConfigError
+from controller.reloading import reload
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+
+def add(commands: Subparsers, _: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser = commands.add_parser(
+        "reload",
+        help="have the service read its scene again, and say what became of it (for ExecReload=)",
+        description="Sends SIGHUP to the service and waits until the scene was taken over, or was refused: that is exit code 78.",
+    )
+    parser.add_argument("--pid", type=int, metavar="N", help="its main process (default: $MAINPID)")
+    parser.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Reload."""
+    named = os.environ.get("MAINPID", "")
+    if options.pid is None and not named.isdecimal():
+        raise ConfigError("$MAINPID is not set: give --pid, or use systemctl reload haptic-panel")
+    reload(options.pid or int(named))
+    return 0

@@ -1,0 +1,184 @@
+"""A simulated capacitive panel into which emissions couple; its events go through the product's own decoder.
+
+It scans at a fixed rate. A scan in which the channel pins moved makes a ghost with some probability: at a random place away from
+real fingers, from that scan's report on, for some reports.
+"""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Callable, Sequence
+from itertools import count
+
+from controller.board import Board
+from controller.fpga.simulated_link import SimulatedLink
+from controller.touch import event_codes as ev
+from controller.touch.axes import Axes, AxisRange
+from controller.touch.decoder import Decoder
+from controller.touch.panel import Counts, Protocol
+from controller.touch.samples import TouchSample
+
+Place = tuple[float, float]  # mm on the plate
+Finger = tuple[float, float, Place | Callable[[float], Place]]  # from, until, and where it is, or where at a time
+
+PERIOD_S = 7e-3
+UNITS_PER_MM = 10
+APART_MM = 12.0  # of ghosts from real fingers: a ghost on a finger is no contact of its own
+SLOTS = 64
+
+
+class GhostlyPanel:
+    """A `TouchSource` of simulated fingers and ghosts.
+
+    Parameters
+    ----------
+    board : Board
+        Gives the plate, which the panel covers exactly.
+    fingers : sequence of (begin_s, end_s, place)
+        Real ones.
+    disturbed : callable
+        Whether the pins have moved up to a time since it was asked last; asked at each scan.
+    probability : float
+        Of a ghost in a scan that was disturbed.
+    lives : (int, int)
+        Fewest and most reports of a ghost, any number between equally likely.
+    period_s : float
+        From scan to scan; each is reported at once.
+    size_mm : float
+        Of ghosts; 0: the panel tells no sizes.
+    until_s : float
+        The last scan.
+
+    Attributes
+    ----------
+    ghosts : int
+        So many were made.
+    """
+
+    def __init__(
+        self,
+        board: Board,
+        fingers: Sequence[Finger],
+        disturbed: Callable[[float], bool],
+        *,
+        probability: float,
+        lives: tuple[int, int],
+        period_s: float = PERIOD_S,
+        protocol: Protocol = Protocol.B,
+        size_mm: float = 0.0,
+        seed: int = 0,
+        until_s: float = 10.0,
+    ) -> None:
+        plate = board.plate
+        self._sides_mm = plate.length_mm, plate.width_mm
+        x, y = (AxisRange(0, round(UNITS_PER_MM * side_mm)) for side_mm in self._sides_mm)
+        self.decoder = Decoder(Axes(board, x, y), protocol)
+        self.warnings: Counter[str] = Counter()
+        self.ghosts = 0
+        self._random = random.Random(seed)
+        self._fingers = fingers
+        self._disturbed = disturbed
+        self._probability = probability
+        self._lives = lives
+        self._period_s = period_s
+        self._size = round(UNITS_PER_MM * size_mm)
+        self._until_s = until_s
+        self._scan = 1
+        self._alive: dict[str, tuple[Place, int]] = {}  # ghosts: where, and reports left
+        self._slots: dict[str, int] = {}  # of whom
+        self._told: dict[str, Place] = {}
+        self._ids = count()
+
+    @property
+    def counts(self) -> Counts:
+        """Reports, contacts and fingers, ghosts among them."""
+        return self.decoder.counts
+
+    def fileno(self) -> None:
+        """Nothing to wait on but time."""
+        return
+
+    def close(self) -> None:
+        """No scan any more."""
+        self._until_s = -1.0
+
+    def next_time_s(self) -> float | None:
+        """The next scan."""
+        at_s = self._scan * self._period_s
+        return at_s if at_s <= self._until_s else None
+
+    def read(self, now_s: float) -> tuple[TouchSample, ...]:
+        """What the next scan finds, if it is due."""
+        at_s = self.next_time_s()
+        if at_s is None or at_s > now_s:
+            return ()
+        self._scan += 1
+        down = [(f"finger {k}", place) for k, (begin_s, end_s, place) in enumerate(self._fingers) if begin_s <= at_s < end_s]
+        there = {name: _at(place, at_s) for name, place in down}
+        if self._disturbed(at_s) and self._random.random() < self._probability:
+            self._haunt(list(there.values()))
+        there |= {name: place for name, (place, _) in self._alive.items()}
+        self._alive = {name: (place, left - 1) for name, (place, left) in self._alive.items() if left > 1}
+        return self._report(there, at_s)
+
+    def _haunt(self, fingers: list[Place]) -> None:
+        length_mm, width_mm = self._sides_mm
+        while True:
+            x_mm, y_mm = self._random.uniform(0, length_mm), self._random.uniform(0, width_mm)
+            if all(abs(x_mm - x) > APART_MM or abs(y_mm - y) > APART_MM for x, y in fingers):
+                break
+        self._alive[f"ghost {self.ghosts}"] = (x_mm, y_mm), self._random.randint(*self._lives)
+        self.ghosts += 1
+
+    def _report(self, there: dict[str, Place], at_s: float) -> tuple[TouchSample, ...]:
+        """As the kernel would tell it: of protocol B only what has changed."""
+        events: list[tuple[int, int, int]] = []
+        if self.decoder.protocol is Protocol.A:
+            for place in there.values():
+                events += [*self._where(place), (ev.EV_SYN, ev.SYN_MT_REPORT, 0)]
+            if self._told and not there:
+                events.append((ev.EV_SYN, ev.SYN_MT_REPORT, 0))
+        else:
+            for name in [name for name in self._slots if name not in there]:
+                events += [(ev.EV_ABS, ev.ABS_MT_SLOT, self._slots.pop(name)), (ev.EV_ABS, ev.ABS_MT_TRACKING_ID, -1)]
+            for name, place in there.items():
+                if self._told.get(name) == place:
+                    continue
+                if name not in self._slots:
+                    self._slots[name] = min(set(range(SLOTS)) - set(self._slots.values()))
+                    events += [(ev.EV_ABS, ev.ABS_MT_SLOT, self._slots[name]), (ev.EV_ABS, ev.ABS_MT_TRACKING_ID, next(self._ids))]
+                events += [(ev.EV_ABS, ev.ABS_MT_SLOT, self._slots[name]), *self._where(place)]
+        self._told = there
+        if not events:
+            return ()
+        for kind, code, value in events:
+            self.decoder.feed(kind, code, value, at_s)
+        return self.decoder.feed(ev.EV_SYN, ev.SYN_REPORT, 0, at_s) or ()
+
+    def _where(self, place: Place) -> list[tuple[int, int, int]]:
+        sized = [(ev.EV_ABS, ev.ABS_MT_TOUCH_MAJOR, self._size)] if self._size else []
+        x_mm, y_mm = place
+        return [
+            (ev.EV_ABS, ev.ABS_MT_POSITION_X, round(UNITS_PER_MM * x_mm)),
+            (ev.EV_ABS, ev.ABS_MT_POSITION_Y, round(UNITS_PER_MM * y_mm)),
+            *sized,
+        ]
+
+
+def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
+    """Whether the gateware's pins have moved up to a time since this was asked last."""
+    ahead: list[int] = []  # the link computes a frame's whole time on the wire at once
+
+    def moved(at_s: float) -> bool:
+        tick = link.tick(at_s)
+        link.gateware.advance(max(tick, link.gateware.now))
+        ticks = [*ahead, *link.take_capture().ticks.tolist()]
+        ahead[:] = [later for later in ticks if later > tick]
+        return len(ahead) < len(ticks)
+
+    return moved
+
+
+def _at(place: Place | Callable[[float], Place], at_s: float) -> Place:
+    return place(at_s) if callable(place) else place

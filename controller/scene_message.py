@@ -1,0 +1,167 @@
+"""What goes between the loop and the process that prepares scenes for it: versioned, bounded, checked data.
+
+A message is a header (magic, version, length, CRC-32; little-endian) and that many bytes of MessagePack. The scene
+in it is what `scene_map`, `trains`, `spacings` and `shapes` declare, within the ranges that their types give; the board is
+`board.Board`. Whatever does not fit is refused as a whole.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Meta, Struct
+
+from controller import __version__
+from controller.board import Board
+from controller.errors import ControllerError
+from controller.scene import Area, Meshes, Scene
+from controller.trains import Train
+
+VERSION = 1  # of the layout: raise it when a type in a message changes
+MAGIC = b"HPsc"
+HEADER = struct.Struct("<4sIII")
+MOST_BYTES = 1 << 18  # behind the header: 2,000 regions, which the loop checks and takes over in 2 ms
+REASON_CHARACTERS = 1000
+
+
+class MessageError(ControllerError):
+    """What the other process said does not fit."""
+
+
+class Request(Struct, frozen=True, forbid_unknown_fields=True):
+    """Prepare a scene, given by its name or path, of a board, for a bank."""
+
+    software: str
+    board: Board
+    scene: str
+    bank: str
+
+
+class _Scene(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
+    areas: tuple[Area, ...]
+    effects: dict[Annotated[str, Meta(min_length=1, max_length=64)], Train]
+    meshes: Meshes
+
+
+class _Reply(Struct, frozen=True, forbid_unknown_fields=True):
+    software: str
+    reason: Annotated[str, Meta(max_length=REASON_CHARACTERS)] = ""
+    scene: _Scene | None = None
+
+
+def _path(kind: type, value: Any) -> Any:
+    if kind is Path and isinstance(value, str):
+        return Path(value)
+    raise NotImplementedError
+
+
+_encoder = msgspec.msgpack.Encoder(enc_hook=str)  # of a Path
+_requests = msgspec.msgpack.Decoder(Request, dec_hook=_path)
+_replies = msgspec.msgpack.Decoder(_Reply)
+
+
+def pack_request(board: Board, scene: str, bank: Path) -> bytes:
+    """Message that asks for a scene."""
+    return _framed(_encoder.encode(Request(__version__, board, scene, str(bank))))
+
+
+def pack_scene(scene: Scene) -> bytes:
+    """Message with a scene.
+
+    Raises
+    ------
+    MessageError
+        If it is too large.
+    """
+    data = _encoder.encode(_Reply(__version__, scene=_Scene(scene.areas, dict(scene.effects), scene.meshes)))
+    if len(data) > MOST_BYTES:
+        raise MessageError(f"the scene is too large: {len(data):,} bytes with its {len(scene.areas)} regions, of {MOST_BYTES:,}")
+    return _framed(data)
+
+
+def pack_refusal(reason: str) -> bytes:
+    """Message that says in a line why there is no scene."""
+    return _framed(_encoder.encode(_Reply(__version__, reason=_line(reason))))
+
+
+def length(header: bytes | bytearray) -> int:
+    """Bytes of a message behind its header.
+
+    Raises
+    ------
+    MessageError
+        If it is no such header, of another version, or of a message that is too large.
+    """
+    if len(header) < HEADER.size:
+        raise MessageError("the message is cut off")
+    magic, version, count, _ = HEADER.unpack_from(header)
+    if magic != MAGIC:
+        raise MessageError("that is no message about a scene")
+    if version != VERSION:
+        raise MessageError(f"the message has version {version}, this program speaks {VERSION}: restart the service")
+    if count > MOST_BYTES:
+        raise MessageError(f"the message is too large: {count:,} bytes, of {MOST_BYTES:,}")
+    return int(count)
+
+
+def unpack_request(message: bytes) -> Request:
+    """What is asked for.
+
+    Raises
+    ------
+    MessageError
+        If the message does not fit.
+    """
+    try:
+        request = _requests.decode(_checked(message))
+    except msgspec.MsgspecError as error:
+        raise MessageError(f"the message does not fit: {error}") from error
+    _require_own(request.software)
+    return request
+
+
+def unpack_scene(message: bytes) -> Scene | str:
+    """The scene, or why there is none.
+
+    Raises
+    ------
+    MessageError
+        If the message does not fit.
+    """
+    try:
+        reply = _replies.decode(_checked(message))
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise MessageError(_line(f"the message does not fit: {error}")) from error
+    _require_own(reply.software)
+    if reply.scene is None:
+        return _line(reply.reason)
+    areas, meshes = reply.scene.areas, reply.scene.meshes
+    if not all(0 <= region < len(areas) for regions in set(meshes.regions) for region in regions):
+        raise MessageError("the message does not fit: its meshes name a region that it does not have")
+    return Scene(areas, reply.scene.effects, meshes)
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())[:REASON_CHARACTERS] or "no reason given"
+
+
+def _framed(data: bytes) -> bytes:
+    return HEADER.pack(MAGIC, VERSION, len(data), zlib.crc32(data)) + data
+
+
+def _checked(message: bytes) -> memoryview:
+    data = memoryview(message)[HEADER.size :]
+    if len(data) != length(message):
+        raise MessageError("the message is cut off, or has more than it says")
+    if zlib.crc32(data) != HEADER.unpack_from(message)[3]:
+        raise MessageError("the message is damaged: its CRC is wrong")
+    return data
+
+
+def _require_own(software: str) -> None:
+    if software != __version__:
+        raise MessageError(f"the message is of version {software!r} of the software, this is {__version__!r}: restart the service")

@@ -1,0 +1,305 @@
+"""Runs in the container, as root: a panel of one's own put into service, word by word as README.md and systemd/README.md say.
+
+The board is a copy of the ULX3S's with another plate, other actuators and another kind of touch panel, whose axes lie
+otherwise; its FPGA is the model. Lines are taken from the documents; `editor` is a program that makes our changes.
+"""
+
+import contextlib
+import itertools
+import math
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import threading
+from pathlib import Path
+
+import panel_board
+from the_service import CHECKOUT, UNIT, fresh_start, journal, main_pid, run, shown, wait_for
+
+from controller.client import PanelClient
+
+LENGTH_MM, WIDTH_MM = 165.0, 100.0
+DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88), (13, 52))  # no two are mirror images
+FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
+LARGEST = 4095
+HOST, PANEL = os.openpty()
+DEVICE = os.ttyname(PANEL)
+BANK = Path("/var/lib/haptic-panel/banks/panel.bank")
+TOOLS = Path("/run/tools")
+SOCKET = "/tmp/panel.sock"
+ENVIRONMENT = {
+    "PATH": f"{TOOLS}:/usr/sbin:/usr/bin",
+    "HOME": "/root",
+    "PIP_NO_INDEX": "1",
+    "PIP_FIND_LINKS": "/opt/wheels",
+    "PIP_DISABLE_PIP_VERSION_CHECK": "1",
+    "PIP_ROOT_USER_ACTION": "ignore",
+    "OPENBLAS_NUM_THREADS": "1",
+}
+
+
+def blocks(document, heading):
+    """Lines of each block of commands of a section."""
+    text = (CHECKOUT / document).read_text()
+    section = re.search(rf"^## {heading}\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)[1]
+    found = re.findall(r"^```(?:sh)?\n(.*?)^```", section, re.MULTILINE | re.DOTALL)
+    return [block.splitlines() for block in found]
+
+
+PACKAGE, SYSTEM, SERVICE = blocks("systemd/README.md", "Install")
+STEPS = blocks("README.md", "On a device")[0]
+HOME = Path("/root")
+
+
+def started(line, user="root", folder=HOME):
+    """A line of a document in a shell, begun; in a session of its own, so that Ctrl-C reaches it and not us."""
+    shell = ["sh", "-c", f"exec {line}" if line.startswith("haptic-panel") else line]  # what ends it is then the command's own end
+    rights = [] if user == "root" else ["setpriv", f"--reuid={user}", f"--regid={user}", "--init-groups"]
+    home = "/root" if user == "root" else str(folder)
+    command = ["env", f"HOME={home}", *rights, *shell]
+    return subprocess.Popen(
+        command, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        start_new_session=True,
+    )  # fmt: skip
+
+
+def done(line, user="root", folder=HOME, code=0):
+    """What a line of a document prints; it ends with this exit code and without a traceback."""
+    with started(line, user, folder) as process:
+        out = process.stdout.read()
+    assert process.returncode == code, f"{line}: exit code {process.returncode}\n{out}"
+    assert "Traceback" not in out, f"{line}\n{out}"
+    return out
+
+
+def told(process, wanted):
+    """Lines up to the one that contains this."""
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if wanted in line:
+            return lines
+    raise AssertionError(f"{wanted!r} was not said:\n{''.join(lines)}")
+
+
+def ctrl_c(process):
+    """The rest of what is said, with Ctrl-C pressed."""
+    os.killpg(process.pid, signal.SIGINT)
+    out = process.stdout.read()
+    assert process.wait() == 0, out
+    return out
+
+
+def touch(x_mm, y_mm, status):
+    """A packet of SmartSet from a panel whose x axis lies along the plate's width, backwards, and its y axis along the length."""
+    raw = (round(LARGEST * (1 - y_mm / WIDTH_MM)), round(LARGEST * x_mm / LENGTH_MM))
+    body = struct.pack("<2sBHHH", b"UT", status, *raw, 255)
+    os.write(HOST, body + bytes([(0xAA + sum(body)) & 0xFF]))
+
+
+@contextlib.contextmanager
+def finger(places):
+    """A finger that goes from place to place, 50 times a second."""
+    lifted = threading.Event()
+
+    def move():
+        status = FIRST
+        for place in places:
+            touch(*place, status)
+            status = STREAM
+            if lifted.wait(0.02):
+                break
+        touch(*place, LAST)
+
+    thread = threading.Thread(target=move)
+    thread.start()
+    try:
+        yield
+    finally:
+        lifted.set()
+        thread.join()
+
+
+def to_and_fro():
+    return ((80 + 40 * math.sin(number / 20), 50.0) for number in itertools.count())
+
+
+def seven_inches(text):
+    """A copied board.toml as somebody with another panel changes it."""
+    quadrants = [
+        (x, y) for x, y in DISCS_MM for x, y in ((x - 2.5, y - 2.5), (x + 2.5, y - 2.5), (x - 2.5, y + 2.5), (x + 2.5, y + 2.5))
+    ]
+    actuators = "".join(
+        f"    {{ channel = {channel}, x_mm = {x}, y_mm = {y}, size_mm = 4.6, idle = {int(channel % 4 in (0, 3))} }},\n"
+        for channel, (x, y) in enumerate(quadrants)
+    )
+    text = re.sub(r"(?<=^actuators = \[\n)(?: .*\n)+", actuators, text, flags=re.MULTILINE)
+    text = panel_board.table(
+        text,
+        "touch",
+        f'kind = "serial_panel"\ndevice = "{DEVICE}"\nx_mm_from_axes = [210.0, 0.0, 0.0]\ny_mm_from_axes = [0.0, 148.0, 0.0]\n',
+    )
+    for key, value in {
+        "length_mm": LENGTH_MM,
+        "width_mm": WIDTH_MM,
+        "thickness_mm": 0.7,
+        "pitch_mm": 5.0,
+        "heartbeat_timeout_ms": 250.0,
+        "scene": '"../simulated/plate.toml"',
+    }.items():
+        text, count = re.subn(rf"^{key} = \S+", f"{key} = {value}", text, flags=re.MULTILINE)
+        assert count == 1, key
+    text = text.replace('kind = "spi"', 'kind = "simulated"')
+    return f'{text}\n[application_socket]\npath = "{SOCKET}"\n'
+
+
+def step(wanted):
+    """The one line of the README that has this in it."""
+    (line,) = [line for line in STEPS if wanted in line]
+    return line
+
+
+def test_the_package_the_user_and_the_unit_are_installed_as_written():
+    shutil.move("/opt/haptic-panel", "/opt/running-the-tests")
+    shutil.rmtree("/etc/haptic-panel")
+    shutil.rmtree("/var/lib/haptic-panel")
+    for line in PACKAGE:
+        done(line, folder=CHECKOUT)
+    for line in SYSTEM:
+        if "udevadm" not in line:  # a container has no devices of its own
+            done(line, folder=CHECKOUT)
+    shutil.chown(DEVICE, group="dialout")
+    Path(DEVICE).chmod(0o660)
+
+
+def test_a_copied_board_is_made_ones_own_and_the_shell_finds_the_command():
+    assert STEPS[0].startswith("PATH=")
+    ENVIRONMENT["PATH"] = done(f"{STEPS[0]}; echo $PATH").strip()
+    done(step("cp -r"))
+    board = Path("/etc/haptic-panel/boards/panel/board.toml")
+    TOOLS.mkdir()
+    (TOOLS / "changed.toml").write_text(seven_inches(board.read_text()))
+    (TOOLS / "editor").write_text(f'#!/bin/sh\nexec cp {TOOLS}/changed.toml "$1"\n')
+    (TOOLS / "editor").chmod(0o755)
+    done(step("editor "))
+    assert f"length_mm = {LENGTH_MM}" in board.read_text()
+
+
+def test_the_bank_is_where_run_looks_for_it_and_belongs_to_the_service():
+    assert f"bank: {BANK}\n" in done(step("bank build"))
+    for place, mode in ((BANK.parent.parent, 0o750), (BANK.parent, 0o750), (BANK, 0o644)):
+        assert (place.owner(), place.group(), place.stat().st_mode & 0o777) == (UNIT, UNIT, mode), place
+    assert f"{BANK}, " in done("haptic-panel bank verify --board panel")
+
+
+def test_the_doctor_looks_with_the_services_eyes():
+    said = done(step("doctor --board"))
+    assert f"looked at as {UNIT}, as which the service runs" in said
+    assert "NOT OK" not in said
+    BANK.chmod(0)
+    try:
+        assert re.search(r"NOT OK +bank +.*Permission denied", done(step("doctor --board"), code=1)), "root itself could read it"
+    finally:
+        BANK.chmod(0o644)
+    assert "no error from" in done(step("doctor --link"))
+
+
+def calibrated(line):
+    """What is said, with each mark touched when it is asked for."""
+    said = []
+    with started(line) as process:
+        hand = contextlib.ExitStack()
+        for text in process.stdout:
+            said.append(text)
+            if asked := re.search(r"at x = (\S+) mm, y = (\S+) mm", text):
+                hand.close()
+                hand.enter_context(finger(itertools.repeat((float(asked[1]), float(asked[2])))))
+        hand.close()
+    assert process.returncode == 0, "".join(said)
+    return "".join(said)
+
+
+def test_five_touches_put_the_axes_into_the_board():
+    said = calibrated(step("calibrate-touch"))
+    assert "written to /etc/haptic-panel/boards/panel/board.toml" in said
+    rows = [[float(value) for value in row.split(",")] for row in re.findall(r"_mm_from_axes = \[(.*)\]", said)]
+    for row, expected in zip(rows, ([0.0, LENGTH_MM, 0.0], [-WIDTH_MM, 0.0, WIDTH_MM]), strict=True):
+        assert max(abs(a - b) for a, b in zip(row, expected, strict=True)) < 0.1, said
+
+
+def recorded(line, user, folder):
+    """A recording made until Ctrl-C; what is said of it."""
+    file = folder / "mine.evemu"
+    with started(line, user, folder) as process:
+        told(process, "recording ")
+        with finger(to_and_fro()):
+            wait_for("events", lambda: file.exists() and file.read_text().count("E: ") > 20)
+        return ctrl_c(process)
+
+
+def played(line, user="root"):
+    """What the panel prints at the end, after a finger has been felt."""
+    with started(line, user) as process:
+        wait_for("the socket", Path(SOCKET).exists)
+        with finger(to_and_fro()):
+            wait_for("five emissions", lambda: figures(SOCKET)["emissions"] >= 5)
+        return ctrl_c(process)
+
+
+def figures(path):
+    with PanelClient(path) as panel:
+        return panel.figures()
+
+
+def test_what_the_panel_sends_is_recorded_and_it_plays():
+    assert "events" in recorded(step(" record "), "root", HOME)
+    said = played(step(" run --board panel "))
+    assert f"bank: {BANK}\n" in said
+    again = done("haptic-panel run --board panel --replay mine.evemu --link model --speed max --json")
+    assert '"max_fingers": 1' in again
+
+
+def test_every_step_that_needs_no_root_works_as_the_services_user():
+    folder = Path("/tmp/as the user")
+    folder.mkdir()
+    shutil.chown(folder, UNIT)
+    done(step("bank build"), UNIT, folder)
+    assert BANK.owner() == UNIT
+    assert f"looked at as {UNIT}" in done(step("doctor --board"), UNIT, folder)
+    done(step("doctor --link"), UNIT, folder)
+    said = done(step("calibrate-touch"), UNIT, folder, code=1)
+    assert "board.toml: cannot be written (Permission denied)" in said, "and before five marks were touched for nothing"
+    assert said.count("\n") == 1
+    recorded(step(" record "), UNIT, folder)
+    played(step(" run --board panel "), UNIT)
+
+
+def test_the_service_plays_what_was_commissioned():
+    for line in SERVICE:
+        done(line)
+    assert shown("UnitFileState") == "enabled"
+    assert f"cells of {BANK}" in journal()
+    socket = f"/proc/{main_pid()}/root{SOCKET}"
+    with finger(to_and_fro()):
+        wait_for("five emissions", lambda: figures(socket)["emissions"] >= 5)
+
+
+def test_a_pitch_changed_in_the_board_is_said_by_the_service_with_what_to_do():
+    board = Path("/etc/haptic-panel/boards/panel/board.toml")
+    good = board.read_text()
+    board.write_text(good.replace("pitch_mm = 5.0", "pitch_mm = 4.0"))
+    try:
+        run("systemctl", "stop", UNIT)
+        subprocess.run(["systemctl", "start", UNIT], check=False, capture_output=True)
+        wait_for("the end", lambda: shown("ActiveState") == "failed")
+        assert shown("ExecMainStatus") == "78"
+        line = [line for line in journal().splitlines() if "bank.pitch_mm" in line][-1]
+        advice = line.partition("rebuild it: ")[2]
+        assert advice == "haptic-panel bank build --board panel"
+        done(advice)
+        assert fresh_start()
+    finally:
+        board.write_text(good)

@@ -1,0 +1,516 @@
+"""GT911 and FT5x06 driven over the kernel's interfaces, their far ends (peers) built from the data sheets, in virtual time."""
+
+import contextlib
+import errno
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from gpiod.line import Edge
+from peers.adapter import Adapter, Lines
+from peers.edt_m06_chip import EdtM06Chip
+from peers.ft5x06_chip import Ft5x06Chip
+from peers.gt911_chip import STATUS, Gt911Chip
+
+from controller.board import find_board, load_board
+from controller.device_settings import Ft5x06Touch, Gt911Touch
+from controller.errors import TouchError
+from controller.touch import i2c_bus, i2c_reader, panel_lines
+from controller.touch.event_codes import ABS_MT_TOUCH_MAJOR
+from controller.touch.ft5x06 import open_ft5x06
+from controller.touch.gt911 import PRODUCTS, open_gt911
+from controller.touch.live_source import LiveSource
+
+BOARD = load_board(find_board("simulated"))
+AXES_MM = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
+LINES = {"interrupt_chip": "panel", "interrupt_line": "INT", **AXES_MM}
+
+
+class Bench:
+    """A panel on a bus, and a clock that goes on only when it is told to."""
+
+    def __init__(self, monkeypatch, tmp_path):
+        self.now_s = 0.0
+        self._path = tmp_path / "i2c-1"
+        self._path.touch()
+        self._monkeypatch = monkeypatch
+        self._opened = []
+        monkeypatch.setattr(i2c_reader, "time", SimpleNamespace(sleep=self.wait))
+        monkeypatch.setattr(panel_lines, "_chip_path", lambda _: "/dev/gpiochip0")
+
+    def put(self, chip, **adapter):
+        self.chip = chip
+        self.adapter = Adapter(chip, **adapter)
+        self.lines = Lines(chip, lambda: self.now_s)
+        self._monkeypatch.setattr("smbus2.smbus2.ioctl", self.adapter.ioctl)
+        self._monkeypatch.setattr(i2c_bus.fcntl, "ioctl", self.adapter.ioctl)
+        self._monkeypatch.setattr(panel_lines, "gpiod", self.lines)
+        return chip
+
+    def wait(self, wait_s):
+        assert wait_s >= 0
+        self.now_s += wait_s
+
+    def gt911(self, **more):
+        return self._open(open_gt911, Gt911Touch, more)
+
+    def ft5x06(self, **more):
+        return self._open(open_ft5x06, Ft5x06Touch, {"width": 2100, "height": 1480} | more)
+
+    def _open(self, open_panel, settings, more):
+        reader = open_panel(settings(**{"bus": str(self._path), **LINES, **more}))
+        self._opened.append(reader)
+        return LiveSource(reader, BOARD)
+
+    def touch(self, held, pulse=True, **more):
+        if self.chip.touch(held, **more) is not False and pulse:
+            self.lines.pulse()
+
+    def open_buses(self):
+        """How often the bus is open."""
+        found = 0
+        for fd in Path("/proc/self/fd").iterdir():
+            with contextlib.suppress(OSError):  # the one of the listing itself
+                found += fd.readlink() == self._path
+        return found
+
+    def read(self, source):
+        """Samples of what there is to read now, as (finger, x in mm, y in mm, contact)."""
+        return in_short(source.read(self.now_s))
+
+    def until_due(self, source):
+        """Let the time pass to when the reader wants to be asked, and ask it; how long that was, and what came."""
+        waited_s = source.next_time_s() - self.now_s
+        self.now_s = max(self.now_s, source.next_time_s())
+        return round(waited_s, 6), self.read(source)
+
+    def close(self):
+        for reader in self._opened:
+            reader.close()
+
+
+def in_short(samples):
+    return [(s.finger, round(s.x_m * 1e3, 6), round(s.y_m * 1e3, 6), s.contact) for s in samples]
+
+
+@pytest.fixture
+def bench(monkeypatch, tmp_path):
+    found = Bench(monkeypatch, tmp_path)
+    yield found
+    found.close()
+
+
+# ---- GT911
+
+
+@pytest.mark.parametrize("address", [0x5D, 0x14])
+def test_a_gt911_is_reset_to_the_boards_address_by_the_level_of_its_interrupt_line(bench, address):
+    chip = bench.put(Gt911Chip(width=2100, height=1480))
+    chip.address = 0x5D if address == 0x14 else 0x14
+    source = bench.gt911(address=address, reset_line="RST")
+    assert chip.address == address
+    assert bench.lines.driven == {"RST": True}  # it keeps running; the interrupt line is the chip's again
+    levels = [(name, level) for _, name, level in bench.lines.history]
+    assert levels == [("RST", False), ("INT", False), ("INT", address == 0x14), ("RST", True), ("INT", False)]
+    at_s = [at_s for at_s, _, _ in bench.lines.history]
+    assert at_s[2] - at_s[0] >= 10e-3  # T2 of the data sheet
+    assert at_s[3] - at_s[2] >= 100e-6  # T3
+    assert at_s[4] - at_s[3] >= 5e-3  # T4
+    assert bench.now_s - at_s[4] >= 50e-3  # T5
+    bench.touch({0: (100, 200), 3: (300, 400)}, size=75)
+    samples = source.read(bench.now_s)
+    assert in_short(samples) == [(0, 10, 20, True), (1, 30, 40, True)]
+    assert [round(s.size_m * 1e3, 6) for s in samples] == [7.5, 7.5]
+    assert not source.warnings
+
+
+@pytest.mark.parametrize(("given", "true"), [(0x14, 0x5D), (0x5D, 0x14)])
+def test_without_a_reset_line_a_gt911_is_found_at_its_other_address(bench, given, true):
+    bench.put(Gt911Chip(width=2100, height=1480)).address = true
+    source = bench.gt911(address=given)
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(0, 10, 20, True)]
+    assert bench.chip.registers[STATUS] == 0  # cleared at that address
+    assert bench.lines.history == []
+
+
+@pytest.mark.parametrize("product", PRODUCTS)
+def test_every_chip_of_the_kernels_list_with_the_same_registers_is_driven(bench, product):
+    bench.put(Gt911Chip(width=2100, height=1480, contacts=10, product=product.encode().ljust(4, b"\0")))
+    source = bench.gt911()
+    assert source._reader.description.name == f"GT{product}"
+    bench.touch({number: (200 * number + 1, 100 * number) for number in range(10)})
+    assert [place[1:3] for place in bench.read(source)] == [(20 * k + 0.1, 10 * k) for k in range(10)]
+
+
+def test_the_list_is_the_kernels():
+    assert set(PRODUCTS) == {"911", "9110", "9111", "927", "9271", "928", "912", "9147", "967"}  # goodix_chip_ids, map at 0x8047
+
+
+@pytest.mark.parametrize("product", [b"1158", b"5688", b"917S", b"9112", b"91\0\0"])
+def test_another_goodix_is_refused_by_name_with_the_list(bench, product):
+    bench.put(Gt911Chip(product=product))
+    with pytest.raises(TouchError) as caught:
+        bench.gt911()
+    assert repr(product.rstrip(b"\0").decode()) in str(caught.value)
+    assert "911, 9110, 9111, 912, 9147, 927, 9271, 928, 967" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("product", "words"), [(bytes(4), "nothing but 0x00"), (b"\xff" * 4, "0xFF"), (b"\x12\x34\x80\0", "no Goodix")]
+)
+def test_what_is_no_goodix_is_refused(bench, product, words):
+    bench.put(Gt911Chip(product=product))
+    with pytest.raises(TouchError, match=words):
+        bench.gt911()
+
+
+def test_a_gt911_tells_its_extents_unless_the_board_does(bench):
+    bench.put(Gt911Chip(width=1024, height=600))
+    axes = bench.gt911().axes
+    assert (axes.x.maximum, axes.y.maximum) == (1024, 600)
+    bench.put(Gt911Chip(width=0, height=600))
+    with pytest.raises(TouchError, match="width and height"):
+        bench.gt911()
+    axes = bench.gt911(width=30).axes
+    assert (axes.x.maximum, axes.y.maximum) == (30, 600)
+
+
+@pytest.mark.parametrize(("trigger", "edge"), [(0, Edge.RISING), (1, Edge.FALLING), (2, Edge.FALLING), (3, Edge.RISING)])
+def test_the_edge_is_the_one_of_the_chips_configuration(bench, trigger, edge):
+    bench.put(Gt911Chip(trigger=trigger))
+    bench.gt911()
+    assert bench.lines.listening is edge
+
+
+def test_every_report_of_a_gt911_is_cleared_and_one_of_more_than_two_contacts_read_on(bench):
+    bench.put(Gt911Chip(width=2100, height=1480, contacts=10))
+    source = bench.gt911()
+    clears = bench.chip.clears
+    for held, given in (({0: (10, 20)}, 1), ({0: (11, 20), 1: (30, 40)}, 2), ({k: (9 + k, 50) for k in range(3)}, 3), ({}, 3)):
+        before = bench.adapter.transfers
+        bench.touch(held)
+        assert len(bench.read(source)) == given
+        assert bench.adapter.transfers - before == (3 if len(held) > 2 else 2)  # status and points, the rest, clear
+    assert bench.chip.clears == clears + 4
+    assert bench.chip.lost_reports == 0
+
+
+# ---- when a chip is asked
+
+
+def test_a_sample_has_the_time_of_its_edge(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    assert source.fileno() is not None
+    edge_s = bench.now_s
+    bench.touch({0: (100, 200)})
+    bench.now_s += 4e-3
+    (sample,) = source.read(bench.now_s)
+    assert sample.time_s == pytest.approx(edge_s, abs=1e-8)
+
+
+def test_without_an_edge_an_idle_panel_is_asked_every_second_and_a_touched_one_every_30_ms(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    bench.until_due(source)
+    bench.touch({0: (100, 200)}, pulse=False)
+    transfers = bench.adapter.transfers
+    bench.now_s += 0.5
+    assert bench.read(source) == []
+    assert bench.adapter.transfers == transfers  # not before it is due
+    assert bench.until_due(source) == (0.5, [(0, 10, 20, True)])
+    for x in (110, 120):
+        bench.touch({0: (x, 200)}, pulse=False)
+        assert bench.until_due(source) == (0.03, [(0, x / 10, 20, True)])
+    bench.touch({}, pulse=False)
+    assert bench.until_due(source) == (0.03, [(0, 12, 20, False)])
+    assert bench.until_due(source) == (1.0, [])
+    assert not source.warnings
+
+
+def test_a_report_that_its_edge_announced_too_early_is_asked_for_again_after_2_4_8_and_10_ms(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    bench.until_due(source)
+    for late, waits_s in ((1, [0.002]), (4, [0.002, 0.004, 0.008, 0.01])):
+        bench.chip.late = late
+        edge_s = bench.now_s
+        bench.touch({0: (100 + late, 200)})
+        assert bench.read(source) == []
+        for wait_s in waits_s[:-1]:
+            assert bench.until_due(source) == (wait_s, [])
+        bench.now_s += waits_s[-1]
+        (sample,) = source.read(bench.now_s)
+        assert in_short([sample]) == [(0, 10 + late / 10, 20, True)]
+        assert sample.time_s == pytest.approx(edge_s, abs=1e-8)
+    bench.chip.late = 5
+    bench.touch({0: (300, 200)})
+    assert bench.read(source) == []
+    assert [bench.until_due(source)[0] for _ in range(4)] == [0.002, 0.004, 0.008, 0.01]
+    waited_s, samples = bench.until_due(source)
+    assert (waited_s, samples) == (0.03, [(0, 30, 20, True)])  # found all the same
+
+
+def test_a_panel_that_is_touched_and_silent_for_half_a_second_is_started_again(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(0, 10, 20, True)]
+    began_s, samples = bench.now_s, []
+    while not samples:
+        waited_s, samples = bench.until_due(source)
+        assert waited_s == 0.03
+    assert samples == [(0, 10, 20, False)]
+    assert 0.5 < bench.now_s - began_s < 0.54
+    assert source.warnings == {"contact_stuck": 1}
+    assert not source.present
+    assert bench.until_due(source) == (0.5, [])  # started again
+    assert source.present
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(1, 10, 20, True)]
+
+
+def test_an_absurd_report_is_counted_and_the_next_one_read(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    bench.touch({0: (100, 200)}, status=0x8F)
+    assert bench.read(source) == []
+    assert source.warnings == {"report_absurd": 1}
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(0, 10, 20, True)]
+
+
+# ---- the bus
+
+
+def test_what_is_not_acknowledged_is_tried_three_times_and_then_lost(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911(reset_line="RST")
+    bench.chip.nacks = 2
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(0, 10, 20, True)]
+    assert source.warnings == {"bus_retried": 2}
+    bench.chip.nacks = 3
+    bench.touch({0: (110, 200)})
+    assert bench.read(source) == [(0, 10, 20, False)]
+    assert source.warnings == {"bus_retried": 4, "panel_lost": 1}
+    assert not source.present
+    assert source.fileno() is None
+    assert bench.lines.driven == {"RST": True}
+
+
+def test_a_bus_that_hangs_is_not_tried_again_at_once(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    assert bench.adapter.timeout_10ms == 100
+    source = bench.gt911()
+    assert bench.adapter.timeout_10ms == 3  # the adapter gives up after 30 ms, not after a second
+    bench.touch({0: (100, 200)})
+    bench.read(source)
+    bench.chip.hangs = True
+    before = bench.adapter.transfers
+    bench.touch({})
+    assert bench.read(source) == [(0, 10, 20, False)]
+    assert bench.adapter.transfers == before + 1
+    assert source.warnings == {"panel_lost": 1}
+
+
+def test_a_panel_that_went_is_tried_every_half_second_and_started_step_by_step_when_it_is_back(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911(reset_line="RST")
+    bench.touch({0: (100, 200)})
+    bench.read(source)
+    bench.chip.silent = True
+    bench.touch({})
+    assert bench.read(source) == [(0, 10, 20, False)]
+    began_s = bench.now_s
+    while bench.now_s < began_s + 1.2:
+        assert bench.until_due(source)[1] == []
+        assert not source.present
+        if source.next_time_s() > bench.now_s + 0.4:  # it waits for the next attempt
+            assert bench.lines.driven == {"RST": True}
+    bench.chip.silent = False
+    bench.chip.configuration = Gt911Chip(width=1050, height=1480).configuration
+    bench.chip.product = b"1158"
+    while bench.now_s < began_s + 2.5:  # another chip answers: as if there were none
+        assert bench.until_due(source)[1] == []
+    assert not source.present
+    bench.chip.product = b"928\0"
+    steps_s = []
+    while not source.present:
+        steps_s.append(bench.until_due(source)[0])
+    assert 0.1 < sum(steps_s[1:]) < 0.2  # the loop has gone on in between
+    assert max(steps_s[1:]) <= 0.05
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(1, 20, 20, True)]  # by the extents it has now
+    assert source.warnings["panel_lost"] == 1
+
+
+def test_what_keeps_a_bus_from_being_opened_is_said(bench, tmp_path, monkeypatch):
+    bench.put(Gt911Chip(), functions=0x10000)
+    with pytest.raises(TouchError, match="cannot do plain I2C"):
+        bench.gt911()
+    assert bench.open_buses() == 0
+    with pytest.raises(TouchError, match=r"there is no I2C bus .*i2c-9"):
+        bench.gt911(bus=str(tmp_path / "i2c-9"))
+
+    def refused(*_):
+        raise PermissionError(errno.EACCES, "no")
+
+    monkeypatch.setattr("smbus2.smbus2.os.open", refused)
+    with pytest.raises(TouchError, match="add it to the group"):
+        bench.gt911()
+
+
+def test_a_chip_that_does_not_answer_at_the_start_is_named_and_everything_given_back(bench):
+    bench.put(Gt911Chip()).silent = True
+    for opened, name in ((bench.gt911, "Goodix"), (bench.ft5x06, "FT5x06")):
+        with pytest.raises(TouchError, match=f"{name} touch panel on .* does not answer"):
+            opened(reset_line="RST")
+        assert bench.lines.driven == {}
+        assert bench.lines.listening is None
+        assert bench.open_buses() == 0
+    bench.put(Ft5x06Chip())
+    with pytest.raises(TouchError, match="has no line 'NONE'"):
+        bench.ft5x06(interrupt_line="NONE")
+
+
+# ---- FT5x06
+
+
+def test_an_ft5x06_is_reset_set_to_pulses_and_read(bench):
+    bench.put(Ft5x06Chip())
+    source = bench.ft5x06(reset_line="RST")
+    (low_s, *low), (high_s, *high) = bench.lines.history
+    assert (low, high) == (["RST", False], ["RST", True])
+    assert high_s - low_s >= 5e-3
+    assert bench.now_s - high_s >= 0.3
+    assert bench.chip.registers[0xA4] == 1  # a pulse for each report
+    assert bench.chip.registers[0x00] == 0
+    assert bench.lines.listening is Edge.FALLING
+    assert source._reader.description.name == "FT5x06 chip 55"
+    assert source._reader.description.version == 0x0A
+    assert ABS_MT_TOUCH_MAJOR not in source._reader.description.axes
+    assert bench.open_buses() == 1
+    bench.touch({number: (200 * number + 1, 100 * number + 1) for number in range(10)})
+    assert [place[1:3] for place in bench.read(source)] == [(20 * k + 0.1, 10 * k + 0.1) for k in range(10)]
+    bench.touch({5: (1011, 501)})
+    assert len(bench.read(source)) == 10
+    bench.touch({})
+    assert bench.read(source) == [(5, 101.1, 50.1, False)]
+
+
+def test_what_an_ft5x06_holds_from_before_its_start_is_no_touch(bench):
+    bench.put(Ft5x06Chip()).touch({0: (100, 200)})
+    source = bench.ft5x06()
+    assert bench.until_due(source)[1] == []
+    assert source.warnings == {"stale_reports": 1}
+    bench.touch({0: (110, 200)})
+    assert bench.read(source) == [(0, 11, 20, True)]
+
+
+@pytest.mark.parametrize("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64])
+def test_chips_of_the_family_are_known_whatever_their_number(bench, chip_id):
+    bench.put(Ft5x06Chip(chip_id=chip_id))
+    assert bench.ft5x06()._reader.description.name == f"FT5x06 chip {chip_id:02x}"
+
+
+@pytest.mark.parametrize("byte", [0x00, 0xFF, 0x5A])
+def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(bench, byte):
+    """0x5A: such as a PCF8574A, an expander that has the same address and gives its pins whatever it is asked."""
+    bench.put(Ft5x06Chip()).garbage = byte
+    with pytest.raises(TouchError, match=f"at 0x38 .* no FocalTech chip .* all 0x{byte:02X}"):
+        bench.ft5x06()
+    assert bench.lines.listening is None
+    assert bench.open_buses() == 0
+    bench.put(Ft5x06Chip()).registers[:] = bytes([byte]) * 256
+    with pytest.raises(TouchError, match="no FocalTech chip"):
+        bench.ft5x06()
+
+
+def test_an_ft5x06_that_lost_its_power_is_set_to_work_again_and_an_empty_one_in_its_place_is_not(bench):
+    bench.put(Ft5x06Chip())
+    source = bench.ft5x06()
+    bench.touch({0: (100, 200)})
+    bench.read(source)
+    bench.chip.silent = True
+    bench.touch({})
+    assert bench.read(source) == [(0, 10, 20, False)]
+    bench.chip.silent = False
+    bench.chip.garbage = 0xFF
+    assert bench.until_due(source) == (0.5, [])
+    assert not source.present
+    bench.chip.garbage = None
+    bench.chip.power_up()
+    assert bench.chip.registers[0xA4] == 0
+    bench.until_due(source)
+    assert source.present
+    assert bench.chip.registers[0xA4] == 1
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(1, 10, 20, True)]
+
+
+def test_an_edt_m12_has_the_registers_and_says_its_model(bench):
+    bench.put(Ft5x06Chip(chip_id=0x54)).registers[0xBB:0xCA] = b"EP0500M12*A0.1$"
+    source = bench.ft5x06()
+    assert source._reader.description.name == "EDT EP0500M12"
+    bench.touch({0: (100, 200)})
+    assert bench.read(source) == [(0, 10, 20, True)]
+
+
+# ---- EDT M06
+
+
+def test_an_edt_m06_is_found_out_and_its_reports_are_read(bench):
+    bench.put(EdtM06Chip())
+    source = bench.ft5x06()
+    assert source._reader.description.name == "EDT EP0570M06"
+    assert bench.lines.listening is Edge.FALLING
+    one = {1: (100, 200)}
+    bench.touch(one)
+    assert bench.read(source) == []  # just put down: the place is not true yet
+    bench.touch(one)
+    assert bench.read(source) == [(0, 10, 20, True)]
+    many = {number: (200 * number + 1, 100 * number + 1) for number in range(5)}
+    bench.touch(many)
+    bench.read(source)
+    bench.touch(many)
+    assert len(bench.read(source)) == 4
+    assert sorted(place[1:3] for place in in_short_now(source)) == [(20 * k + 0.1, 10 * k + 0.1) for k in range(5)]
+    bench.touch({3: (601, 301)})
+    assert [contact for *_, contact in bench.read(source)] == [False] * 4
+    bench.touch({})
+    assert len(bench.read(source)) == 1
+    assert not source.warnings
+
+
+def in_short_now(source):
+    """Fingers that are down, as (finger, x in mm, y in mm)."""
+    return [(finger, round(x_m * 1e3, 6), round(y_m * 1e3, 6)) for finger, x_m, y_m in source._decoder.fingers()]
+
+
+@pytest.mark.parametrize("fault", ["damaged", "headless"])
+def test_a_damaged_report_of_an_edt_m06_changes_nothing(bench, fault):
+    bench.put(EdtM06Chip())
+    source = bench.ft5x06()
+    for _ in range(2):
+        bench.touch({1: (100, 200)})
+        samples = bench.read(source)
+    assert samples == [(0, 10, 20, True)]
+    setattr(bench.chip, fault, 1)
+    bench.touch({1: (110, 200)})
+    assert bench.read(source) == []
+    assert source.warnings == {"report_absurd": 1}
+    bench.touch({1: (120, 200)})
+    assert bench.read(source) == [(0, 12, 20, True)]
+
+
+def test_what_an_edt_m06_holds_from_before_its_start_is_no_touch(bench):
+    chip = bench.put(EdtM06Chip())
+    for _ in range(2):
+        chip.touch({1: (100, 200)})
+    source = bench.ft5x06()
+    assert bench.until_due(source)[1] == []
+    assert source.warnings == {"stale_reports": 1}
+    bench.touch({1: (110, 200)})
+    assert bench.read(source) == [(0, 11, 20, True)]
