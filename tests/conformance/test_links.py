@@ -12,6 +12,7 @@ from pin_script import (
     JUDGED_TICKS,
     LINES,
     RAMP_TICKS,
+    SETTLE_TICKS,
     UART,
     Script,
     assert_same,
@@ -61,7 +62,7 @@ def arm_by_uart(run):
     """The tick in which its ARM is carried out."""
     run.uart(run.uart_frame(frames.pack_unlock, BUILD_HASH))
     end = run.uart(run.uart_frame(frames.pack_control, Control.ARM))
-    run.wait_for_the_uart(RAMP_TICKS + 300)
+    run.wait_for_the_uart(SETTLE_TICKS + RAMP_TICKS + 300)
     return end
 
 
@@ -169,7 +170,7 @@ def test_unlocking_by_one_link_does_not_let_the_other_arm_and_noise_does_not_loc
     run.uart(run.uart_frame(frames.pack_nop))
     run.wait_for_the_uart(300)
     run.control(Control.ARM)
-    run.wait(RAMP_TICKS + 10)
+    run.wait(SETTLE_TICKS + RAMP_TICKS + 10)
     run.status()
     statuses, capture = both(run, rtl)
     assert uart_answers(capture)[1].result is Result.LOCKED
