@@ -80,8 +80,9 @@ class Bank:
         try:
             fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
         except OSError as error:
-            raise BankError(f"{path}: cannot be read ({error.strerror}); build it: {rebuild}") from error
-        size, start = 0, b""
+            hint = "" if isinstance(error, PermissionError) else f"; build it: {rebuild}"
+            raise BankError(f"{path}: cannot be read ({error.strerror}){hint}") from error
+        start: bytes | None = None  # of what cannot even be read nothing is advised
         try:
             size = os.fstat(fd).st_size
             start = os.pread(fd, 16, 0)
@@ -98,7 +99,8 @@ class Bank:
         except (OSError, BankError) as error:
             os.close(fd)
             reason = error if isinstance(error, BankError) else f"cannot be read ({error.strerror})"
-            raise BankError(f"{path}: {reason}" + (f"; rebuild it: {rebuild}" if begins_as_bank(start) else "")) from error
+            advised = start is not None and begins_as_bank(start)
+            raise BankError(f"{path}: {reason}" + (f"; rebuild it: {rebuild}" if advised else "")) from error
         return cls(path, fd, header, sections, tables, rebuild)
 
     def __enter__(self) -> Bank:

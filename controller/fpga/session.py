@@ -381,6 +381,10 @@ class Session:
         self.bit_period = period
         return True
 
+    def played_period_s(self, period_s: float) -> float:
+        """Time from emission to emission as the FPGA counts it, where this is asked for."""
+        return self._period_ticks(period_s) / self._board.link.clock_hz
+
     @property
     def emission_s(self) -> float:
         """T at the present bit clock."""

@@ -172,7 +172,6 @@ class I2cReader:
         """Lift every contact; the chip is started again after a while."""
         self.warnings[kind] += 1
         self._present = False
-        self._starting = None
         self._edge_s = None
         self._lines.rest()
         self._next_s = now_s + RETRY_S

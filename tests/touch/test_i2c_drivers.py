@@ -3,6 +3,7 @@
 import contextlib
 import errno
 from pathlib import Path
+from random import Random
 from types import SimpleNamespace
 
 import pytest
@@ -183,6 +184,14 @@ def test_the_edge_is_the_one_of_the_chips_configuration(bench, trigger, edge):
     assert bench.lines.listening is edge
 
 
+def test_a_report_of_before_its_start_is_no_touch(bench):
+    bench.put(Gt911Chip(width=2100, height=1480)).touch({0: (100, 200)})
+    source = bench.gt911()
+    assert bench.until_due(source)[1] == []
+    bench.touch({1: (110, 200)})
+    assert bench.read(source) == [(0, 11, 20, True)]
+
+
 def test_every_report_of_a_gt911_is_cleared_and_one_of_more_than_two_contacts_read_on(bench):
     bench.put(Gt911Chip(width=2100, height=1480, contacts=10))
     source = bench.gt911()
@@ -248,8 +257,19 @@ def test_a_report_that_its_edge_announced_too_early_is_asked_for_again_after_2_4
     bench.touch({0: (300, 200)})
     assert bench.read(source) == []
     assert [bench.until_due(source)[0] for _ in range(4)] == [0.002, 0.004, 0.008, 0.01]
-    waited_s, samples = bench.until_due(source)
-    assert (waited_s, samples) == (0.03, [(0, 30, 20, True)])  # found all the same
+    bench.now_s += 0.03
+    (sample,) = source.read(bench.now_s)  # found all the same, but nobody knows of when it is
+    assert (sample.x_m, sample.time_s) == (pytest.approx(0.03), bench.now_s)
+
+
+def test_a_panel_that_is_touched_for_long_is_not_started_again(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    for k in range(200):
+        bench.now_s += 1e-3
+        bench.touch({0: (100 + k, 200)}, pulse=k % 3 != 0)
+        assert bench.read(source) + bench.until_due(source)[1] == [(0, 10 + k / 10, 20, True)]
+    assert not source.warnings
 
 
 def test_a_panel_that_is_touched_and_silent_for_half_a_second_is_started_again(bench):
@@ -407,6 +427,8 @@ def test_what_an_ft5x06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({0: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+    bench.touch({0: (100, 200)}, put_down={0})  # byte for byte what it held then
+    assert bench.read(source) == [(0, 10, 20, True)]
 
 
 @pytest.mark.parametrize("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64])
@@ -426,6 +448,13 @@ def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(benc
     bench.put(Ft5x06Chip()).registers[:] = bytes([byte]) * 256
     with pytest.raises(TouchError, match="no FocalTech chip"):
         bench.ft5x06()
+
+
+def test_a_firmware_that_leaves_some_of_its_identity_empty_is_taken(bench):
+    chip = bench.put(Ft5x06Chip(chip_id=0))
+    chip.registers[0xA6] = 0
+    assert chip.registers[0xA8]
+    assert bench.ft5x06().present
 
 
 def test_an_ft5x06_that_lost_its_power_is_set_to_work_again_and_an_empty_one_in_its_place_is_not(bench):
@@ -514,3 +543,47 @@ def test_what_an_edt_m06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({1: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+
+
+# ---- whatever happens
+
+
+@pytest.mark.parametrize("make", [Gt911Chip, Ft5x06Chip, EdtM06Chip])
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_the_bus_does_the_reader_goes_on_and_a_panel_that_works_again_is_felt_again(bench, make, seed):
+    random = Random(seed)
+    chip = bench.put(make())
+    source = (bench.gt911 if make is Gt911Chip else bench.ft5x06)(reset_line=random.choice(["", "RST"]))
+    down = set()
+
+    def look(samples):
+        for finger, _, _, contact in samples:
+            assert contact or finger in down
+            (down.add if contact else down.discard)(finger)
+
+    for _ in range(300):
+        fault = random.choice(["none", "none", "none", "nacks", "silent", "hangs", "garbage", "power"])
+        chip.silent, chip.garbage = fault == "silent", random.randrange(256) if fault == "garbage" else None
+        chip.nacks = random.randrange(5) if fault == "nacks" else 0
+        chip.hangs = fault == "hangs"
+        if fault == "power" and make is not EdtM06Chip:
+            chip.power_up()
+        held = {
+            number: (random.randrange(1, 400), random.randrange(1, 400)) for number in random.sample(range(5), random.randrange(5))
+        }
+        bench.touch(held, pulse=random.random() < 0.7)
+        look(bench.read(source))
+        for _ in range(random.randrange(4)):
+            look(bench.until_due(source)[1])
+        bench.now_s += random.choice([0, 1e-3, 8e-3, 0.1, 0.6])
+    chip.silent, chip.garbage, chip.nacks, chip.hangs = False, None, 0, False
+    for _ in range(200):  # it is started again, if need be, and what it holds is let go
+        bench.touch({})
+        look(bench.until_due(source)[1])
+    assert source.present
+    assert not down
+    for x in (100, 110):
+        bench.now_s += 8e-3
+        bench.touch({0: (x, 100)})
+        look(bench.read(source))
+    assert len(down) == 1
