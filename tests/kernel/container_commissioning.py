@@ -223,11 +223,16 @@ def calibrated(line):
 
 
 def test_five_touches_put_the_axes_into_the_board():
-    said = calibrated(step("calibrate-touch"))
+    said = calibrated(step("calibrate-touch --board panel --write"))
     assert "written to /etc/haptic-panel/boards/panel/board.toml" in said
     rows = [[float(value) for value in row.split(",")] for row in re.findall(r"_mm_from_axes = \[(.*)\]", said)]
     for row, expected in zip(rows, ([0.0, LENGTH_MM, 0.0], [-WIDTH_MM, 0.0, WIDTH_MM]), strict=True):
         assert max(abs(a - b) for a, b in zip(row, expected, strict=True)) < 0.1, said
+
+
+def test_a_panel_that_hears_no_emission_needs_no_ghost_ms():
+    assert "no ghost in 600 emissions" in done(step("--ghosts"))
+    assert "ghost_ms = 0.0" in Path("/etc/haptic-panel/boards/panel/board.toml").read_text()
 
 
 def recorded(line, user, folder):
@@ -270,7 +275,7 @@ def test_every_step_that_needs_no_root_works_as_the_services_user():
     assert BANK.owner() == UNIT
     assert f"looked at as {UNIT}" in done(step("doctor --board"), UNIT, folder)
     done(step("doctor --link"), UNIT, folder)
-    said = done(step("calibrate-touch"), UNIT, folder, code=1)
+    said = done(step("calibrate-touch --board panel --write"), UNIT, folder, code=1)
     assert "board.toml: cannot be written (Permission denied)" in said, "and before five marks were touched for nothing"
     assert said.count("\n") == 1
     recorded(step(" record "), UNIT, folder)
