@@ -502,6 +502,21 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     assert "READY=1" not in manager.heard()
 
 
+def test_a_temperature_sensor_that_hangs_for_ever_holds_up_nobody(folder, panel, bank):
+    os.mkfifo(folder / "sensor")  # to open it lasts until somebody writes
+    with (folder / "board.toml").open("a") as board:
+        board.write(f'\n[temperature]\nkind = "hwmon"\ndevice = "{folder / "sensor"}"\ncoefficient_per_k = -1e-4\nperiod_s = 0.1\n')
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    with service.client() as client:
+        for _ in range(5):
+            assert client.play("click", at_mm=(50, 50)).outcome == "played"
+        assert client.figures()["heartbeats"] > 0
+    assert "does not answer, or its bus hangs" in service.says("temperature sensor")
+    figures, code = service.end()
+    assert (code, figures["emissions"], figures["host_silent"], figures["outages"]) == (0, 5, 0, 0)
+
+
 def test_a_log_that_nobody_reads_does_not_hold_up_the_loop(folder, panel, bank):
     service = Service(folder, bank)
     service.says("the outputs are on")
