@@ -185,6 +185,10 @@ module output_gate #(
     assign hv_enable_o = hv_enable_q;
     assign hv_alive_o  = hv_alive_q;
     assign focus_o     = focus_q;
+
+`ifdef FORMAL
+    `include "output_gate_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire
