@@ -1,5 +1,6 @@
 """The model of the stage protection against the reference that goes tick by tick, replaced plans included."""
 
+from bisect import bisect_left, bisect_right
 from dataclasses import asdict
 
 import numpy as np
