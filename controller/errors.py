@@ -11,6 +11,12 @@ class ControllerError(Exception):
     exit_code = 1
 
 
+class UsageError(ControllerError):
+    """Options of a command that do not go together."""
+
+    exit_code = 2
+
+
 class ConfigError(ControllerError):
     """A board, scene or setting that cannot be meant."""
 

@@ -158,6 +158,8 @@ class EventLoop:
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """Play an effect for a command; see `PanelControl`."""
+        if not self._outputs.wanted:
+            raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
@@ -250,8 +252,9 @@ class EventLoop:
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
-            elif trigger_at_s is None and self._may_play(now_s) and self._session.free_s() <= now_s:
-                self._play(now_s, started_ns)
+            elif trigger_at_s is None and self._performance.due:
+                if self._may_play(now_s) and self._open_s() <= now_s:
+                    self._play(now_s, started_ns)
             elif trigger_at_s is None and self._moving is not None:
                 self._prefetch(now_s)
         elif self._performance.due:
@@ -288,6 +291,9 @@ class EventLoop:
         if prepared.scene is not None:
             if prepared.selection is not None:
                 self._playback.reselect(prepared.selection)
+            if self._playback.repeating:  # the spots of the scene before
+                self._playback.stop()
+                self._source.emitted(now_s, now_s)
             self._performance.swap(prepared.scene, self._time_base.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
@@ -320,6 +326,10 @@ class EventLoop:
         beats = [emission.time_s for emission in emissions if emission.period_s]
         self._prepare(emissions, started_ns, at_s=min(beats) if beats else None)
 
+    def _open_s(self) -> float:
+        """Since or until when the next emission may be handed over: the wire is free, and the one before has begun."""
+        return max(self._session.free_s(), self._playback.begins_s)
+
     def _listen(self, now_s: float) -> None:
         """Let the panel have the silence that it asks for; what the FPGA repeats is stopped, and goes on in its beat."""
         playback = self._playback
@@ -347,9 +357,11 @@ class EventLoop:
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         bad = self._counters.skipped.bad_entries
+        repeating = self._playback.repeating
         try:
             start_s = self._playback.prepare(emissions, started_ns, **how)
         except ControllerError:  # they wait no longer, and what is under way ends with the outputs
+            self._counters.skipped.outputs_off += len(emissions)
             self._performance.left_out(emissions, Outcome.REFUSED, self._panel_s())
             raise
         if start_s is not None:
@@ -359,6 +371,9 @@ class EventLoop:
             self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
             self._performance.started(emissions, start_s)
             return
+        if repeating and not self._playback.repeating:
+            now_s = self._clock.now_s()
+            self._source.emitted(now_s, now_s)
         outcome = Outcome.SKIPPED if self._counters.skipped.bad_entries > bad else Outcome.REFUSED
         self._performance.left_out(emissions, outcome, self._panel_s())
 
@@ -378,11 +393,14 @@ class EventLoop:
         trigger_at_s = self._playback.trigger_at_s
         if self._outputs.on and not self._outputs.wanted:
             return now_s
-        if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
-            return min(max(now_s, self._session.free_s()), self._outputs.next_s())
         read_s = self._source.next_time_s()
         next_s = self._performance.next_s()
         times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
+        if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
+            open_s = max(now_s, self._open_s())
+            if open_s <= max(now_s, self._session.free_s()):
+                return min(open_s, self._outputs.next_s())
+            times.append(open_s)
         if next_s != NEVER:
             times.append(self._time_base.host_s(next_s) - self._lead_s)
         if not times and self._source.fileno() is None and self._commands is None:

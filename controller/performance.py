@@ -91,8 +91,9 @@ class Performance:
             self._counters.skipped.outside_region += 1
         elif state is not None:
             self._counters.skipped.between_emissions += 1
-        if state is None:  # what it felt as it was lifted is counted too
-            self._given.pop(finger, None)
+        if state is None:
+            self._lifted(finger, emissions, sample.time_s)
+            self._given.pop(finger, None)  # what it felt as it was lifted is counted too
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """A command plays an effect at a point, or for a finger.
@@ -139,7 +140,9 @@ class Performance:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
         self.spots_from(next_s)
         spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
-        return list(together([*emissions, *spots], NEVER)[0])
+        played = list(together([*emissions, *spots], NEVER)[0])
+        self._counters.due += len(played) - len(emissions)
+        return played
 
     def spots_from(self, start_s: float) -> None:
         """The spots' beat begins anew."""
@@ -228,6 +231,14 @@ class Performance:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
+    def _lifted(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
+        """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
+        waiting = self._due.get(finger)
+        if waiting is not None and waiting not in last:
+            del self._due[finger]
+            self._counters.skipped.lifted += 1
+            self.left_out([waiting], Outcome.SKIPPED, now_s)
+
     def _unfelt(self, state: FingerState | None, outcome: Outcome, now_s: float) -> None:
         """Commands that end before their first emission."""
         if state is not None:
@@ -249,6 +260,7 @@ class Performance:
         """Go on with another scene: fingers that are down feel it from their next move on."""
         waiting = list(self._due.values())
         self._due.clear()
+        self._counters.skipped.scene_changed += len(waiting)
         self.left_out(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
         self._states = {owner: taken_over(scene, state) for owner, state in self._states.items()}
@@ -260,6 +272,7 @@ class Performance:
         self._spot_beats = dict.fromkeys(self.scene.spots, 0)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
+        self._counters.due += len(emissions)
         for emission in emissions:
             finger = emission.finger
             if finger is not None:

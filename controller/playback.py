@@ -46,9 +46,17 @@ class Played:
     resident: bool
     at_ticks: int | None = None
 
-    def last_start_s(self, at_s: float) -> float:
-        """When the emission of a repetition began that sounds, or sounded last, at a time after the trigger."""
-        return self.trigger_s + math.floor((at_s - self.trigger_s) / self.period_s) * self.period_s
+
+@dataclass(frozen=True, slots=True)
+class _Repetition:
+    """An endless repetition, in FPGA time, in which it keeps its period for hours."""
+
+    first_s: float
+    period_s: float
+
+    def last_s(self, at_s: float) -> float:
+        """When the emission began that sounds, or sounded last, at a time after the first."""
+        return self.first_s + math.floor((at_s - self.first_s) / self.period_s) * self.period_s
 
 
 @dataclass(slots=True)
@@ -109,6 +117,7 @@ class Playback:
         played: Callable[[Played], None] | None = None,
     ) -> None:
         self.free_s = -NEVER  # when the plate may play again
+        self.begins_s = -NEVER  # when what was started last begins: until then nothing else is handed over, or plays would pile up
         self.duration_s = duration_s
         self.upload_s = upload_s
         self._session = session
@@ -122,8 +131,11 @@ class Playback:
         self._counters = counters
         self._played = played
         self._slots = SlotCache(slots, selection.lone)
+        self._latest: int | None = None  # slot of the last play
+        self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
         self._prepared: _Prepared | None = None
-        self._running: Played | None = None  # an endless repetition
+        self._running: _Repetition | None = None
+        self._free_fpga_s = -NEVER  # `free_s` in the FPGA's time; what was started there is known there to the clock
 
     @property
     def trigger_at_s(self) -> float | None:
@@ -142,18 +154,17 @@ class Playback:
 
     def next_repetition_s(self, at_s: float) -> float:
         """When the endless repetition next starts an emission, after a time; never without one."""
-        return NEVER if self._running is None else self._running.last_start_s(at_s) + self._running.period_s
+        if self._running is None:
+            return NEVER
+        return self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
 
     def stop_repeating(self, now_s: float) -> float | None:
         """End the endless repetition; when its last emission began, or None if its first one has yet to."""
         running = self._running
-        if running is None or now_s < running.trigger_s:
+        if running is None or now_s < self.begins_s:
             return None
-        self._session.stop()
-        last_s = running.last_start_s(self._session.ready_s())
-        self.free_s = max(self.free_s, last_s + self._busy_s)
-        self._running = None
-        return last_s
+        self.stop()
+        return self._time_base.host_s(running.last_s(self._time_base.fpga_s(self._session.ready_s())))
 
     def prepare(
         self,
@@ -187,40 +198,36 @@ class Playback:
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
-        running = self._running
-        start_s = self._start_s(self._command_s, at_s)
-        points = self._aim(emissions, start_s, ahead)
-        key = self._selection.key(points)
-        resident = self._slots.find(key)
-        if resident is None:
-            start_s = self._start_s(self.upload_s, at_s)
+        for wire_s in (self._command_s, self.upload_s):  # an upload starts later, and so meets a finger elsewhere
+            start_s = self._start_s(wire_s, at_s)
             points = self._aim(emissions, start_s, ahead)
             key = self._selection.key(points)
+            resident = self._slots.find(key)
+            if resident is not None:  # there, too, something may be resident: never is a key looked up but not this one
+                break
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
         try:
             if resident is None:
                 self._upload(key, count, period_s, start, when_ticks)
             else:
-                slot = self._slots.use(resident)
-                session.play(slot, count, period_s, stop=running is not None, start=start, when_ticks=when_ticks)
+                self._play(resident, count, period_s, start, when_ticks)
                 self._counters.near += resident != key
         except BankError as error:
             if ahead and any(emission.finger is not None for emission in emissions):
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
-            self._counters.skipped.bad_entries += 1
+            self._counters.skipped.bad_entries += len(emissions)
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return None
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s)
-            self._counters.skipped.refused += 1
+            if resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot is dropped: sent anew
+                return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
+            self._counters.skipped.refused += len(emissions)
             return None
         ready_s = session.ready_s()
-        if running is not None:  # stopped at the latest after the emission that sounds now
-            self.free_s = max(self.free_s, running.last_start_s(ready_s) + self._busy_s)
-            self._running = None
         away_ns = session.away_ns - away_before_ns
         prepared = _Prepared(
             emissions,
@@ -247,20 +254,18 @@ class Playback:
     def prefetch(self, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send the waveform of a point ahead; False if it is there already, or cannot be had."""
         key = self._selection.key(((x_m, y_m, amplitude),))
-        if self._slots.find(key) is not None:
+        if self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             words = self._selection.words(key)
-            slot = self._slots.take()
-            try:
-                self._session.upload(slot, words)
-            except Refused:
-                self._slots.empty(slot)
-                return False
-        except BankError:
+            slot = self._take()
+            self._session.upload(slot, words, self._selection.crc(key, words))
+        except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
+        self._ahead.add(slot)
         self._counters.prefetched += 1
+        self._counters.prefetch_wasted += 1  # until it is played
         return True
 
     def pin(self, points: Sequence[tuple[float, float, float]]) -> None:
@@ -276,6 +281,19 @@ class Playback:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.lone)
+        self._ahead.clear()
+
+    def stop(self) -> None:
+        """End an endless repetition with the emission that sounds, or before its first one.
+
+        Raises
+        ------
+        LinkError, FaultError
+            As the session says.
+        """
+        if self._running is not None:
+            self._session.stop()
+            self._stopped()
 
     def trigger(self) -> None:
         """Play what is prepared, now."""
@@ -290,16 +308,23 @@ class Playback:
     def forget(self) -> None:
         """Take it that the FPGA holds and plays nothing: after a fault."""
         self._slots.forget()
+        self._ahead.clear()
+        if self._prepared is not None:
+            self._counters.skipped.outputs_off += len(self._prepared.emissions)
         self._prepared = None
         self._running = None
-        self.free_s = -NEVER
+        self.free_s = self.begins_s = self._free_fpga_s = -NEVER
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._session.ready_s() + wire_s
-        if at_s is None:
-            return self._time_base.fpga_s(max(arrived_s, self.free_s + MARGIN_S))
-        return max(self._time_base.fpga_s(max(arrived_s + HANDOVER_S, self.free_s + MARGIN_S)), at_s)
+        arrived_s = self._time_base.fpga_s(self._session.ready_s() + wire_s)
+        if at_s is not None:
+            arrived_s += HANDOVER_S
+        free_s = self._free_fpga_s
+        if self._running is not None:  # it is stopped by the command: what it has begun by then sounds to its end
+            free_s = max(free_s, self._running.last_s(arrived_s) + self._busy_s)
+        start_s = max(arrived_s, free_s + MARGIN_S)
+        return start_s if at_s is None else max(start_s, at_s)
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
         """Where each emission meets its finger, at T or where it was, and how strong it is."""
@@ -311,25 +336,71 @@ class Playback:
             points.append((x_m, y_m, emission.amplitude))
         return points
 
+    def _play(self, resident: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
+        """Have a resident waveform accepted for playing."""
+        slot = self._slots.use(resident)
+        stop = self._running is not None
+        try:
+            self._session.play(slot, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
+        except Refused as refusal:
+            if refusal.result is Result.SLOT_DAMAGED:
+                self._slots.drop(slot)
+            raise
+        finally:
+            self._stopped()
+        self._latest = slot
+        if slot in self._ahead:
+            self._ahead.remove(slot)
+            self._counters.prefetch_wasted -= 1
+
     def _upload(self, key: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
         words = self._selection.words(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
-        slot = self._slots.take()
+        slot, crc = self._take(), self._selection.crc(key, words)
         stop = self._running is not None
         try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
-        except Refused:
-            self._slots.empty(slot)
+            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks, crc=crc)
+        except Refused as refusal:
+            if refusal.result is Result.SLOT_DAMAGED:
+                self._selection.recheck(key)
             raise
+        finally:
+            self._stopped()
+        self._latest = slot
         self._slots.keep(key, slot)
+
+    def _take(self) -> int:
+        """A slot to send a waveform to; not that of the play before, which sounds, waits or is repeated, while there is another."""
+        slot = self._slots.take(self._latest)
+        self._ahead.discard(slot)
+        return slot
+
+    def _stopped(self) -> None:
+        """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
+        if self._running is not None:
+            time_base = self._time_base
+            last_s = self._running.last_s(time_base.fpga_s(self._session.ready_s()))
+            self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
+            self.free_s = max(self.free_s, time_base.host_s(last_s) + time_base.error_s + self._busy_s)
+            self._running = None
 
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
-        self.free_s = start_s + self._busy_s
+        time_base = self._time_base
+        self.begins_s = start_s
+        if prepared.at_ticks is None:
+            fpga_s = time_base.fpga_s(start_s)
+            self.free_s = start_s + self._busy_s
+            self._free_fpga_s = fpga_s + self._busy_s + time_base.error_s
+        else:
+            fpga_s = prepared.at_ticks / time_base.clock_hz
+            self.free_s = start_s + self._busy_s + time_base.error_s
+            self._free_fpga_s = fpga_s + self._busy_s
         counters = self._counters
         counters.emissions += 1
+        counters.foci += len(prepared.emissions)
         stages = counters.resident_latency if prepared.resident else counters.upload_latency
         wait_ns = round((start_s - prepared.ready_s) * 1e9)
         stages.record(prepared.decide_ns, prepared.frame_ns, prepared.wire_ns, wait_ns, trigger_ns)
@@ -338,12 +409,10 @@ class Playback:
             counters.skipped.uploads += 1
         else:
             counters.uploads += 1
-        if prepared.count == ENDLESS or self._played is not None:
+        if prepared.count == ENDLESS:
+            self._running = _Repetition(fpga_s, self._session.played_period_s(prepared.period_s))
+        if self._played is not None:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]
             )
-            played = Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks)
-            if prepared.count == ENDLESS:
-                self._running = played
-            if self._played is not None:
-                self._played(played)
+            self._played(Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks))

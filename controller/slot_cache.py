@@ -13,7 +13,9 @@ FEWEST_FREE = 2  # slots that are never pinned: one sounds, one is being filled
 
 
 class SlotCache:
-    """Slots by the key of what they hold, least recently used first.
+    """Slots and the keys of what they hold, least recently used first.
+
+    Each slot holds one waveform or none, and no two hold the same: `keep` sees to it, whatever it is told.
 
     Parameters
     ----------
@@ -33,7 +35,8 @@ class SlotCache:
         self.slots = slots
         self._lone = lone
         self._near_m2 = near_m**2
-        self._slot_of: OrderedDict[Key | str, int] = OrderedDict()
+        self._held: OrderedDict[int, Key | None] = OrderedDict()  # every slot, always; None: holds nothing
+        self._slot_of: dict[Key, int] = {}
         self._lone_of: dict[int, tuple[Key, Lone]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
         self.forget()
@@ -53,31 +56,51 @@ class SlotCache:
 
     def use(self, key: Key) -> int:
         """Slot of a resident waveform, which counts as played now."""
-        self._slot_of.move_to_end(key)
-        return self._slot_of[key]
-
-    def take(self) -> int:
-        """Free the slot that was used longest ago; it holds nothing until `keep` or `empty` is called."""
-        for key in self._slot_of:
-            if key not in self._pinned:
-                slot = self._slot_of.pop(key)
-                break
-        else:
-            slot = self._slot_of.popitem(last=False)[1]
-        self._lone_of.pop(slot, None)
+        slot = self._slot_of[key]
+        self._held.move_to_end(slot)
         return slot
 
+    def take(self, spared: int | None = None) -> int:
+        """Free the slot that was used longest ago: it holds nothing until `keep`, and is the next to be taken.
+
+        Parameters
+        ----------
+        spared : int, optional
+            A slot that is taken only if it is the only one.
+        """
+        chosen = None
+        for slot, key in self._held.items():
+            if slot == spared:
+                continue
+            if key not in self._pinned:
+                chosen = slot
+                break
+            if chosen is None:  # should all be pinned
+                chosen = slot
+        taken = next(iter(self._held)) if chosen is None else chosen
+        self.drop(taken)
+        return taken
+
     def keep(self, key: Key, slot: int) -> None:
-        """The slot that was taken holds this waveform now."""
+        """A slot holds this waveform now, which counts as played."""
+        if key in self._slot_of:
+            self.drop(self._slot_of[key])
+        self.drop(slot)
+        self._held[slot] = key
+        self._held.move_to_end(slot)
         self._slot_of[key] = slot
         lone = self._lone(key)
         if lone is not None:
             self._lone_of[slot] = key, lone
 
-    def empty(self, slot: int) -> None:
-        """The slot that was taken holds nothing; it is the next to be taken."""
-        self._slot_of[_empty(slot)] = slot
-        self._slot_of.move_to_end(_empty(slot), last=False)
+    def drop(self, slot: int) -> None:
+        """A slot holds nothing that could be played; it is the next to be taken."""
+        key = self._held[slot]
+        if key is not None:
+            del self._slot_of[key]
+            self._lone_of.pop(slot, None)
+            self._held[slot] = None
+        self._held.move_to_end(slot, last=False)
 
     def pin(self, keys: Iterable[Key]) -> None:
         """Waveforms that stay once they are resident: the first ones, as long as enough slots are left for others."""
@@ -87,8 +110,9 @@ class SlotCache:
         """Take it that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
         self._lone_of.clear()
-        self._slot_of.update((_empty(slot), slot) for slot in range(self.slots))
+        self._held.clear()
+        self._held.update(dict.fromkeys(range(self.slots)))
 
-
-def _empty(slot: int) -> str:
-    return f"empty {slot}"
+    def residents(self) -> tuple[tuple[int, Key | None], ...]:
+        """Every slot with the key of what it holds, the next to be taken first."""
+        return tuple(self._held.items())

@@ -26,7 +26,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"bank: {figures['bank']}",
         f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
-        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        *_became(figures),
         "",
         f"{'latency (µs)':<26}{'count':>8}{'p50':>11}{'p99':>11}{'p99.9':>11}{'worst':>11}",
     ]
@@ -51,6 +51,15 @@ def run_table(figures: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def _became(figures: dict[str, Any]) -> list[str]:
+    """What became of all that was due, and of what was sent ahead."""
+    return [
+        f"due for fingers, spots and commands: {figures['due']}, of which {figures['foci']} played; "
+        f"waveforms sent ahead: {figures['prefetched']}, of which {figures['prefetch_wasted']} not played",
+        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+    ]
+
+
 def service_table(figures: dict[str, Any]) -> str:
     """Table of what a service did, from start to end."""
     latency = figures["latency_us"]
@@ -60,7 +69,7 @@ def service_table(figures: dict[str, Any]) -> str:
         f"bank: {figures['bank']}",
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
-        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        *_became(figures),
         "",
         f"{'latency (µs)':<26}{'count':>8}{'p50':>11}{'p99':>11}{'p99.9':>11}{'worst':>11}",
         _latency_line("report to read", latency["report"]),

@@ -1,13 +1,20 @@
 """The doctor says what is wrong, one thing in one line, with what to do; and that all is well where it is."""
 
 import json
+import os
+import pwd
+import re
 import resource
+import subprocess
+from pathlib import Path
 
 import msgspec
 import pytest
 
+from controller import board as boards
 from controller import doctor
-from controller.board import find_board
+from controller.bank.location import bank_path
+from controller.board import find_board, load_board
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.device_settings import (
@@ -24,6 +31,7 @@ from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
+from controller.offline.bank_builder import build_bank
 
 AXES = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
 SPI = LinkSettings(
@@ -47,7 +55,8 @@ def with_tables(board, **tables):
     return msgspec.structs.replace(board, **tables)
 
 
-def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
+def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch, tmp_path):
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
     touch = Ft5x06Touch(bus="/dev/i2c-none", interrupt_chip="none", interrupt_line="INT", width=800, height=480, **AXES)
     temperature = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
     findings = look(with_tables(board, link=SPI, touch=touch, temperature=temperature), VirtualClock().now_s)
@@ -60,7 +69,6 @@ def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
         "scene",
         "bank",
         "temperature",
-        "responses",
         "priority",
         "locked memory",
     ]
@@ -122,6 +130,73 @@ def test_a_damaged_scene_and_a_missing_bank_are_named(board, tmp_path):
         with_tables(board, folder=tmp_path / "never-built", scene=str(find_board("simulated") / "scene.toml")), VirtualClock().now_s
     )
     assert "haptic-panel bank build --board" in said(findings, "bank")[1]
+
+
+@pytest.fixture
+def panel(board, tmp_path, monkeypatch):
+    """A board of /etc on SPI with a bank that only root may read, where `nobody` is the service's user."""
+    folder = tmp_path / "etc" / "panel"
+    folder.mkdir(parents=True)
+    text = (find_board("ulx3s") / "board.toml").read_text()
+    scene = folder / "scene.toml"
+    scene.write_text('[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 100\ny_mm = 70\nradius_mm = 5\neffects = ["click"]\n')
+    (folder / "board.toml").write_text(
+        text.replace("../simulated/scene.toml", "scene.toml").replace("pitch_mm = 2.5", "pitch_mm = 40")
+    )
+    monkeypatch.setattr(boards, "SYSTEM_BOARDS", folder.parent)
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))
+    monkeypatch.setattr(doctor, "service_user", lambda: pwd.getpwnam("nobody"))
+    for place in (tmp_path, *tmp_path.parents):
+        if place.owner() == "root" and place != Path("/tmp"):
+            place.chmod(place.stat().st_mode | 0o11)
+    found = load_board(folder)
+    build_bank(found, bank_path(found), measure_sgemm=False)
+    bank_path(found).chmod(0o600)
+    return found
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root looks with another's eyes")
+def test_root_looks_as_the_services_user_and_with_the_limits_of_its_unit(panel, monkeypatch):
+    told = "LoadState=loaded\nLimitRTPRIO=50\nLimitMEMLOCK=infinity\n"
+    asked = []
+
+    def systemctl(command, **_):
+        asked.append(command)
+        return subprocess.CompletedProcess(command, 0, told, "")
+
+    monkeypatch.setattr(doctor.subprocess, "run", systemctl)
+    own = os.getgroups(), os.getegid(), os.geteuid()
+    findings = look(panel, VirtualClock().now_s)
+    assert (os.getgroups(), os.getegid(), os.geteuid()) == own, "and as root again afterwards"
+    assert said(findings, "user") == (True, "looked at as nobody, as which the service runs")
+    good, text = said(findings, "bank")
+    assert not good
+    assert "Permission denied" in text
+    assert said(findings, "priority") == (True, "SCHED_FIFO 50 is permitted")
+    assert said(findings, "locked memory") == (True, "permitted")
+    told = "LoadState=loaded\nLimitRTPRIO=0\nLimitMEMLOCK=8388608\n"
+    findings = look(panel, VirtualClock().now_s)
+    assert "the unit may ask for 0, the board for 50" in said(findings, "priority")[1]
+    assert "the unit may lock 8 MiB" in said(findings, "locked memory")[1]
+    told = "LoadState=not-found\n"
+    assert "is not installed" in said(look(panel, VirtualClock().now_s), "priority")[1]
+    assert asked[0][:2] == ["systemctl", "show"]
+
+
+def test_without_the_services_user_root_is_told_to_install_it(panel, monkeypatch):
+    monkeypatch.setattr(doctor, "service_user", lambda: None)
+    monkeypatch.setattr(doctor.os, "geteuid", lambda: 0)
+    assert "there is no user haptic-panel, as which the service runs" in said(look(panel, VirtualClock().now_s), "user")[1]
+
+
+def test_a_modelled_bank_on_a_real_panel_is_warned_of(panel, board, capsys, monkeypatch):
+    monkeypatch.setattr(doctor, "service_user", lambda: None)
+    (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "responses"]
+    assert (finding.good, finding.warns) == (True, True)
+    assert "a real one is not focused by it" in finding.said
+    main(["doctor", "--board", str(panel.folder)])
+    assert re.search(r"^WARNING responses +the bank was computed from a model", capsys.readouterr().out, re.MULTILINE)
+    assert "responses" not in {finding.about for finding in look(board, VirtualClock().now_s)}, "simulated, it is the right one"
 
 
 def examined(board, model, channels=range(32)):

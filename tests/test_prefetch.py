@@ -1,5 +1,8 @@
 """What is sent ahead of a moving finger, and what stays resident: counted, on the pins of the simulated panel."""
 
+import random
+
+import msgspec
 import pytest
 
 from controller.bank.selection import NEAR_M
@@ -57,3 +60,19 @@ def test_a_spot_stays_resident_whatever_fingers_play(perform):
     taps = [report for k, place in enumerate(places) for report in ((0.1 * k, {0: place}), (0.1 * k + 0.05, {0: None}))]
     run = perform([*taps, (1.2, {})], SPOT + CLICK)
     assert run.counters.uploads == len(places) + 1, "each place once, and the spot once"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rubbing_a_fine_texture_to_and_fro_goes_on(perform, board, seed):
+    """What a stroke asks for lies near what the one before asked for: often nearer to where an upload would meet the finger."""
+    rng = random.Random(seed)
+    sixteen = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=16))
+    x_mm, speed_mm_s, reports = 60.0, 80.0, []
+    for k in range(750):  # 6 s
+        reports.append((k * REPORT_S, {0: (x_mm, 74.0)}))
+        x_mm += speed_mm_s * REPORT_S
+        if not 50.0 < x_mm < 90.0:
+            speed_mm_s = -speed_mm_s / abs(speed_mm_s) * rng.uniform(60, 250)
+            x_mm = min(max(x_mm, 50.0), 90.0)
+    run = perform([*reports, (6.1, {0: None})], TEXTURE.replace("5.0", "2.0"), on=sixteen)
+    assert run.counters.emissions > 150

@@ -65,9 +65,27 @@ def test_what_is_near_serves():
 def test_a_slot_whose_upload_was_refused_is_the_next_to_be_taken():
     cache = SlotCache(3, same)
     put(cache, 1)
-    slot = cache.take()
-    cache.empty(slot)
-    assert cache.take() == slot
+    assert cache.take() == cache.take()
+
+
+def test_a_slot_that_is_spared_is_taken_only_if_it_is_the_only_one():
+    cache = SlotCache(2, same)
+    put(cache, 1)
+    put(cache, 2)
+    assert cache.take(spared=cache.use(1)) == cache.take(spared=cache.use(1))
+    assert cache.find(1) == 1
+    assert SlotCache(1, same).take(spared=0) == 0
+
+
+def test_a_waveform_that_is_kept_in_another_slot_leaves_the_one_before():
+    cache = SlotCache(3, same)
+    put(cache, 1)
+    before = cache.use(1)
+    slot = cache.take(spared=before)
+    cache.keep(1, slot)
+    assert cache.use(1) == slot
+    assert [key for _, key in cache.residents()] == [None, None, 1]
+    assert cache.take() == before
 
 
 def test_nothing_is_taken_for_resident_after_a_fault():
@@ -77,17 +95,36 @@ def test_nothing_is_taken_for_resident_after_a_fault():
     assert put(cache, 1)
 
 
-@given(st.integers(1, 16), st.lists(st.integers(0, 30), max_size=200), st.sets(st.integers(0, 30), max_size=5))
-def test_every_slot_is_used_by_one_waveform_at_most(slots, keys, pinned):
-    cache = SlotCache(slots, same)
+@given(
+    st.integers(1, 16),
+    st.sets(st.integers(0, 30), max_size=5),
+    st.lists(st.tuples(st.sampled_from(["play", "ahead", "refused", "damaged", "again", "forget"]), st.integers(0, 30))),
+)
+def test_every_slot_is_used_by_one_waveform_at_most(slots, pinned, steps):
+    """Tens of a key: its place in mm; so that ten of them serve for each other."""
+    cache = SlotCache(slots, lambda key: (key // 10 * 1e-2, 0.0, 0), near_m=1e-3)
     cache.pin(sorted(pinned))
-    holds = {}
-    for key in keys:
+    holds, latest = {}, None
+    for what, key in steps:
         resident = cache.find(key)
-        if resident is not None:
-            assert holds[cache.use(resident)] == key
+        if what == "forget":
+            cache.forget()
+            holds.clear()
+        elif resident is not None and what != "again":
+            slot = cache.use(resident)
+            assert holds[slot] == resident
+            assert resident // 10 == key // 10
+            if what == "damaged":
+                cache.drop(slot)
+                del holds[slot]
+            latest = slot
         else:
-            slot = cache.take()
-            assert 0 <= slot < slots
-            holds[slot] = key
-            cache.keep(key, slot)
+            slot = cache.take(latest if what == "ahead" else None)
+            assert slot != latest or what != "ahead" or slots == 1
+            holds.pop(slot, None)
+            if what != "refused":
+                cache.keep(key, slot)
+                holds = {other: held for other, held in holds.items() if held != key} | {slot: key}
+        assert {slot: held for slot, held in cache.residents() if held is not None} == holds
+        assert sorted(slot for slot, _ in cache.residents()) == list(range(slots))
+        assert all(cache.find(held) == held for held in holds.values())

@@ -120,6 +120,11 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
         What it must have been built for.
     cells : (cells of the board's grid,) bool array
         Cells it must hold. More do no harm, and are kept where only cells are missing.
+
+    Raises
+    ------
+    BankError
+        If this user may not read it.
     """
     if not is_there(path):
         return Fit("there is none yet", cells)
@@ -132,6 +137,8 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
             there = bank.cells
         verify_bank(path)
     except BankError as error:
+        if isinstance(error.__cause__, PermissionError):  # whoever may not read it is not to replace it
+            raise
         return Fit(str(error).removeprefix(f"{path}: ").partition("; rebuild it")[0], cells)
     missing = int((cells & ~there).sum())
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)

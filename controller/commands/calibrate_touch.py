@@ -14,7 +14,7 @@ import msgspec
 from controller.board import Board, find_board, load_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
-from controller.errors import CalibrationError
+from controller.errors import CalibrationError, UsageError
 from controller.hardware import open_touch
 from controller.touch.board_lines import board_lines, check_writable, write_calibration
 from controller.touch.calibration import MOST, Calibration, Point, calibrate, check_targets, default_targets
@@ -35,19 +35,39 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         description="Ask for a touch on each of 3 to 5 targets in turn, with one finger held still for a moment, and print the two "
         "lines for [touch] of board.toml with their residual. Coordinates are in mm from the plate's corner, x along the length.",
     )
-    command.add_argument("--targets", type=int, choices=(3, 4, 5), default=MOST, help="how many (default: 5)")
+    command.add_argument("--targets", type=int, choices=(3, 4, 5), help="how many (default: 5)")
     command.add_argument(
         "--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a target of your own; give each of them"
     )
+    what = command.add_mutually_exclusive_group()
+    what.add_argument(
+        "--ghosts", action="store_true", help="instead: play while nobody touches the panel, and find the ghost_ms that it needs"
+    )
+    what.add_argument(
+        "--lag", action="store_true", help="instead: slide a finger together with a mouse, and find how late the panel tells it"
+    )
+    command.add_argument("--bank", metavar="FILE", help="with --ghosts: play from this bank")
+    command.add_argument("--reference", metavar="DEVICE", help="with --lag: the mouse, best by its path below /dev/input/by-id")
+    command.add_argument("--seconds", type=_seconds, metavar="N", help="with --lag: for so long (default: 20)")
+    command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: keep what was measured, for --replay")
     command.add_argument("--replay", metavar="FILE", help="take the touches from an evemu recording, not from the board's panel")
-    command.add_argument("--write", action="store_true", help="change the two lines of the board's board.toml")
+    command.add_argument("--write", action="store_true", help="change these lines of the board's board.toml")
     command.set_defaults(command=calibrate_touch)
 
 
 def calibrate_touch(options: argparse.Namespace) -> int:
-    """Ask for the touches and print, or write, what follows from them."""
+    """Ask for the touches and print, or write, what follows from them; or measure what else there is of a panel."""
+    _refuse_what_makes_no_sense(options)
+    if options.ghosts:
+        from controller.commands.calibrate_ghosts import calibrate_ghosts
+
+        return calibrate_ghosts(options)
+    if options.lag:
+        from controller.commands.calibrate_lag import calibrate_lag
+
+        return calibrate_lag(options)
     board = load_board(find_board(options.board))
-    targets = [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets)
+    targets = [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets or MOST)
     check_targets(targets, board.plate)
     if options.write:
         check_writable(board.folder / "board.toml")
@@ -66,6 +86,36 @@ def calibrate_touch(options: argparse.Namespace) -> int:
         write_calibration(file, found)
     show(options, _figures(board, targets, found, file if options.write else None), _table)
     return 0
+
+
+def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
+    """Options of one measurement given with another."""
+    mode = "--ghosts" if options.ghosts else "--lag" if options.lag else ""
+    belongs = {  # to what an option belongs; empty: to the axes
+        "targets": ("",),
+        "at": ("",),
+        "bank": ("--ghosts",),
+        "reference": ("--lag",),
+        "seconds": ("--lag",),
+        "out": ("--ghosts", "--lag"),
+    }
+    for name, modes in belongs.items():
+        if getattr(options, name) is not None and mode not in modes:
+            wanted = f"it goes with {' or '.join(modes)}" if modes[0] else f"it is for the axes, without {mode}"
+            raise UsageError(f"--{name} is of no use here: {wanted}")
+    for name in ("out", "reference", "seconds", "bank"):
+        if options.replay and getattr(options, name) is not None:
+            raise UsageError(f"--{name} is of no use with --replay: nothing is measured")
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = 0.0
+    if not 5 <= seconds <= 600:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 5 to 600")
+    return seconds
 
 
 def _bare(board: Board) -> Board:

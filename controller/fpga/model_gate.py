@@ -15,6 +15,7 @@ from controller.fpga.registers import Fault
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
 LIMITS = Fault.SHORT_PULSE | Fault.CHANNEL_EDGES | Fault.TOTAL_EDGES | Fault.LONG_EMISSION | Fault.DUTY
+ALIVE_HZ_4 = 40_000  # `hv_alive_o` changes twice as often as its 20 kHz have periods
 _LIMITS_SHIFT = int(Fault.SHORT_PULSE).bit_length() - 1
 
 
@@ -35,7 +36,7 @@ class OutputGate:
     def __init__(self, registers: RegisterFile) -> None:
         self._registers = registers
         self.limits = StageLimits(registers.limits, registers.parameters.edge_window_ticks)
-        self.pins = Pins(self.limits)
+        self.pins = Pins(self.limits, max(registers.parameters.clock_hz // ALIVE_HZ_4, 1))
         self.state = Gate.OFF
         self.faults = Fault(0)
         self._rest_until = 0  # the tick from which on a fault by a limit can be cleared

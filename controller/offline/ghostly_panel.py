@@ -1,4 +1,4 @@
-"""A simulated capacitive panel into which emissions couple; its events go through the product's own decoder.
+"""A simulated capacitive panel into which emissions couple, as a driver gives it: events, for `LiveSource` to decode.
 
 It scans at a fixed rate. A scan in which the channel pins moved makes a ghost with some probability: at a random place away from
 real fingers, from that scan's report on, for some reports.
@@ -14,10 +14,8 @@ from itertools import count
 from controller.board import Board
 from controller.fpga.simulated_link import SimulatedLink
 from controller.touch import event_codes as ev
-from controller.touch.axes import Axes, AxisRange
-from controller.touch.decoder import Decoder
-from controller.touch.panel import Counts, Protocol
-from controller.touch.samples import TouchSample
+from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
+from controller.touch.panel import Protocol
 
 Place = tuple[float, float]  # mm on the plate
 Finger = tuple[float, float, Place | Callable[[float], Place]]  # from, until, and where it is, or where at a time
@@ -29,7 +27,7 @@ SLOTS = 64
 
 
 class GhostlyPanel:
-    """A `TouchSource` of simulated fingers and ghosts.
+    """An `EventReader` of simulated fingers and ghosts.
 
     Parameters
     ----------
@@ -72,9 +70,15 @@ class GhostlyPanel:
     ) -> None:
         plate = board.plate
         self._sides_mm = plate.length_mm, plate.width_mm
-        x, y = (AxisRange(0, round(UNITS_PER_MM * side_mm)) for side_mm in self._sides_mm)
-        self.decoder = Decoder(Axes(board, x, y), protocol)
         self.warnings: Counter[str] = Counter()
+        self.present = True
+        axes = {code: AxisInfo(0, round(UNITS_PER_MM * side)) for code, side in zip(ev.POSITIONS, self._sides_mm, strict=True)}
+        if protocol is Protocol.B:
+            axes |= {ev.ABS_MT_SLOT: AxisInfo(0, SLOTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, 65535)}
+        if size_mm:
+            axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, round(UNITS_PER_MM * max(self._sides_mm)))
+        self.description = DeviceDescription("simulated panel with ghosts", axes=axes)
+        self._numbers = protocol is Protocol.B
         self.ghosts = 0
         self._random = random.Random(seed)
         self._fingers = fingers
@@ -90,11 +94,6 @@ class GhostlyPanel:
         self._told: dict[str, Place] = {}
         self._ids = count()
 
-    @property
-    def counts(self) -> Counts:
-        """Reports, contacts and fingers, ghosts among them."""
-        return self.decoder.counts
-
     def fileno(self) -> None:
         """Nothing to wait on but time."""
         return
@@ -108,8 +107,8 @@ class GhostlyPanel:
         at_s = self._scan * self._period_s
         return at_s if at_s <= self._until_s else None
 
-    def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """What the next scan finds, if it is due."""
+    def read(self, now_s: float) -> Sequence[Event]:
+        """What the next scan finds, if it is due and anything has changed; of protocol A always while anything is there."""
         at_s = self.next_time_s()
         if at_s is None or at_s > now_s:
             return ()
@@ -131,10 +130,10 @@ class GhostlyPanel:
         self._alive[f"ghost {self.ghosts}"] = (x_mm, y_mm), self._random.randint(*self._lives)
         self.ghosts += 1
 
-    def _report(self, there: dict[str, Place], at_s: float) -> tuple[TouchSample, ...]:
+    def _report(self, there: dict[str, Place], at_s: float) -> Sequence[Event]:
         """As the kernel would tell it: of protocol B only what has changed."""
         events: list[tuple[int, int, int]] = []
-        if self.decoder.protocol is Protocol.A:
+        if not self._numbers:
             for place in there.values():
                 events += [*self._where(place), (ev.EV_SYN, ev.SYN_MT_REPORT, 0)]
             if self._told and not there:
@@ -152,9 +151,7 @@ class GhostlyPanel:
         self._told = there
         if not events:
             return ()
-        for kind, code, value in events:
-            self.decoder.feed(kind, code, value, at_s)
-        return self.decoder.feed(ev.EV_SYN, ev.SYN_REPORT, 0, at_s) or ()
+        return [(*event, at_s) for event in (*events, (ev.EV_SYN, ev.SYN_REPORT, 0))]
 
     def _where(self, place: Place) -> list[tuple[int, int, int]]:
         sized = [(ev.EV_ABS, ev.ABS_MT_TOUCH_MAJOR, self._size)] if self._size else []

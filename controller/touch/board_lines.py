@@ -1,4 +1,4 @@
-"""The two lines of a board.toml that calibration changes, and nothing else of the file."""
+"""The lines of a board.toml that calibration changes, and nothing else of the file."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 import shutil
 import tempfile
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +54,48 @@ def check_writable(file: Path) -> None:
 
 
 def write_calibration(file: Path, calibration: Calibration) -> None:
-    """Change the two lines of a board.toml in place: all of it or nothing, whatever interrupts.
+    """Change the two lines of a board.toml in place; see `_rewrite`."""
+    _rewrite(file, lambda text: with_calibration(text, calibration))
+
+
+def value_line(key: str, value: float) -> str:
+    """A line for [touch] with one number."""
+    return f"{key} = {round(value, 3) + 0.0:.1f}"
+
+
+def with_value(text: str, key: str, value: float) -> str:
+    """Text of a board.toml with one number of [touch] changed, or put first in it; all else stays.
+
+    Raises
+    ------
+    CalibrationError
+        If there is no table [touch], or it is not written as one.
+    """
+    line = value_line(key, value)
+    table = re.search(r"^[ \t]*\[touch\][^\r\n]*(?P<end>\r?\n)(?P<lines>(?:(?![ \t]*\[)[^\n]*(?:\n|\Z))*)", text, flags=re.M)
+    if table is None:
+        raise CalibrationError(f"there is no table [touch]: write {line!r} by hand")
+    lines = table["lines"]
+    changed, count = re.subn(rf"^([ \t]*){key}[ \t]*=[ \t]*[-+\w.]+", rf"\g<1>{line}", lines, flags=re.M)
+    if not count:
+        changed = f"{line}{table['end']}{lines}"
+    new = text[: table.start("lines")] + changed + text[table.end("lines") :]
+    try:
+        right = tomllib.loads(new).get("touch", {}).get(key) == float(line.partition("=")[2]) and _but(new, key) == _but(text, key)
+    except tomllib.TOMLDecodeError:
+        right = False
+    if not right:
+        raise CalibrationError(f"[touch] is written in a way that is not understood: write {line!r} by hand")
+    return new
+
+
+def write_value(file: Path, key: str, value: float) -> None:
+    """Change one number of [touch] in place; see `_rewrite`."""
+    _rewrite(file, lambda text: with_value(text, key, value))
+
+
+def _rewrite(file: Path, change: Callable[[str], str]) -> None:
+    """Change a board.toml in place: all of it or nothing, whatever interrupts.
 
     Raises
     ------
@@ -66,7 +108,7 @@ def write_calibration(file: Path, calibration: Calibration) -> None:
     temporary = None
     try:
         with file.open(encoding="utf-8", newline="") as old:
-            changed = with_calibration(old.read(), calibration)
+            changed = change(old.read())
         handle, name = tempfile.mkstemp(prefix=".board-", suffix=".toml", dir=file.parent)
         temporary = Path(name)
         with os.fdopen(handle, "w", encoding="utf-8", newline="") as new:
@@ -95,3 +137,8 @@ def _line(key: str, row: Row) -> str:
 def _without(tables: dict[str, Any]) -> dict[str, Any]:
     touch = {key: value for key, value in tables.get("touch", {}).items() if key not in KEYS}
     return tables | {"touch": touch}
+
+
+def _but(text: str, key: str) -> dict[str, Any]:
+    tables = tomllib.loads(text)
+    return tables | {"touch": {name: value for name, value in tables.get("touch", {}).items() if name != key}}

@@ -109,7 +109,6 @@ class Gt911:
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
         self.name = "Goodix touch panel"
-        self.edge = Edge.FALLING
         self._settings = settings
         self._warnings = warnings
         self._use(settings.address)

@@ -172,14 +172,12 @@ class I2cReader:
         """Lift every contact; the chip is started again after a while."""
         self.warnings[kind] += 1
         self._present = False
-        self._starting = None
         self._edge_s = None
         self._lines.rest()
         self._next_s = now_s + RETRY_S
         return self._contacts.report((), now_s)
 
     def _start(self) -> Iterator[float]:
-        self._lines.rest()
         yield from self._chip.start(self._bus, self._lines)
         self._lines.listen(self._chip.edge)
         self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)

@@ -111,8 +111,7 @@ class Tracker:
         self._released: dict[int, _Contact] = {}  # of the last read: what they feel as they are lifted is decided after it
         self._lost: list[_Contact] = []
         self._reports = source.counts.reports
-        self._now_s = -inf
-        self._known_s = -inf
+        self._known_s = -inf  # until when all reports have been told
         self._due_s = inf  # when something is to be decided without a report
 
     @property
@@ -150,7 +149,6 @@ class Tracker:
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
-        self._now_s = now_s
         if self._released:
             self._released.clear()
         if now_s >= self._listening.again_s:
@@ -196,7 +194,7 @@ class Tracker:
         contact = self._fingers.get(finger) or self._released.get(finger)
         if contact is None:
             return False
-        stayed_s = min(self._now_s, contact.lost_s) - contact.first_s  # a lost one may come back, but did not stay
+        stayed_s = min(self._known_s, contact.lost_s) - contact.first_s  # a lost one may come back, but did not stay
         return contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:

@@ -4,10 +4,13 @@ import os
 import pwd
 
 import msgspec
+import numpy as np
 import pytest
 
 from controller import board as boards
 from controller.bank import location
+from controller.bank.grid import Grid
+from controller.bank.inspection import fit
 from controller.bank.location import bank_path, build_line, make_folder, state_folder
 from controller.board import find_board, load_board
 
@@ -96,3 +99,20 @@ def test_a_folder_that_cannot_be_made_is_one_line_with_what_to_do(panel, monkeyp
 
 def test_the_board_of_a_folder_without_a_name_is_called_by_its_own(board):
     assert msgspec.structs.replace(board, folder=location.Path("/")).key == "simulated"
+
+
+@ROOT_ONLY
+def test_a_bank_that_this_user_may_not_read_is_told_and_not_built_again(panel, tmp_path, make_bank):
+    for place in (tmp_path, *tmp_path.parents):
+        if place != location.Path("/"):
+            place.chmod(place.stat().st_mode | 0o11)
+    path = bank_path(panel)
+    path.parent.mkdir(parents=True)
+    make_bank(path)
+    path.chmod(0o600)
+    os.seteuid(pwd.getpwnam("nobody").pw_uid)
+    try:
+        with pytest.raises(location.BankError, match=r"panel\.bank: cannot be read \(Permission denied\)$"):
+            fit(path, panel, np.ones(Grid.of(panel.plate, panel.bank.pitch_mm * 1e-3).cells, bool))
+    finally:
+        os.seteuid(0)

@@ -167,3 +167,11 @@ def test_sections_are_mapped_on_machines_with_larger_pages(path, granularity):
         mapped = map_bytes(file.fileno(), 21 * PAGE, 9 * PAGE, granularity)
     assert mapped == data[21 * PAGE : 30 * PAGE]
     assert len(mapped.obj) == 9 * PAGE + 21 * PAGE % granularity  # it begins where such a machine can begin
+
+
+def test_nothing_is_advised_for_what_cannot_be_read(tmp_path):
+    """Followed, the advice would fail, or replace what is another's."""
+    with pytest.raises(BankError, match=r"cannot be read \(Is a directory\)$"):
+        Bank.open(tmp_path)
+    with pytest.raises(BankError, match=r"cannot be read \(No such file or directory\); build it: haptic-panel bank build"):
+        Bank.open(tmp_path / "none.bank")

@@ -223,11 +223,19 @@ def calibrated(line):
 
 
 def test_five_touches_put_the_axes_into_the_board():
-    said = calibrated(step("calibrate-touch"))
+    said = calibrated(step("calibrate-touch --board panel --write"))
     assert "written to /etc/haptic-panel/boards/panel/board.toml" in said
     rows = [[float(value) for value in row.split(",")] for row in re.findall(r"_mm_from_axes = \[(.*)\]", said)]
     for row, expected in zip(rows, ([0.0, LENGTH_MM, 0.0], [-WIDTH_MM, 0.0, WIDTH_MM]), strict=True):
         assert max(abs(a - b) for a, b in zip(row, expected, strict=True)) < 0.1, said
+
+
+def test_ghosts_are_not_looked_for_where_no_panel_hears_the_fpga():
+    """The one step that needs a real FPGA: its computed one is told apart at once, and nothing is written."""
+    board = Path("/etc/haptic-panel/boards/panel/board.toml")
+    before = board.read_text()
+    assert "has a simulated FPGA: --ghosts needs the one whose emissions the panel hears\n" in done(step("--ghosts"), code=78)
+    assert board.read_text() == before
 
 
 def recorded(line, user, folder):
@@ -270,7 +278,7 @@ def test_every_step_that_needs_no_root_works_as_the_services_user():
     assert BANK.owner() == UNIT
     assert f"looked at as {UNIT}" in done(step("doctor --board"), UNIT, folder)
     done(step("doctor --link"), UNIT, folder)
-    said = done(step("calibrate-touch"), UNIT, folder, code=1)
+    said = done(step("calibrate-touch --board panel --write"), UNIT, folder, code=1)
     assert "board.toml: cannot be written (Permission denied)" in said, "and before five marks were touched for nothing"
     assert said.count("\n") == 1
     recorded(step(" record "), UNIT, folder)

@@ -12,6 +12,7 @@ from controller.board import data_folder, load_board
 from controller.device_settings import TouchPanel
 from controller.offline.ghostly_panel import PERIOD_S, GhostlyPanel
 from controller.touch.ghost_guard import SHARE, GhostGuard, Listening
+from controller.touch.live_source import LiveSource
 from controller.touch.panel import Protocol
 from controller.touch.tracker import Tracker
 
@@ -55,7 +56,7 @@ def perform(panel, *, ghost_ms=GHOST_S * 1e3, train_s=0.0, spot_period_s=None, u
 
     Gives the tracker, and (press time, place, emissions) of every finger played.
     """
-    tracker = Tracker(panel, msgspec.structs.replace(TOUCH, ghost_ms=ghost_ms), 0.210, 0.148)
+    tracker = Tracker(LiveSource(panel, BOARD), msgspec.structs.replace(TOUCH, ghost_ms=ghost_ms), 0.210, 0.148)
     fingers, down = [], {}
     spot_s = 0.0 if spot_period_s else float("inf")
     free_s = 0.0

@@ -1,6 +1,9 @@
 """GT911 and FT5x06 driven over the kernel's interfaces, their far ends (peers) built from the data sheets, in virtual time."""
 
+import contextlib
 import errno
+from pathlib import Path
+from random import Random
 from types import SimpleNamespace
 
 import pytest
@@ -14,6 +17,7 @@ from controller.board import find_board, load_board
 from controller.device_settings import Ft5x06Touch, Gt911Touch
 from controller.errors import TouchError
 from controller.touch import i2c_bus, i2c_reader, panel_lines
+from controller.touch.event_codes import ABS_MT_TOUCH_MAJOR
 from controller.touch.ft5x06 import open_ft5x06
 from controller.touch.gt911 import PRODUCTS, open_gt911
 from controller.touch.live_source import LiveSource
@@ -62,6 +66,14 @@ class Bench:
     def touch(self, held, pulse=True, **more):
         if self.chip.touch(held, **more) is not False and pulse:
             self.lines.pulse()
+
+    def open_buses(self):
+        """How often the bus is open."""
+        found = 0
+        for fd in Path("/proc/self/fd").iterdir():
+            with contextlib.suppress(OSError):  # the one of the listing itself
+                found += fd.readlink() == self._path
+        return found
 
     def read(self, source):
         """Samples of what there is to read now, as (finger, x in mm, y in mm, contact)."""
@@ -172,6 +184,14 @@ def test_the_edge_is_the_one_of_the_chips_configuration(bench, trigger, edge):
     assert bench.lines.listening is edge
 
 
+def test_a_report_of_before_its_start_is_no_touch(bench):
+    bench.put(Gt911Chip(width=2100, height=1480)).touch({0: (100, 200)})
+    source = bench.gt911()
+    assert bench.until_due(source)[1] == []
+    bench.touch({1: (110, 200)})
+    assert bench.read(source) == [(0, 11, 20, True)]
+
+
 def test_every_report_of_a_gt911_is_cleared_and_one_of_more_than_two_contacts_read_on(bench):
     bench.put(Gt911Chip(width=2100, height=1480, contacts=10))
     source = bench.gt911()
@@ -237,8 +257,19 @@ def test_a_report_that_its_edge_announced_too_early_is_asked_for_again_after_2_4
     bench.touch({0: (300, 200)})
     assert bench.read(source) == []
     assert [bench.until_due(source)[0] for _ in range(4)] == [0.002, 0.004, 0.008, 0.01]
-    waited_s, samples = bench.until_due(source)
-    assert (waited_s, samples) == (0.03, [(0, 30, 20, True)])  # found all the same
+    bench.now_s += 0.03
+    (sample,) = source.read(bench.now_s)  # found all the same, but nobody knows of when it is
+    assert (sample.x_m, sample.time_s) == (pytest.approx(0.03), bench.now_s)
+
+
+def test_a_panel_that_is_touched_for_long_is_not_started_again(bench):
+    bench.put(Gt911Chip(width=2100, height=1480))
+    source = bench.gt911()
+    for k in range(200):
+        bench.now_s += 1e-3
+        bench.touch({0: (100 + k, 200)}, pulse=k % 3 != 0)
+        assert bench.read(source) + bench.until_due(source)[1] == [(0, 10 + k / 10, 20, True)]
+    assert not source.warnings
 
 
 def test_a_panel_that_is_touched_and_silent_for_half_a_second_is_started_again(bench):
@@ -316,6 +347,8 @@ def test_a_panel_that_went_is_tried_every_half_second_and_started_step_by_step_w
     while bench.now_s < began_s + 1.2:
         assert bench.until_due(source)[1] == []
         assert not source.present
+        if source.next_time_s() > bench.now_s + 0.4:  # it waits for the next attempt
+            assert bench.lines.driven == {"RST": True}
     bench.chip.silent = False
     bench.chip.configuration = Gt911Chip(width=1050, height=1480).configuration
     bench.chip.product = b"1158"
@@ -337,6 +370,7 @@ def test_what_keeps_a_bus_from_being_opened_is_said(bench, tmp_path, monkeypatch
     bench.put(Gt911Chip(), functions=0x10000)
     with pytest.raises(TouchError, match="cannot do plain I2C"):
         bench.gt911()
+    assert bench.open_buses() == 0
     with pytest.raises(TouchError, match=r"there is no I2C bus .*i2c-9"):
         bench.gt911(bus=str(tmp_path / "i2c-9"))
 
@@ -355,6 +389,7 @@ def test_a_chip_that_does_not_answer_at_the_start_is_named_and_everything_given_
             opened(reset_line="RST")
         assert bench.lines.driven == {}
         assert bench.lines.listening is None
+        assert bench.open_buses() == 0
     bench.put(Ft5x06Chip())
     with pytest.raises(TouchError, match="has no line 'NONE'"):
         bench.ft5x06(interrupt_line="NONE")
@@ -366,13 +401,17 @@ def test_a_chip_that_does_not_answer_at_the_start_is_named_and_everything_given_
 def test_an_ft5x06_is_reset_set_to_pulses_and_read(bench):
     bench.put(Ft5x06Chip())
     source = bench.ft5x06(reset_line="RST")
-    (low_s, *_), (high_s, *_) = bench.lines.history
+    (low_s, *low), (high_s, *high) = bench.lines.history
+    assert (low, high) == (["RST", False], ["RST", True])
     assert high_s - low_s >= 5e-3
     assert bench.now_s - high_s >= 0.3
     assert bench.chip.registers[0xA4] == 1  # a pulse for each report
     assert bench.chip.registers[0x00] == 0
     assert bench.lines.listening is Edge.FALLING
     assert source._reader.description.name == "FT5x06 chip 55"
+    assert source._reader.description.version == 0x0A
+    assert ABS_MT_TOUCH_MAJOR not in source._reader.description.axes
+    assert bench.open_buses() == 1
     bench.touch({number: (200 * number + 1, 100 * number + 1) for number in range(10)})
     assert [place[1:3] for place in bench.read(source)] == [(20 * k + 0.1, 10 * k + 0.1) for k in range(10)]
     bench.touch({5: (1011, 501)})
@@ -388,6 +427,8 @@ def test_what_an_ft5x06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({0: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+    bench.touch({0: (100, 200)}, put_down={0})  # byte for byte what it held then
+    assert bench.read(source) == [(0, 10, 20, True)]
 
 
 @pytest.mark.parametrize("chip_id", [0x06, 0x36, 0x54, 0x55, 0x64])
@@ -403,9 +444,17 @@ def test_an_empty_chip_a_stuck_bus_and_a_chip_without_registers_are_refused(benc
     with pytest.raises(TouchError, match=f"at 0x38 .* no FocalTech chip .* all 0x{byte:02X}"):
         bench.ft5x06()
     assert bench.lines.listening is None
+    assert bench.open_buses() == 0
     bench.put(Ft5x06Chip()).registers[:] = bytes([byte]) * 256
     with pytest.raises(TouchError, match="no FocalTech chip"):
         bench.ft5x06()
+
+
+def test_a_firmware_that_leaves_some_of_its_identity_empty_is_taken(bench):
+    chip = bench.put(Ft5x06Chip(chip_id=0))
+    chip.registers[0xA6] = 0
+    assert chip.registers[0xA8]
+    assert bench.ft5x06().present
 
 
 def test_an_ft5x06_that_lost_its_power_is_set_to_work_again_and_an_empty_one_in_its_place_is_not(bench):
@@ -494,3 +543,47 @@ def test_what_an_edt_m06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({1: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+
+
+# ---- whatever happens
+
+
+@pytest.mark.parametrize("make", [Gt911Chip, Ft5x06Chip, EdtM06Chip])
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_the_bus_does_the_reader_goes_on_and_a_panel_that_works_again_is_felt_again(bench, make, seed):
+    random = Random(seed)
+    chip = bench.put(make())
+    source = (bench.gt911 if make is Gt911Chip else bench.ft5x06)(reset_line=random.choice(["", "RST"]))
+    down = set()
+
+    def look(samples):
+        for finger, _, _, contact in samples:
+            assert contact or finger in down
+            (down.add if contact else down.discard)(finger)
+
+    for _ in range(300):
+        fault = random.choice(["none", "none", "none", "nacks", "silent", "hangs", "garbage", "power"])
+        chip.silent, chip.garbage = fault == "silent", random.randrange(256) if fault == "garbage" else None
+        chip.nacks = random.randrange(5) if fault == "nacks" else 0
+        chip.hangs = fault == "hangs"
+        if fault == "power" and make is not EdtM06Chip:
+            chip.power_up()
+        held = {
+            number: (random.randrange(1, 400), random.randrange(1, 400)) for number in random.sample(range(5), random.randrange(5))
+        }
+        bench.touch(held, pulse=random.random() < 0.7)
+        look(bench.read(source))
+        for _ in range(random.randrange(4)):
+            look(bench.until_due(source)[1])
+        bench.now_s += random.choice([0, 1e-3, 8e-3, 0.1, 0.6])
+    chip.silent, chip.garbage, chip.nacks, chip.hangs = False, None, 0, False
+    for _ in range(200):  # it is started again, if need be, and what it holds is let go
+        bench.touch({})
+        look(bench.until_due(source)[1])
+    assert source.present
+    assert not down
+    for x in (100, 110):
+        bench.now_s += 8e-3
+        bench.touch({0: (x, 100)})
+        look(bench.read(source))
+    assert len(down) == 1

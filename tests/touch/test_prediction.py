@@ -182,7 +182,7 @@ def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, mo
 
     def elsewhere(self, finger, at_s):
         assert finger == 0
-        asked_ahead_s.append(at_s - self._now_s)
+        asked_ahead_s.append(at_s - self._known_s)
         return 0.105, 0.074
 
     monkeypatch.setattr(Tracker, "place", elsewhere)

@@ -53,6 +53,16 @@ def test_a_finger_lost_for_one_report_stays_the_same():
     assert t.tracking.bridged == 1
 
 
+def test_a_contact_whose_release_waits_to_be_read_is_not_confirmed_by_the_time_that_the_loop_was_busy():
+    t = tracker((1.0, [touch(0, 100)]), (1.01, []))
+    t.read(1.1)
+    assert not t.confirmed(0)
+    t = tracker((1.0, [touch(0, 100)]))
+    t.read(1.0)
+    t.read(1.1)
+    assert t.confirmed(0)
+
+
 def test_a_fast_finger_that_is_lost_for_a_report_is_the_same_where_it_would_be_by_now():
     steps = [(1 + k * PERIOD_S, [touch(k > 6, 50 + 10 * k)] if k != 6 else []) for k in range(12)]  # 1 m/s
     t = tracker(*steps)

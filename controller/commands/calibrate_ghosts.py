@@ -1,0 +1,146 @@
+"""`haptic-panel calibrate-touch --ghosts`: what the panel's own emissions make it report, and the `ghost_ms` that follows."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from controller.assembly import assemble
+from controller.bank.reader import Bank
+from controller.board import Board, find_board, load_board
+from controller.clocks import Clock, MonotonicClock, VirtualClock
+from controller.commands.bank import open_bank
+from controller.commands.output import progress_bar, show
+from controller.device_settings import RecordingTouch
+from controller.errors import ConfigError
+from controller.fpga.link import Link
+from controller.ghost_survey import KNOCK, Knocks, Overheard
+from controller.hardware import open_link, open_panel, open_session
+from controller.playback import Played
+from controller.scene import Scene, load_scene
+from controller.scene_file import find_scene
+from controller.touch.board_lines import check_writable, value_line, write_value
+from controller.touch.event_reader import Event, EventReader
+from controller.touch.ghost_figures import GhostFigures, ghost_figures
+from controller.touch.kept_events import KeptEvents, emission_event, recording_text, store
+from controller.touch.live_source import LiveSource
+from controller.touch.recording import Recording
+from controller.trains import Train
+
+SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what the simulated board's panel does
+
+
+def calibrate_ghosts(options: argparse.Namespace) -> int:
+    """Play, watch the panel, and print or write what follows; or judge a recording of that."""
+    board = load_board(find_board(options.board))
+    file = board.folder / "board.toml"
+    if options.write:
+        check_writable(file)
+    if options.replay:
+        recording = Recording.open(Path(options.replay))
+    else:
+        text = _measured(options, board)
+        if options.out:
+            store(Path(options.out), text)
+        recording = Recording(text, options.out or "this measurement")
+    found = ghost_figures(recording, board)
+    if options.write:
+        write_value(file, "ghost_ms", found.ghost_ms)
+    show(options, _figures(board, found, file if options.write else None), _table)
+    return 0
+
+
+def _measured(options: argparse.Namespace, board: Board) -> str:
+    """Play knocks on the board's FPGA while nobody touches its panel; all that the panel said, as a recording."""
+    simulated = board.link.kind == "simulated"
+    if simulated and not isinstance(board.touch, RecordingTouch):
+        raise ConfigError(f"board {board.name!r} has a simulated FPGA: --ghosts needs the one whose emissions the panel hears")
+    clock: Clock = VirtualClock() if simulated else MonotonicClock()
+    with open_bank(options, board, load_scene(scene := find_scene(board, board.scene), board), scene, keep=True) as bank:
+        if not simulated:
+            print("haptic-panel: hands off the panel for one to three minutes: it plays by itself", file=sys.stderr, flush=True)
+        link = open_link(board, clock.now_s)
+        try:
+            reader = _simulated_panel(board, link) if simulated else open_panel(board)
+            try:
+                return _play(board, bank, clock, link, KeptEvents(reader))
+            finally:
+                reader.close()
+        finally:
+            link.close()
+
+
+def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: KeptEvents) -> str:
+    session = open_session(link, board, clock.now_s)
+    panel = Overheard(LiveSource(kept, board))
+    emissions: list[Event] = []
+
+    def played(start: Played) -> None:
+        emissions.append(emission_event(start.trigger_s, board.waveform.duration_s))
+
+    def stop() -> None:
+        loop.stop()
+
+    places = [(float(x_m), float(y_m)) for x_m, y_m in bank.grid.points()[bank.cells]]
+    knocks = Knocks(panel, places, board.waveform.duration_s, stop, progress_bar("emissions"))
+    try:
+        loop = assemble(board, Scene((), {KNOCK: Train()}), bank, clock, session, panel, played=played, commands=knocks).loop
+        loop.run(knocks.ready)
+    finally:
+        knocks.close()
+    if knocks.error is not None:
+        raise knocks.error
+    return recording_text(kept.description, [*kept.events, *emissions])
+
+
+def _simulated_panel(board: Board, link: Link) -> EventReader:
+    from controller.fpga.simulated_link import SimulatedLink
+    from controller.offline.ghostly_panel import GhostlyPanel, pins_of
+
+    assert isinstance(link, SimulatedLink)
+    print("haptic-panel: a simulated panel: what it does is made up", file=sys.stderr)
+    return GhostlyPanel(
+        board,
+        (),
+        pins_of(link),
+        probability=SIMULATED_RATE,
+        lives=SIMULATED_LIVES,
+        size_mm=SIMULATED_SIZE_MM,
+        until_s=1e6,
+    )
+
+
+def _figures(board: Board, found: GhostFigures, written: Path | None) -> dict[str, Any]:
+    appears, gone, size = found.appears_ms, found.gone_ms, found.size_mm
+    return {
+        "board": board.name,
+        "emissions": found.emissions,
+        "ghosts": found.ghosts,
+        "rate": round(found.rate, 4),
+        "rate_below": found.rate_below,
+        "appears_ms": None if appears is None else {"earliest": round(appears[0], 2), "latest": round(appears[1], 2)},
+        "gone_ms": None if gone is None else dict(zip(("median", "p95", "longest"), (round(v, 2) for v in gone), strict=True)),
+        "size_mm": None if size is None else {"median": round(size[0], 2), "largest": round(size[1], 2)},
+        "ghost_ms": found.ghost_ms,
+        "lines": [value_line("ghost_ms", found.ghost_ms)],
+        "written": None if written is None else str(written),
+    }
+
+
+def _table(figures: dict[str, Any]) -> str:
+    if not figures["ghosts"]:
+        told = [f"no ghost in {figures['emissions']} emissions: below {100 * figures['rate_below']:.1f} % of them, at 95 %"]
+    else:
+        gone, appears, size = figures["gone_ms"], figures["appears_ms"], figures["size_mm"]
+        told = [
+            f"{figures['ghosts']} ghosts, made by {100 * figures['rate']:.1f} % of {figures['emissions']} emissions",
+            f"first reported {appears['earliest']:.1f} to {appears['latest']:.1f} ms after the emission began",
+            f"gone {gone['median']:.1f} ms after its end, 95 % by {gone['p95']:.1f} ms, the longest {gone['longest']:.1f} ms;"
+            f" one in {figures['ghosts'] + 1} may be longer",
+        ]
+        if size is not None:
+            told.append(f"size {size['median']:.1f} mm, at most {size['largest']:.1f} mm")
+    where = f"written to {figures['written']}" if figures["written"] else "for [touch] of board.toml (--write puts it there)"
+    return "\n".join([*figures["lines"], *told, where])
