@@ -166,7 +166,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.DUTY_TICKS: Description(
         "RW", "31:0", "largest", "ticks of emission that may run ahead of DUTY_SHARE; at most what is built in"
     ),
-    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR; of a limit, for EDGE_WINDOW_TICKS at least"),
+    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR, and EDGE_WINDOW_TICKS if of a limit"),
     Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
     Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
     Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
