@@ -35,7 +35,7 @@ TIGHT = replace(
 ALTERNATING = np.array([0xFFFFFFFF, 0] * 20, np.uint32)  # 280 ticks at the fastest
 WORD_TICKS = 7
 SETTINGS = [register for register in Register if Register.IDLE_WORD <= register <= Register.DUTY_TICKS]
-SCRIPTS = {"GatewareModel": 100, "RtlGateware": 15}
+SCRIPTS = {"model": 100, "rtl": 15}
 
 
 def perform(script, back_end, parameters):
@@ -118,15 +118,16 @@ def hostile(seed):
     return script
 
 
-def test_a_host_that_writes_everything_exceeds_no_limit(back_end):
+def test_a_host_that_writes_everything_exceeds_no_limit(back_end, request):
+    scripts = SCRIPTS[request.node.callspec.params["back_end"]]
     faults: Counter[Fault] = Counter()
     changes = 0
-    for seed in range(SCRIPTS[back_end.__name__]):
+    for seed in range(scripts):
         statuses, capture = perform(hostile(seed), back_end, TIGHT)
         assert broken_limits(capture, TIGHT, WORD_TICKS) == [], seed
         faults.update(fault for fault in Fault if any(fault in status.faults for status in statuses))
         changes += capture.words.size
-    assert changes > 50 * SCRIPTS[back_end.__name__]
+    assert changes > 50 * scripts
     assert faults.keys() >= {Fault.CHANNEL_EDGES, Fault.TOTAL_EDGES, Fault.DUTY, Fault.HOST_SILENT}, faults
 
 
