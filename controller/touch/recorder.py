@@ -84,7 +84,7 @@ def open_recording(path: Path) -> FileIO:
             with path.open("rb") as old:
                 start = old.read(len(FIRST_LINE))
             if start and start != FIRST_LINE:
-                raise TouchError(
+                raise ConfigError(
                     f"{path}: is there and is no recording: it is left as it is, give another --out, or remove it first"
                 )
         return FileIO(path, "w")
