@@ -334,6 +334,22 @@ def test_a_disarmed_panel_stays_off_whoever_comes_and_whatever_happens_until_it_
     assert (code, figures["emissions"]) == (0, 1)
 
 
+def test_a_disarmed_panel_stays_off_when_the_service_dies_and_is_started_again(service, folder, bank):
+    with service.client() as client:
+        client.disarm()
+    service.process.kill()
+    service.process.communicate()
+    again = Service(folder, bank)
+    again.says("outputs off: disarmed")
+    with again.client() as client:
+        assert "is disarmed" in client.play("click", at_mm=(50, 50)).reason
+        client.arm()
+        again.says("the outputs are on")
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    figures, code = again.end()
+    assert (code, figures["emissions"]) == (0, 1)
+
+
 def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
     (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
     service.process.send_signal(signal.SIGHUP)
