@@ -230,9 +230,8 @@ def test_five_touches_put_the_axes_into_the_board():
         assert max(abs(a - b) for a, b in zip(row, expected, strict=True)) < 0.1, said
 
 
-def test_a_panel_that_hears_no_emission_needs_no_ghost_ms():
-    assert "no ghost in 600 emissions" in done(step("--ghosts"))
-    assert "ghost_ms = 0.0" in Path("/etc/haptic-panel/boards/panel/board.toml").read_text()
+def test_what_emissions_do_to_a_panel_is_not_measured_with_those_of_a_simulated_fpga():
+    assert "has a simulated FPGA" in done(step("--ghosts"), code=78)
 
 
 def recorded(line, user, folder):
