@@ -12,21 +12,29 @@ The same from a shell: `python -m controller.client --socket S play click --at 1
 from __future__ import annotations
 
 import argparse
+import grp
+import os
+import pwd
 import socket
 import sys
 from collections import deque
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, TypeVar
 
 import msgspec
 
 from controller.application_socket import messages
-from controller.application_socket.messages import Answer, AnyMessage, AnyRequest, Farewell, Figures, Greeting, Touch
+from controller.application_socket.messages import Answer, AnyMessage, AnyRequest, Farewell, Figures, Greeting, State, Touch
 from controller.errors import ControllerError, LinkError
 
+T = TypeVar("T")
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
 RECEIVE_BYTES = 65536
-TOUCHES_KEPT = 1000  # while an answer is waited for; older ones are forgotten
+KEPT = 1000  # touches and states, while an answer is waited for; older ones are forgotten
+
+
+Reply = Answer | Greeting | Figures | State
 
 
 class PanelClient:
@@ -43,6 +51,8 @@ class PanelClient:
     ------
     LinkError
         By every method: if nobody listens, does not answer in time, or ends the connection.
+    ControllerError
+        If this user may not connect, or not play.
     """
 
     def __init__(self, path: str = DEFAULT_PATH, timeout_s: float = 5.0) -> None:
@@ -51,12 +61,16 @@ class PanelClient:
         self._encoder = msgspec.json.Encoder()
         self._decoder = messages.message_decoder()
         self._received = bytearray()
-        self._touches: deque[Touch] = deque(maxlen=TOUCHES_KEPT)
-        self._answers: dict[int, Answer | Greeting | Figures] = {}  # to requests that nobody has waited for yet
+        self._touches: deque[Touch] = deque(maxlen=KEPT)
+        self._states: deque[State] = deque(maxlen=KEPT)
+        self._answers: dict[int, Reply] = {}  # to requests that nobody has waited for yet
         self._last_id = 0
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.connect(path)
+        except PermissionError as error:
+            self._socket.close()
+            raise ControllerError(f"{path}: {_who_may_connect(path)}") from error
         except OSError as error:
             self._socket.close()
             raise LinkError(f"{path}: no panel to talk to ({error.strerror or error}); is the service running?") from error
@@ -106,18 +120,54 @@ class PanelClient:
     def touches(self) -> Iterator[Touch]:
         """Every finger that begins, moves or is released from this call on; until the iterator is closed."""
         self._done(messages.Subscribe(id=self._new_id()))
-        return self._subscribed()
+        return self._subscribed(self._touches)
 
-    def _subscribed(self) -> Iterator[Touch]:
+    def states(self) -> Iterator[State]:
+        """How the panel is, at once and whenever that changes: outputs, permit, faults, touch panel, temperature.
+
+        Until the iterator is closed, which ends `touches` too.
+        """
+        self._done(messages.Subscribe(id=self._new_id(), to=("state",)))
+        return self._subscribed(self._states)
+
+    def _subscribed(self, kept: deque[T]) -> Iterator[T]:
         try:
             while True:
-                while self._touches:
-                    yield self._touches.popleft()
+                while kept:
+                    yield kept.popleft()
                 self._keep(self._receive(None))  # nobody may touch the panel for hours
         except GeneratorExit:
             if self._socket.fileno() >= 0:
                 self._done(messages.Unsubscribe(id=self._new_id()))
                 self._touches.clear()
+                self._states.clear()
+
+    def arm(self) -> None:
+        """Have the outputs on, as far as the FPGA allows it; `states` tells when they are.
+
+        Raises
+        ------
+        ControllerError
+            If this user does not have the right to operate.
+        """
+        self._done(messages.Arm(id=self._new_id()))
+
+    def disarm(self) -> None:
+        """Have the outputs glide to 0 V and stay off, until somebody arms.
+
+        Raises
+        ------
+        ControllerError
+            If this user does not have the right to operate.
+        """
+        self._done(messages.Disarm(id=self._new_id()))
+
+    def state(self) -> State:
+        """How the panel is."""
+        answer = self._wait(self._ask(messages.AskState(id=self._new_id())))
+        if isinstance(answer, State):
+            return answer
+        raise _refused(answer)
 
     def load_scene(self, name: str) -> None:
         """Take over another scene of the board; returns when it is in force.
@@ -137,7 +187,7 @@ class PanelClient:
         raise _refused(answer)
 
     def hello(self) -> Greeting:
-        """Version, board, extents and the effects that can be played."""
+        """Version, board, extents, the effects that can be played, and this user's rights."""
         answer = self._wait(self._ask(messages.Hello(id=self._new_id())))
         if isinstance(answer, Greeting):
             return answer
@@ -170,7 +220,7 @@ class PanelClient:
             return answer
         raise LinkError(f"{self._path}: the panel answers what was not asked: {answer}")
 
-    def _wait(self, number: int) -> Answer | Greeting | Figures:
+    def _wait(self, number: int) -> Reply:
         while number not in self._answers:
             self._keep(self._receive(self._timeout_s))
         return self._answers.pop(number)
@@ -178,6 +228,10 @@ class PanelClient:
     def _keep(self, message: AnyMessage) -> None:
         if isinstance(message, Touch):
             self._touches.append(message)
+        elif isinstance(message, State) and message.id is None:
+            self._states.append(message)
+        elif isinstance(message, Farewell) and message.lacks:
+            raise ControllerError(f"{self._path}: {message.reason}")
         elif isinstance(message, Farewell):
             raise LinkError(f"{self._path}: the panel has ended the connection: {message.reason}")
         elif isinstance(message.id, int):
@@ -210,7 +264,25 @@ class PanelClient:
             self._keep(self._receive(self._timeout_s))
 
 
-def _refused(answer: Answer | Greeting | Figures) -> ControllerError:
+def _who_may_connect(path: str) -> str:
+    """Which right a user lacks whom the socket's file keeps out, and which group gives it."""
+    user = _name(lambda: pwd.getpwuid(os.geteuid()).pw_name, str(os.geteuid()))
+    try:
+        number = Path(path).stat().st_gid
+    except OSError:
+        return f"user {user!r} may not enter the folder of the socket"
+    group = _name(lambda: grp.getgrgid(number).gr_name, str(number))
+    return f"user {user!r} may not connect, group {group!r} may: have root do `adduser {user} {group}`, and log in again"
+
+
+def _name(of: Callable[[], str], otherwise: str) -> str:
+    try:
+        return of()
+    except KeyError:
+        return otherwise
+
+
+def _refused(answer: Reply) -> ControllerError:
     return ControllerError(f"the panel refused: {answer.reason}" if isinstance(answer, Answer) else f"unexpected answer: {answer}")
 
 
@@ -239,6 +311,15 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
                 _show(touch)
         case "load":
             panel.load_scene(options.name)
+        case "arm":
+            panel.arm()
+        case "disarm":
+            panel.disarm()
+        case "state" if options.follow:
+            for state in panel.states():
+                _show(state)
+        case "state":
+            _show(panel.state())
         case "figures":
             _show(panel.figures())
         case "hello":
@@ -263,8 +344,12 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument("--amplitude", type=float, metavar="A", help="0.25 to 1 (default: the most that is allowed)")
     commands.add_parser("touches", help="print every touch until Ctrl-C")
     commands.add_parser("load", help="take over another scene of the board").add_argument("name")
+    commands.add_parser("disarm", help="have the outputs off, until somebody arms")
+    commands.add_parser("arm", help="have the outputs on, as far as the FPGA allows it")
+    state = commands.add_parser("state", help="print how the panel is")
+    state.add_argument("--follow", action="store_true", help="and each change, until Ctrl-C")
     commands.add_parser("figures", help="print what the panel counted")
-    commands.add_parser("hello", help="print version, board, extents and effects")
+    commands.add_parser("hello", help="print version, board, extents, effects and your rights")
     return parser
 
 

@@ -11,7 +11,7 @@ from controller.bank.reader import Bank
 from controller.board import Board
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.hardware import await_panel, await_session, open_thermometer, open_touch, tracked
+from controller.hardware import await_panel, await_session, await_thermometer, open_touch, tracked
 from controller.housekeeping import Housekeeping
 from controller.log import LOG, Priority, tell
 from controller.prepare_scene import populate
@@ -68,7 +68,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         commands = CommandSocket(board, board.application_socket) if board.application_socket else None
         if commands is not None:
             stack.callback(commands.close)
-        thermometer = open_thermometer(board)
+        thermometer = await_thermometer(board)
         if thermometer is not None:
             stack.callback(thermometer.close)
         housekeeping = Housekeeping(
@@ -85,6 +85,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             change=change,
             progress=housekeeping.progress,
         )
+        if commands is not None and commands.disarmed:
+            assembly.loop.switch(on=False)
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):

@@ -164,7 +164,11 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     owner: str = ""  # empty: as the service
     group: str = ""
     mode: Annotated[str, Meta(pattern="^0?[0-7]{3}$")] = "660"
+    play_group: str = ""  # empty: whoever may connect may play
+    operate_group: str = ""  # who may arm, disarm and load scenes; empty: root and the service's own user only
     max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
+    clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4  # of a user who may play and not operate
+    idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0  # silent for so long, a client gives way to one that finds no place
     commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0  # of one client, in the long run
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50
     max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0  # 0.25: the least that can be asked for

@@ -158,6 +158,8 @@ class EventLoop:
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """Play an effect for a command; see `PanelControl`."""
+        if not self._outputs.wanted:
+            raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import msgspec
+
 from controller.board import Board, data_folder
-from controller.device_settings import Ft5x06Touch, Gt911Touch, LinuxInputTouch, RecordingTouch, SerialTouch
+from controller.device_settings import Ft5x06Touch, Gt911Touch, I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
 from controller.errors import ConfigError, TouchError
 from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
@@ -16,14 +18,17 @@ from controller.fpga.link import Link
 from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
+from controller.records import Record
 from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
+from controller.touch.panel_process import PanelProcess
 from controller.touch.prediction import Motion
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
+from controller.worker import Worker
 
 if TYPE_CHECKING:
     from controller.temperature import Thermometer
@@ -141,8 +146,10 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
     return LiveSource(open_panel(board), board)
 
 
-def await_panel(board: Board) -> AwaitedReader:
-    """Driver of a board's touch panel, which may not be there yet.
+def await_panel(board: Board) -> AwaitedReader | PanelProcess:
+    """Driver of a board's touch panel, which may not be there yet; one on a bus that may hang is a process of its own.
+
+    Called before real time begins.
 
     Raises
     ------
@@ -151,6 +158,8 @@ def await_panel(board: Board) -> AwaitedReader:
     """
     if isinstance(board.touch, RecordingTouch):
         raise ConfigError(NO_PANEL.format(board.name))
+    if isinstance(board.touch, I2cTouch):
+        return PanelProcess(_beside("panel", board.realtime.priority, board.touch))
     return AwaitedReader(lambda: open_panel(board))
 
 
@@ -168,6 +177,20 @@ def open_thermometer(board: Board) -> Thermometer | None:
     from controller.temperature import Thermometer
 
     return Thermometer(board.temperature)
+
+
+def await_thermometer(board: Board) -> Thermometer | None:
+    """As `open_thermometer`, by a process of its own. Called before real time begins."""
+    if board.temperature is None:
+        return None
+    from controller.temperature import SensorProcess, Thermometer
+
+    return Thermometer(board.temperature, SensorProcess(_beside("thermometer", 0, board.temperature)))
+
+
+def _beside(what: str, priority: int, settings: Record) -> Worker:
+    """A process of `beside_loop`."""
+    return Worker(["-m", "controller.beside_loop", what, str(priority), msgspec.json.encode(settings).decode()])
 
 
 def recording_path(board: Board, given: str | None) -> Path:

@@ -15,6 +15,7 @@ from controller.reloading import ReloadFile
 from controller.service import Notifier, Watchdog
 
 PLAYING_S = 1.0  # since the last emission, for which the panel is said to be playing
+FIRST_S = 0.1  # between looks for the first temperature
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
 
 
@@ -240,8 +241,9 @@ class Housekeeping:
     def _follow_temperature(self, loop: Watched, now_s: float) -> None:
         assert self._thermometer is not None
         scale = self._thermometer.scale(now_s)
-        self._read_s = now_s + self._period_s
         temperature_c = self._thermometer.temperature_c
+        unknown = math.isnan(temperature_c) and not self._thermometer.cause  # it was not answered yet
+        self._read_s = now_s + (min(FIRST_S, self._period_s) if unknown else self._period_s)
         self._temperature_c = None if math.isnan(temperature_c) else temperature_c
         if self._thermometer.cause != self._temperature_cause:
             self._temperature_cause = self._thermometer.cause

@@ -259,7 +259,7 @@ class Playback:
         try:
             words = self._selection.words(key)
             slot = self._take()
-            self._session.upload(slot, words)
+            self._session.upload(slot, words, self._selection.crc(key, words))
         except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
@@ -358,10 +358,14 @@ class Playback:
         words = self._selection.words(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
-        slot = self._take()
+        slot, crc = self._take(), self._selection.crc(key, words)
         stop = self._running is not None
         try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
+            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks, crc=crc)
+        except Refused as refusal:
+            if refusal.result is Result.SLOT_DAMAGED:
+                self._selection.recheck(key)
+            raise
         finally:
             self._stopped()
         self._latest = slot

@@ -155,6 +155,7 @@ def main() -> None:
     """Serve the socket on standard input; the only argument is the time limit in s."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # meant for the loop: this ends with it
         signal.signal(number, signal.SIG_IGN)
-    os.nice(NICE)
+    with contextlib.suppress(PermissionError):  # a sandbox may forbid even that
+        os.nice(NICE)
     with socket.socket(fileno=0) as loop, contextlib.suppress(ConnectionError):
         serve(loop, float(sys.argv[1]))

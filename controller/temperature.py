@@ -12,12 +12,16 @@ import errno
 import fcntl
 import math
 import os
+import socket
+import struct
+import time
 from pathlib import Path
 from typing import Final, Protocol
 
 from smbus2 import SMBus
 
 from controller.device_settings import Temperature
+from controller.worker import Worker, WorkerEnded
 
 HWMON: Final = Path("/sys/class/hwmon")
 HOLD_S: Final = 600.0  # the last good reading is kept so long, then the reference temperature is assumed
@@ -28,13 +32,15 @@ STEP_C: Final = 1 / 256  # of its 16 bits, of which a chip leaves those that it 
 I2C_RETRIES: Final = 0x0701  # linux/i2c-dev.h
 I2C_TIMEOUT: Final = 0x0702
 BUS_TIMEOUT_MS: Final = 20
+HANGS_S: Final = 5.0  # without an answer, after which a sensor's process is taken to hang
+ANSWER: Final = struct.Struct("=id")  # errno and temperature; behind them what the error is called
 
 
 class Sensor(Protocol):
-    """What gives a temperature; each call takes less than a millisecond unless a bus is stuck."""
+    """What gives a temperature."""
 
-    def read_c(self) -> float:
-        """Temperature in °C.
+    def read_c(self) -> float | None:
+        """Temperature in °C; None from a `SensorProcess` that has not answered yet.
 
         Raises
         ------
@@ -44,6 +50,57 @@ class Sensor(Protocol):
 
     def close(self) -> None:
         """Let go of it."""
+
+
+class SensorProcess:
+    """A sensor that a process of its own asks: a bus that hangs, or takes 0.7 s as 1-Wire does, costs no heartbeat.
+
+    A reading is as old as the time since the one before was taken.
+
+    Parameters
+    ----------
+    worker : Worker
+        Runs `serve_sensor`.
+    """
+
+    def __init__(self, worker: Worker) -> None:
+        self._worker = worker
+        self._ask()
+
+    def read_c(self) -> float | None:
+        """What was asked for last, in °C; None while it is not there."""
+        try:
+            answer = self._worker.receive()
+        except WorkerEnded:
+            raise OSError(errno.EPIPE, "the process that reads it has ended") from None
+        if answer is None:
+            if time.monotonic() - self._asked_s > HANGS_S:
+                raise OSError(errno.ETIMEDOUT, "it does not answer, or its bus hangs")
+            return None
+        number, reading_c = ANSWER.unpack_from(answer)
+        said = bytes(answer[ANSWER.size :]).decode(errors="replace")
+        self._ask()
+        if number:
+            raise OSError(number, said)
+        return float(reading_c)
+
+    def close(self) -> None:
+        """End its process."""
+        self._worker.close()
+
+    def _ask(self) -> None:
+        self._asked_s = time.monotonic()
+        self._worker.send(b"?")
+
+
+def serve_sensor(sensor: Sensor, loop: socket.socket) -> None:
+    """Ask a sensor whenever the loop asks, for as long as there is one; it may block."""
+    while loop.recv(1):
+        try:
+            answer = ANSWER.pack(0, sensor.read_c())
+        except OSError as error:
+            answer = ANSWER.pack(error.errno or errno.EIO, 0.0) + (error.strerror or "").encode()[:1024]
+        loop.send(answer)
 
 
 class Hwmon:
@@ -166,7 +223,7 @@ class Thermometer:
         self.failed = 0
         self.cause = ""
         self._settings = settings
-        self._sensor = sensor or _sensor(settings)
+        self._sensor = sensor or sensor_of(settings)
         self._good_s = -math.inf
         self._doubtful_c = math.nan  # the reading before, if it was a jump
         self._retry_s = -math.inf
@@ -192,6 +249,8 @@ class Thermometer:
             self._retry_s = now_s + RETRY_S
             self.cause = _why_not(settings, error)
             return
+        if reading_c is None:
+            return
         if not settings.lowest_c <= reading_c <= settings.highest_c:
             self.refused += 1
             self.cause = f"the temperature sensor says {reading_c:g} °C, outside {settings.lowest_c:g} to {settings.highest_c:g}"
@@ -207,7 +266,8 @@ class Thermometer:
         self.cause = ""
 
 
-def _sensor(settings: Temperature) -> Sensor:
+def sensor_of(settings: Temperature) -> Sensor:
+    """The one that the settings name; it may be absent, and come later."""
     return Hwmon(settings.device) if settings.kind == "hwmon" else Lm75(settings.device, settings.address)
 
 

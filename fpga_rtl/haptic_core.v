@@ -81,59 +81,99 @@ module haptic_core #(
         end
     end
 
-    // Frames, from whichever link one begins on
-    wire       spi_select, spi_release, spi_partial, spi_byte_valid, spi_take;
+    // Frames: each link has a decoder, an encoder of answers and a conversation of its own. What the SPI accepts is carried
+    // out at once; a frame of the UART waits, whole and good, for a pause of the SPI.
+    wire       spi_select, spi_active, spi_release, spi_partial, spi_byte_valid, spi_take;
     wire       uart_select, uart_release, uart_partial, uart_byte_valid, uart_take;
-    wire [7:0] spi_byte, uart_byte, answer;
-    wire       select        = spi_select || uart_select;
-    wire       release_frame = spi_release || uart_release;
-    wire       partial       = (spi_release && spi_partial) || (uart_release && uart_partial);
-    wire       byte_valid    = spi_byte_valid || uart_byte_valid;
-    wire [7:0] byte_in       = spi_byte_valid ? spi_byte : uart_byte;
-    wire       answer_take   = spi_take || uart_take;
+    wire [7:0] spi_byte, uart_byte, spi_answer, uart_answer;
 
     spi_peripheral spi_peripheral (
         .clk_i(clk_i), .rst_i(rst_i),
         .spi_sck_i(spi_sck_i), .spi_cs_n_i(spi_cs_n_i), .spi_mosi_i(spi_mosi_i), .spi_miso_o(spi_miso_o),
-        .select_o(spi_select), .release_o(spi_release), .partial_o(spi_partial),
-        .byte_valid_o(spi_byte_valid), .byte_o(spi_byte), .answer_i(answer), .answer_take_o(spi_take)
+        .select_o(spi_select), .active_o(spi_active), .release_o(spi_release), .partial_o(spi_partial),
+        .byte_valid_o(spi_byte_valid), .byte_o(spi_byte), .answer_i(spi_answer), .answer_take_o(spi_take)
     );
 
     uart_peripheral #(.CLOCK_HZ(CLOCK_HZ), .BAUD(BAUD)) uart_peripheral (
         .clk_i(clk_i), .rst_i(rst_i), .uart_rx_i(uart_rx_i), .uart_tx_o(uart_tx_o),
         .select_o(uart_select), .release_o(uart_release), .partial_o(uart_partial),
-        .byte_valid_o(uart_byte_valid), .byte_o(uart_byte), .answer_i(answer), .answer_take_o(uart_take)
+        .byte_valid_o(uart_byte_valid), .byte_o(uart_byte), .answer_i(uart_answer), .answer_take_o(uart_take)
     );
 
-    wire         accept, refuse, landing_was_busy, landing_was_live, fast, word_valid, load_word;
-    wire [7:0]   refusal, kind, sequence_number, word_number;
-    wire [15:0]  argument;
-    wire [191:0] words;
-    wire [31:0]  word;
-    wire [6:0]   payload_words;
+    wire         spi_accept, spi_refuse, spi_word_valid, spi_landing_busy, spi_landing_live, spi_fast;
+    wire         uart_accept, uart_refuse, uart_damaged, uart_word_valid, uart_landing_busy, uart_landing_live;
+    wire         relay_select, relay_release, relay_byte_valid, relay_refuse, relay_begin, relay_word_valid, relay_accept;
+    wire [7:0]   spi_refusal, spi_kind, spi_sequence, spi_word_number;
+    wire [7:0]   uart_refusal, uart_kind, uart_sequence, uart_word_number, relay_word_number;
+    wire [15:0]  spi_argument, uart_argument;
+    wire [191:0] spi_words, uart_words;
+    wire [31:0]  spi_word, uart_word, relay_word;
+    wire [6:0]   spi_payload_words, uart_payload_words;
     wire         landing_busy, landing_live;
     wire [31:0]  bit_period;
+    wire         spi_load_word;
 
-    frame_decoder frame_decoder (
+    frame_decoder spi_decoder (
         .clk_i(clk_i), .rst_i(rst_i),
-        .select_i(select), .release_i(release_frame), .partial_i(partial),
-        .byte_valid_i(byte_valid), .byte_i(byte_in),
+        .select_i(spi_select), .release_i(spi_release), .partial_i(spi_partial),
+        .byte_valid_i(spi_byte_valid), .byte_i(spi_byte),
         .landing_busy_i(landing_busy), .landing_live_i(landing_live), .bit_period_i(bit_period),
-        .accept_o(accept), .refuse_o(refuse), .refusal_o(refusal),
-        .type_o(kind), .sequence_o(sequence_number), .argument_o(argument), .words_o(words),
-        .landing_busy_o(landing_was_busy), .landing_live_o(landing_was_live), .payload_words_o(payload_words), .fast_o(fast),
-        .word_valid_o(word_valid), .word_number_o(word_number), .word_o(word), .load_word_o(load_word)
+        .accept_o(spi_accept), .refuse_o(spi_refuse), .refusal_o(spi_refusal),
+        .type_o(spi_kind), .sequence_o(spi_sequence), .argument_o(spi_argument), .words_o(spi_words),
+        .landing_busy_o(spi_landing_busy), .landing_live_o(spi_landing_live), .payload_words_o(spi_payload_words), .fast_o(spi_fast),
+        .word_valid_o(spi_word_valid), .word_number_o(spi_word_number), .word_o(spi_word), .load_word_o(spi_load_word)
     );
+
+    /* verilator lint_off PINCONNECTEMPTY */
+    frame_decoder uart_decoder (
+        .clk_i(clk_i), .rst_i(rst_i),
+        .select_i(relay_select), .release_i(relay_release), .partial_i(uart_partial),
+        .byte_valid_i(relay_byte_valid), .byte_i(uart_byte),
+        .landing_busy_i(1'b0), .landing_live_i(1'b0), .bit_period_i(32'd0),
+        .accept_o(uart_accept), .refuse_o(uart_damaged), .refusal_o(uart_refusal),
+        .type_o(uart_kind), .sequence_o(uart_sequence), .argument_o(uart_argument), .words_o(uart_words),
+        .landing_busy_o(), .landing_live_o(), .payload_words_o(uart_payload_words), .fast_o(),
+        .word_valid_o(uart_word_valid), .word_number_o(uart_word_number), .word_o(uart_word), .load_word_o()
+    );
+    /* verilator lint_on PINCONNECTEMPTY */
+
+    wire from_uart;                        // whose frame the core is asked
+    frame_relay frame_relay (
+        .clk_i(clk_i), .rst_i(rst_i), .busy_i(spi_select || spi_active || spi_release || spi_accept || spi_refuse),
+        .select_i(uart_select), .release_i(uart_release), .byte_valid_i(uart_byte_valid),
+        .select_o(relay_select), .release_o(relay_release), .byte_valid_o(relay_byte_valid), .refuse_o(relay_refuse),
+        .accept_i(uart_accept), .payload_words_i(uart_payload_words),
+        .word_valid_i(uart_word_valid), .word_number_i(uart_word_number), .word_i(uart_word),
+        .landing_busy_i(landing_busy), .landing_live_i(landing_live),
+        .begin_o(relay_begin), .turn_o(from_uart), .word_valid_o(relay_word_valid), .word_number_o(relay_word_number),
+        .word_o(relay_word), .accept_o(relay_accept), .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live)
+    );
+
+    wire         select            = spi_select || relay_begin;
+    wire         accept            = spi_accept || relay_accept;
+    wire         word_valid        = spi_word_valid || relay_word_valid;
+    wire [7:0]   kind              = from_uart ? uart_kind : spi_kind;
+    wire [7:0]   sequence_number   = from_uart ? uart_sequence : spi_sequence;
+    wire [15:0]  argument          = from_uart ? uart_argument : spi_argument;
+    wire [191:0] words             = from_uart ? uart_words : spi_words;
+    wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
+    wire [31:0]  word              = from_uart ? relay_word : spi_word;
+    wire [6:0]   payload_words     = from_uart ? uart_payload_words : spi_payload_words;
+    wire         landing_was_busy  = from_uart ? uart_landing_busy : spi_landing_busy;
+    wire         landing_was_live  = from_uart ? uart_landing_live : spi_landing_live;
+    wire         load_word         = spi_load_word || (relay_word_valid && uart_kind == `TYPE_LOAD && uart_argument < {12'd0, `CHUNKS});
+    assign       uart_refuse       = uart_damaged || relay_refuse;
 
     // What becomes of them
     wire [7:0] register_result, write_result, load_result, store_result, play_result, memory_result, crc_result, queue_result;
-    reg  [7:0] read_result, result, result_q, sequence_q;
-    reg        fast_q;                     // of the last LOAD
+    reg  [7:0] read_result, result;
+    reg  [7:0] spi_result_q, spi_sequence_q, uart_result_q, uart_sequence_q;
+    reg        fast_q;                     // of the last LOAD; never of one by the UART
     wire       play_accept = accept && kind == `TYPE_PLAY;
     wire       push = play_accept && play_result == `RESULT_OK;
 
     wire [31:0] register_data, memory_data, crc_data, queue_data;
-    reg  [31:0] read_data, data_q;
+    reg  [31:0] read_data, spi_data_q, uart_data_q;
     always @* begin
         if (argument[15]) begin
             read_result = memory_result;
@@ -159,20 +199,31 @@ module haptic_core #(
         endcase
     end
 
-    wire [7:0] expected_sequence = sequence_q + 8'd1;
+    wire       gap  = sequence_number != (from_uart ? uart_sequence_q : spi_sequence_q) + 8'd1;
+    wire       read = kind == `TYPE_READ && read_result == `RESULT_OK;
     always @(posedge clk_i) begin
-        if (refuse) result_q <= refusal;
-        if (accept) begin
-            result_q   <= result;
-            sequence_q <= sequence_number;
-            if (kind == `TYPE_LOAD) fast_q <= fast;
-            if (kind == `TYPE_READ && read_result == `RESULT_OK) data_q <= read_data;
+        if (spi_refuse) spi_result_q <= spi_refusal;
+        if (spi_accept) begin
+            spi_result_q   <= result;
+            spi_sequence_q <= sequence_number;
+            if (read) spi_data_q <= read_data;
         end
+        if (relay_accept) begin
+            uart_result_q   <= result;
+            uart_sequence_q <= sequence_number;
+            if (read) uart_data_q <= read_data;
+        end
+        if (uart_damaged) uart_result_q <= uart_refusal;
+        if (relay_refuse) uart_result_q <= `RESULT_BUSY;
+        if (accept && kind == `TYPE_LOAD) fast_q <= spi_fast && !from_uart;
         if (rst_i) begin
-            result_q   <= `RESULT_OK;
-            sequence_q <= 8'd0;
-            fast_q     <= 1'b0;
-            data_q     <= 32'd0;
+            spi_result_q    <= `RESULT_OK;
+            spi_sequence_q  <= 8'd0;
+            spi_data_q      <= 32'd0;
+            uart_result_q   <= `RESULT_OK;
+            uart_sequence_q <= 8'd0;
+            uart_data_q     <= 32'd0;
+            fast_q          <= 1'b0;
         end
     end
 
@@ -199,7 +250,7 @@ module haptic_core #(
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
         .off_i(off), .quiet_i((off || armed) && quiet && queued == 4'd0), .permitted_i(run_permit && temperature_ok),
-        .refused_i(refuse), .gap_i(accept && sequence_number != expected_sequence),
+        .uart_i(from_uart), .refused_i({uart_refuse, spi_refuse}), .gap_i(gap),
         .fault_i(fault), .fault_channels_i(fault_channels), .fault_count_i(fault_count), .fault_time_i(fault_time),
         .inputs_i({trigger_q[1], temperature_ok, run_permit}), .input_time_i(input_time_q),
         .triggers_i(triggers), .ignored_i(ignored), .trigger_time_i(trigger_time),
@@ -301,7 +352,7 @@ module haptic_core #(
         .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) safety_island (
         .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i),
-        .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heartbeat_i(accept),
+        .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heard_i(accept), .link_i(from_uart),
         .channel_mask_i(channel_mask), .heartbeat_ticks_i(heartbeat_ticks), .pulse_ticks_i(pulse_ticks),
         .channel_edges_i(channel_edges), .total_edges_i(total_edges), .emission_ticks_i(emission_ticks),
         .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
@@ -345,12 +396,20 @@ module haptic_core #(
     assign state[`STATE_WAITING]          = waiting;
     assign state[15:`STATE_WAITING+1]     = 3'd0;
 
-    status_encoder status_encoder (
-        .clk_i(clk_i), .rst_i(rst_i), .select_i(select), .take_i(answer_take), .byte_o(answer),
-        .result_i(result_q), .sequence_i(sequence_q), .state_i(state), .fault_i(fault), .data_i(data_q),
+    status_encoder spi_encoder (
+        .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select), .take_i(spi_take), .byte_o(spi_answer),
+        .result_i(spi_result_q), .sequence_i(spi_sequence_q), .state_i(state), .fault_i(fault), .data_i(spi_data_q),
         .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
         .queued_i({4'd0, queued}), .chunks_i(chunks), .ignored_i(ignored[15:0]),
-        .echo_i(kind == `TYPE_TEST), .byte_valid_i(byte_valid), .byte_i(byte_in)
+        .echo_i(spi_kind == `TYPE_TEST), .byte_valid_i(spi_byte_valid), .byte_i(spi_byte)
+    );
+
+    status_encoder uart_encoder (
+        .clk_i(clk_i), .rst_i(rst_i), .select_i(uart_select), .take_i(uart_take), .byte_o(uart_answer),
+        .result_i(uart_result_q), .sequence_i(uart_sequence_q), .state_i(state), .fault_i(fault), .data_i(uart_data_q),
+        .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
+        .queued_i({4'd0, queued}), .chunks_i(chunks), .ignored_i(ignored[15:0]),
+        .echo_i(1'b0), .byte_valid_i(1'b0), .byte_i(8'd0)
     );
 endmodule
 

@@ -17,7 +17,7 @@ module output_gate #(
     input  wire        arm_i,              // pulse, already checked
     input  wire        disarm_i,           // pulse
     input  wire        clear_i,            // pulse
-    input  wire        heartbeat_i,        // pulse for every accepted frame
+    input  wire        heartbeat_i,        // pulse: the host that armed lives
     input  wire [31:0] heartbeat_ticks_i,
     input  wire        run_permit_i,       // synchronised; low stops
     input  wire        temperature_good_i, // synchronised; low stops

@@ -26,6 +26,7 @@ module register_file #(
     input  wire        rst_i,
     // accepted READ and WRITE frames
     input  wire        accept_i,           // pulse: any frame
+    input  wire        uart_i,             // it came by the UART
     input  wire        read_i,             // pulse
     input  wire        write_i,            // pulse
     input  wire [15:0] address_i,
@@ -37,8 +38,8 @@ module register_file #(
     input  wire        off_i,
     input  wire        quiet_i,            // nothing plays or waits
     input  wire        permitted_i,        // run permit and temperature
-    input  wire        refused_i,          // pulse: a frame was refused
-    input  wire        gap_i,              // pulse: numbers of accepted frames skip
+    input  wire [1:0]  refused_i,          // pulses: a frame was refused, by SPI (0), by UART (1)
+    input  wire        gap_i,              // with accept_i: its number does not follow that of the one before by its link
     input  wire [15:0] fault_i,
     input  wire [31:0] fault_channels_i, fault_count_i,
     input  wire [63:0] fault_time_i,
@@ -88,9 +89,10 @@ module register_file #(
     reg [31:0] emission_ticks_q;
     reg [16:0] duty_share_q;
     reg [31:0] duty_ticks_q;
-    reg [31:0] frame_errors_q, gaps_q;
-    reg [31:0] high_q;             // half of the time whose LOW was read last
-    reg        unlocked_q;         // by the frame before
+    // of each link
+    reg [31:0] spi_errors_q, uart_errors_q, spi_gaps_q, uart_gaps_q;
+    reg [31:0] spi_high_q, uart_high_q;  // half of the time whose LOW was read last
+    reg [1:0]  unlocked_q;         // by the frame before
 
     wire [15:0] register = {10'd0, address_i[5:0]};  // where known_q
 
@@ -128,11 +130,11 @@ module register_file #(
             `REGISTER_EMISSIONS:         value = emissions_i;
             `REGISTER_EMISSION_TIME_LOW: value = emission_time_i[31:0];
             `REGISTER_FAULT_TIME_HIGH, `REGISTER_INPUT_TIME_HIGH, `REGISTER_TRIGGER_TIME_HIGH,
-            `REGISTER_EMISSION_TIME_HIGH: value = high_q;
+            `REGISTER_EMISSION_TIME_HIGH: value = uart_i ? uart_high_q : spi_high_q;
             `REGISTER_PLAYS_MISSED:      value = missed_i;
             `REGISTER_UNDERRUNS:         value = underruns_i;
-            `REGISTER_FRAME_ERRORS:      value = frame_errors_q;
-            `REGISTER_SEQUENCE_GAPS:     value = gaps_q;
+            `REGISTER_FRAME_ERRORS:      value = uart_i ? uart_errors_q : spi_errors_q;
+            `REGISTER_SEQUENCE_GAPS:     value = uart_i ? uart_gaps_q : spi_gaps_q;
             `REGISTER_SLOTS_LOADED:      value = loaded_i;
             `REGISTER_QUEUE:             value = {28'd0, queued_i};
             `REGISTER_DUTY_LEVEL:        value = duty_level_i;
@@ -206,11 +208,12 @@ module register_file #(
                     in_range_q} <= 12'd0;
     end
 
-    wire arm_good = unlocked_q && off_i && fault_i == 16'd0 && permitted_i;
+    wire unlocked = unlocked_q[uart_i];
+    wire arm_good = unlocked && off_i && fault_i == 16'd0 && permitted_i;
     reg [7:0] control_result;
     always @* begin
         if (unlock_q)   control_result = key_good_q ? `RESULT_OK : `RESULT_BAD_KEY;
-        else if (arm_q) control_result = !unlocked_q ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
+        else if (arm_q) control_result = !unlocked ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
                                        : fault_i != 16'd0 ? `RESULT_FAULTED : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
         else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
     end
@@ -220,10 +223,17 @@ module register_file #(
     wire change   = write_i && known_q && setting_q && free && in_range_q;
 
     always @(posedge clk_i) begin
-        if (read_i && known_q && low) high_q <= high;
-        if (refused_i) frame_errors_q <= frame_errors_q + 32'd1;
-        if (gap_i) gaps_q <= gaps_q + 32'd1;
-        if (accept_i || refused_i) unlocked_q <= command && unlock_q && key_good_q;
+        if (read_i && known_q && low) begin
+            if (uart_i) uart_high_q <= high;
+            else        spi_high_q  <= high;
+        end
+        if (refused_i[0]) spi_errors_q  <= spi_errors_q + 32'd1;
+        if (refused_i[1]) uart_errors_q <= uart_errors_q + 32'd1;
+        if (accept_i && gap_i && !uart_i) spi_gaps_q  <= spi_gaps_q + 32'd1;
+        if (accept_i && gap_i && uart_i)  uart_gaps_q <= uart_gaps_q + 32'd1;
+        if (refused_i[0]) unlocked_q[0] <= 1'b0;
+        if (refused_i[1]) unlocked_q[1] <= 1'b0;
+        if (accept_i) unlocked_q[uart_i] <= command && unlock_q && key_good_q;
         if (change) begin
             case (register)
                 `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
@@ -251,10 +261,13 @@ module register_file #(
             emission_ticks_q  <= EMISSION_TICKS_MAX;
             duty_share_q      <= DUTY_SHARE_MAX[16:0];
             duty_ticks_q      <= DUTY_TICKS_MAX;
-            frame_errors_q    <= 32'd0;
-            gaps_q            <= 32'd0;
-            high_q            <= 32'd0;
-            unlocked_q        <= 1'b0;
+            spi_errors_q      <= 32'd0;
+            uart_errors_q     <= 32'd0;
+            spi_gaps_q        <= 32'd0;
+            uart_gaps_q       <= 32'd0;
+            spi_high_q        <= 32'd0;
+            uart_high_q       <= 32'd0;
+            unlocked_q        <= 2'b00;
         end
     end
 

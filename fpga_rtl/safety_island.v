@@ -2,6 +2,7 @@
 // Host, frames, memory and player are on the other side of drive_i and of the settings asked for. What they may ask at most is
 // built in, and clamped here once more:
 //   the permits' pins through two flip-flops each -> output_gate: off, unless armed, permitted, cool and fed
+//   frames of the link that armed, from its ARM on, and of no other -> output_gate: off where they cease
 //   the pins' register -> stage_limits -> output_gate: off, and the cause kept, where a limit is exceeded
 // A limit that is missing leaves nothing to build: there are no defaults.
 `default_nettype none
@@ -31,7 +32,8 @@ module safety_island #(
     input  wire        arm_i,              // pulse: the host has unlocked it
     input  wire        disarm_i,           // pulse
     input  wire        clear_i,            // pulse
-    input  wire        heartbeat_i,        // pulse: the host lives
+    input  wire        heard_i,            // pulse: a frame was accepted, that of arm_i among them
+    input  wire        link_i,             // by which link
     input  wire [31:0] channel_mask_i, heartbeat_ticks_i,
     input  wire [15:0] pulse_ticks_i,
     input  wire [31:0] channel_edges_i, total_edges_i, emission_ticks_i,
@@ -82,9 +84,16 @@ module safety_island #(
     endfunction
 
     reg [1:0]  run_permit_q, temperature_ok_q;
+    reg        link_q;                     // that armed
     reg [31:0] heartbeat_ticks_q, channel_edges_q, total_edges_q, emission_ticks_q, duty_ticks_q;
     reg [15:0] pulse_ticks_q;
     reg [16:0] duty_share_q;
+
+    wire [15:0] fault;
+    wire        run_permit     = run_permit_q[1];
+    wire        temperature_ok = temperature_ok_q[1];
+    wire        arm            = arm_i && off_o && fault == 16'd0 && run_permit && temperature_ok;
+    wire        heartbeat      = arm || (heard_i && !off_o && link_i == link_q);  // the link that armed, from its ARM on
 
     always @(posedge clk_i) begin
         run_permit_q      <= {run_permit_q[0], run_permit_i};
@@ -96,7 +105,9 @@ module safety_island #(
         duty_share_q      <= duty_share_i > DUTY_SHARE_MAX[16:0] ? DUTY_SHARE_MAX[16:0] : duty_share_i;
         duty_ticks_q      <= least(duty_ticks_i, DUTY_TICKS_MAX);
         pulse_ticks_q     <= pulse_ticks_i < PULSE_TICKS_MIN[15:0] ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
+        if (arm) link_q <= link_i;
         if (rst_i) begin
+            link_q            <= 1'b0;
             run_permit_q      <= 2'b00;
             temperature_ok_q  <= 2'b00;
             heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
@@ -109,10 +120,7 @@ module safety_island #(
         end
     end
 
-    wire        run_permit     = run_permit_q[1];
-    wire        temperature_ok = temperature_ok_q[1];
     wire [4:0]  limits;
-    wire [15:0] fault;
     wire [31:0] culprits;
     wire        culprits_known = fault[`FAULT_SHORT_PULSE] || fault[`FAULT_CHANNEL_EDGES];
 
@@ -126,8 +134,8 @@ module safety_island #(
 
     output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS), .HV_SETTLE_TICKS(HV_SETTLE_TICKS)) output_gate (
         .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i),
-        .arm_i(arm_i && fault == 16'd0 && run_permit && temperature_ok), .disarm_i(disarm_i), .clear_i(clear_i),
-        .heartbeat_i(heartbeat_i), .heartbeat_ticks_i(heartbeat_ticks_q),
+        .arm_i(arm), .disarm_i(disarm_i), .clear_i(clear_i),
+        .heartbeat_i(heartbeat), .heartbeat_ticks_i(heartbeat_ticks_q),
         .run_permit_i(run_permit), .temperature_good_i(temperature_ok), .underrun_i(underrun_i), .limits_i(limits),
         .ramp_done_i(ramp_done_i), .settled_i(settled_i), .channel_mask_i(channel_mask_i & CHANNEL_MASK_MAX),
         .bit_ticks_i(bit_ticks_i), .drive_i(drive_i), .now_i(now_i), .ended_i(ended_i),

@@ -313,6 +313,43 @@ def test_what_prepares_scenes_may_die_and_the_panel_plays_on(service, folder, pa
     assert (code, figures["scenes_loaded"], figures["outages"]) == (0, 1, 0)
 
 
+def test_a_disarmed_panel_stays_off_whoever_comes_and_whatever_happens_until_it_is_armed(service):
+    with service.client() as client:
+        client.disarm()
+        assert f"(uid {os.getuid()}, pid {os.getpid()}) disarms the panel" in service.says("disarms")
+        assert next(state for state in client.states() if state.state == "disarmed").cause == "a client has switched the panel off"
+    service.process.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, service.process.pid, os.WSTOPPED | os.WNOWAIT)
+    signal.sigtimedwait([], 0.5)  # two heartbeat timeouts
+    service.process.send_signal(signal.SIGCONT)
+    with service.client() as client:
+        assert client.state().outputs_on is False
+        assert "is disarmed" in client.play("click", at_mm=(50, 50)).reason
+        states = client.states()
+        client.arm()
+        next(state for state in states if state.outputs_on)
+        states.close()
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    figures, code = service.end()
+    assert (code, figures["emissions"]) == (0, 1)
+
+
+def test_a_disarmed_panel_stays_off_when_the_service_dies_and_is_started_again(service, folder, bank):
+    with service.client() as client:
+        client.disarm()
+    service.process.kill()
+    service.process.communicate()
+    again = Service(folder, bank)
+    again.says("outputs off: disarmed")
+    with again.client() as client:
+        assert "is disarmed" in client.play("click", at_mm=(50, 50)).reason
+        client.arm()
+        again.says("the outputs are on")
+        assert client.play("click", at_mm=(50, 50)).outcome == "played"
+    figures, code = again.end()
+    assert (code, figures["emissions"]) == (0, 1)
+
+
 def test_a_bad_scene_leaves_the_old_one(service, folder, panel):
     (folder / "scene.toml").write_text("[[regions]]\nname = 1\n")
     service.process.send_signal(signal.SIGHUP)
@@ -463,6 +500,21 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     assert err.splitlines()[-1].startswith("haptic-panel: ")
     assert "Traceback" not in err
     assert "READY=1" not in manager.heard()
+
+
+def test_a_temperature_sensor_that_hangs_for_ever_holds_up_nobody(folder, panel, bank):
+    os.mkfifo(folder / "sensor")  # to open it lasts until somebody writes
+    with (folder / "board.toml").open("a") as board:
+        board.write(f'\n[temperature]\nkind = "hwmon"\ndevice = "{folder / "sensor"}"\ncoefficient_per_k = -1e-4\nperiod_s = 0.1\n')
+    service = Service(folder, bank)
+    service.says("the outputs are on")
+    with service.client() as client:
+        for _ in range(5):
+            assert client.play("click", at_mm=(50, 50)).outcome == "played"
+        assert client.figures()["heartbeats"] > 0
+    assert "does not answer, or its bus hangs" in service.says("temperature sensor")
+    figures, code = service.end()
+    assert (code, figures["emissions"], figures["host_silent"], figures["outages"]) == (0, 5, 0, 0)
 
 
 def test_a_log_that_nobody_reads_does_not_hold_up_the_loop(folder, panel, bank):

@@ -55,7 +55,8 @@ def with_tables(board, **tables):
     return msgspec.structs.replace(board, **tables)
 
 
-def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
+def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch, tmp_path):
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
     touch = Ft5x06Touch(bus="/dev/i2c-none", interrupt_chip="none", interrupt_line="INT", width=800, height=480, **AXES)
     temperature = Temperature(kind="lm75", device="/dev/i2c-none", coefficient_per_k=-1e-4)
     findings = look(with_tables(board, link=SPI, touch=touch, temperature=temperature), VirtualClock().now_s)
@@ -68,7 +69,6 @@ def test_a_board_without_its_devices_is_told_each_of_them(board, monkeypatch):
         "scene",
         "bank",
         "temperature",
-        "responses",
         "priority",
         "locked memory",
     ]

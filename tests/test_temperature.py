@@ -2,6 +2,8 @@
 
 import errno
 import math
+import socket
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -9,7 +11,20 @@ from hypothesis import strategies as st
 
 from controller import temperature
 from controller.device_settings import Temperature
-from controller.temperature import HOLD_S, JUMP_C, RETRY_S, Hwmon, Thermometer, bit_clock_scale, lm75_c
+from controller.temperature import (
+    ANSWER,
+    HANGS_S,
+    HOLD_S,
+    JUMP_C,
+    RETRY_S,
+    Hwmon,
+    SensorProcess,
+    Thermometer,
+    bit_clock_scale,
+    lm75_c,
+    serve_sensor,
+)
+from controller.worker import WorkerEnded
 
 SETTINGS = Temperature(kind="hwmon", device="plate", coefficient_per_k=-100e-6)
 
@@ -153,3 +168,60 @@ def test_a_board_without_its_sensor_plays_at_its_own_bit_clock():
         assert thermometer.scale(0.0) == 1
         assert "no temperature sensor answers" in thermometer.cause
         thermometer.close()
+
+
+class Answers:
+    """A worker that answers when it is told to."""
+
+    def __init__(self):
+        self.asked = 0
+        self.answers = []
+
+    def send(self, message):
+        assert message
+        self.asked += 1
+
+    def receive(self):
+        answer = self.answers.pop(0) if self.answers else None
+        if answer is WorkerEnded:
+            raise WorkerEnded
+        return answer
+
+    def close(self):
+        pass
+
+
+def test_a_sensor_that_has_not_answered_is_waited_for_and_one_that_never_does_is_told(monkeypatch):
+    now_s = [100.0]
+    monkeypatch.setattr(temperature, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+    worker = Answers()
+    thermometer = Thermometer(SETTINGS, SensorProcess(worker))
+    assert (thermometer.scale(0.0), thermometer.cause, worker.asked) == (1, "", 1)
+    worker.answers = [memoryview(ANSWER.pack(0, 33.0))]
+    assert thermometer.scale(2.0) == pytest.approx(0.999)
+    assert worker.asked == 2, "the next one is asked for as one is taken"
+    now_s[0] += HANGS_S + 0.1
+    assert thermometer.scale(4.0) == pytest.approx(0.999)
+    assert "hangs" in thermometer.cause
+    assert worker.asked == 2, "nobody is asked twice"
+    worker.answers = [memoryview(ANSWER.pack(errno.EREMOTEIO, 0.0) + b"Remote I/O error")]
+    thermometer.scale(4.0 + RETRY_S)
+    assert "no temperature sensor answers at plate (Remote I/O error)" in thermometer.cause
+    worker.answers = [memoryview(ANSWER.pack(0, 30.0))]
+    assert thermometer.scale(4.0 + 2 * RETRY_S) == pytest.approx(0.9993)
+    assert thermometer.cause == ""
+    worker.answers = [WorkerEnded]
+    thermometer.scale(6.0 + 2 * RETRY_S)
+    assert "has ended" in thermometer.cause
+
+
+def test_the_process_of_a_sensor_answers_each_question_once_and_ends_with_the_loop():
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with ours, theirs:
+        for _ in range(2):
+            ours.send(b"?")
+        ours.shutdown(socket.SHUT_WR)
+        serve_sensor(Given(31.5, OSError(errno.EIO, "bad")), theirs)
+        assert ANSWER.unpack_from(ours.recv(100)) == (0, 31.5)
+        said = ours.recv(100)
+    assert (ANSWER.unpack_from(said)[0], said[ANSWER.size :]) == (errno.EIO, b"bad")

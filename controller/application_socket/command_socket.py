@@ -11,8 +11,11 @@ import contextlib
 import errno
 import math
 import select
-from collections.abc import Sequence
+import socket
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -21,13 +24,16 @@ from controller import __version__
 from controller.application_socket import messages
 from controller.application_socket.connection import UNWATCHED, Connection, LineTooLong, MessageTooLong
 from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, Id, Play
+from controller.application_socket.peers import Peer, Right, Rights, peer_of
 from controller.application_socket.socket_file import SocketFile
 from controller.application_socket.tickets import FULL, Tickets, Waiting
 from controller.board import Board
 from controller.command_source import Outcome, PanelControl
 from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
+from controller.log import Priority, tell
 from controller.panel_state import Condition
+from controller.performance import MOST_WAITING
 from controller.touch.samples import TouchSample
 
 NOW = -math.inf
@@ -48,7 +54,9 @@ class SocketCounters:
     """What came over the socket; each of `lines` was played, merged, skipped, refused or done, or still waits."""
 
     clients: int = 0
-    turned_away: int = 0  # because there were as many as the board allows
+    turned_away: int = 0  # because there were as many as the board allows, of all or of one user
+    without_right: int = 0  # clients that may not even play; they are told and let go
+    gave_way: int = 0  # silent ones whose place was needed
     told_to_go: int = 0  # because they did not read
     lines: int = 0
     played: int = 0
@@ -57,6 +65,7 @@ class SocketCounters:
     refused: int = 0  # for any reason, `over_rate` and `not_valid` included
     done: int = 0  # commands that are not to play
     over_rate: int = 0
+    not_allowed: int = 0  # commands that the client has no right to
     not_valid: int = 0  # what cannot be read, or be meant on this board
     unanswered: int = 0  # outcomes that nobody was told: the client had gone
     stray_outcomes: int = 0  # of tickets that nobody holds: a mistake of this program
@@ -71,6 +80,8 @@ class CommandSocket:
         Whose plate it is.
     settings : ApplicationSocket
         Where the socket is, for whom, and how much each client may ask.
+    peer_of : callable, optional
+        Tells who has connected.
 
     Raises
     ------
@@ -78,12 +89,17 @@ class CommandSocket:
         If the socket cannot be made, or belongs to a running service.
     """
 
-    def __init__(self, board: Board, settings: ApplicationSocket) -> None:
+    def __init__(self, board: Board, settings: ApplicationSocket, peer_of: Callable[[socket.socket], Peer] = peer_of) -> None:
         self.counters = SocketCounters()
         self.condition = Condition()
         self._board = board
         self._max_amplitude = settings.max_amplitude
+        self._rights = Rights(settings)
+        self._peer_of = peer_of
+        self._clients_per_user = settings.clients_per_user
+        self._idle_s = settings.idle_s
         self._file = SocketFile(settings)
+        self._disarmed = Path(f"{settings.path}.disarmed")
         self._listener_fd = self._file.listener.fileno()
         self._listen_s = NEVER  # when the listener is looked at again
         self._epoll = select.epoll()
@@ -95,11 +111,15 @@ class CommandSocket:
         self._numbers = msgspec.json.Decoder(messages.Numbered)
         self._figures: dict[str, Any] = {}
         self._figures_until_s = -math.inf
-        self._turned_away = (
-            msgspec.json.encode(messages.Farewell(reason=f"{len(self._clients)} clients are connected already")) + b"\n"
-        )
+        self._waiting_of: Counter[int] = Counter()  # commands without an outcome, by user
+        self._share = math.inf  # of these, the most that one user may have
         self._subscribers = 0
         self._next_s = NEVER
+
+    @property
+    def disarmed(self) -> bool:
+        """Whether the panel was disarmed and not armed again, by a client of this service or of one before it that has died."""
+        return self._disarmed.exists()
 
     def fileno(self) -> int:
         """File to wait on for reading."""
@@ -111,15 +131,18 @@ class CommandSocket:
 
     def serve(self, now_s: float, control: PanelControl) -> None:
         """Read what clients sent, a bounded part of it, and answer what can be answered."""
+        knocks = False
         for fd, events in self._epoll.poll(0, EVENTS_A_TURN):
             if fd == self._listener_fd:
-                self._accept(now_s)
+                knocks = True
                 continue
             client = next(client for client in self._clients if client.fd == fd)
             if events & (select.EPOLLHUP | select.EPOLLERR):
                 client.deaf = True  # both ways are shut: what it sent still counts
             if not client.ended:
                 client.receive()
+        if knocks:  # after the events: a client may have to give way
+            self._accept(now_s)
         if self._listen_s <= now_s:
             self._listen_s = NEVER
             self._epoll.register(self._listener_fd, select.EPOLLIN)
@@ -164,8 +187,12 @@ class CommandSocket:
         self._answer_ticket(ticket, outcome, reason=reason)
 
     def changed(self, condition: Condition) -> None:
-        """Take note of how the panel is."""
+        """Take note of how the panel is, and tell those who asked for it."""
         self.condition = condition
+        for client in self._clients:
+            if client.open and client.informed:
+                client.put(self._state(None))
+                self._send(client)
 
     def close(self) -> None:
         """Let all clients go."""
@@ -188,17 +215,55 @@ class CommandSocket:
                     raise
                 break
             accepted.setblocking(False)
-            free = next((client for client in self._clients if not client.open), None)
-            if free is None:
-                self.counters.turned_away += 1
-                with accepted, contextlib.suppress(OSError):
-                    accepted.send(self._turned_away)
-                continue
-            self.counters.clients += 1
-            free.begin(accepted, self.counters.clients, now_s)
-            self._watch(free, select.EPOLLIN)
+            self._receive(accepted, now_s)
         self._epoll.unregister(self._listener_fd)
         self._listen_s = now_s + PAUSE_S
+
+    def _receive(self, accepted: socket.socket, now_s: float) -> None:
+        """Give a new client a place, or tell it why not."""
+        peer = self._peer_of(accepted)
+        rights = self._rights.of(peer)
+        if not rights:
+            self.counters.without_right += 1
+            _send_away(accepted, self._rights.why_not(peer, "play"), "play")
+            return
+        place, reason = self._place_for(peer, rights, now_s)
+        if place is None:
+            self.counters.turned_away += 1
+            _send_away(accepted, reason)
+            return
+        self.counters.clients += 1
+        place.begin(accepted, self.counters.clients, now_s, peer, rights)
+        self._watch(place, select.EPOLLIN)
+        self._share_anew()
+
+    def _place_for(self, peer: Peer, rights: tuple[Right, ...], now_s: float) -> tuple[Connection | None, str]:
+        """A place, or why there is none.
+
+        No user has more than a share of the places. Where none is left, the client that has been silent for longest gives
+        way: if that is long enough, or if somebody comes who may switch the panel off.
+        """
+        operator = "operate" in rights
+        there = [client for client in self._clients if client.open]
+        own = [client for client in there if client.peer.uid == peer.uid]
+        reason = ""
+        if not operator and len(own) >= self._clients_per_user:
+            there, reason = own, f"{len(own)} clients of {self._rights.called(peer)} are connected already"
+        elif len(there) == len(self._clients):
+            reason = f"{len(there)} clients are connected already"
+        else:
+            return next(client for client in self._clients if not client.open), ""
+        idle = [client for client in there if client.silent and now_s - client.heard_s >= self._idle_s]
+        if operator and not idle:
+            idle = [client for client in there if "operate" not in client.rights]
+        if not idle:
+            return None, reason
+        gone = min(idle, key=lambda client: (not client.silent, client.heard_s))
+        self.counters.gave_way += 1
+        gone.leave("its place was needed, and it had been silent for longest")
+        gone.flush()
+        self._let_go(gone)
+        return gone, ""
 
     def _handle_lines(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
         """Answer at most so many of a client's lines; how many it were."""
@@ -215,6 +280,7 @@ class CommandSocket:
             if line is None:
                 return done
             self.counters.lines += 1
+            client.heard_s = now_s
             if client.take_token(now_s):
                 self._handle(client, line, now_s, control)
             else:
@@ -270,6 +336,17 @@ class CommandSocket:
     def _do(self, client: Connection, request: AnyRequest, now_s: float, control: PanelControl) -> None:
         """All but `Play`."""
         match request:
+            case messages.Arm() | messages.Disarm() | messages.LoadScene() if "operate" not in client.rights:
+                self.counters.not_allowed += 1
+                self._answer(client, request.id, "refused", self._rights.why_not(client.peer, "operate"))
+            case messages.Arm() | messages.Disarm():
+                on = isinstance(request, messages.Arm)
+                tell(f"{self._rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
+                control.switch(on)
+                self._remember(on)
+                self._answer(client, request.id, "done")
+            case messages.AskState(id=number):
+                self._tell(client, self._state(number))
             case messages.LoadScene(id=number, name=name):
                 ticket = self._ticket(client, number)
                 if ticket == FULL:
@@ -278,7 +355,8 @@ class CommandSocket:
                     control.load_scene(ticket, name)
                 except ControllerError as error:
                     self.loaded(ticket, str(error))
-                return
+                else:
+                    tell(f"{self._rights.called(client.peer)} loads the scene {name!r}")
             case messages.AskFigures(id=number):
                 if now_s >= self._figures_until_s:
                     self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
@@ -299,13 +377,41 @@ class CommandSocket:
                         width_mm=self._board.plate.width_mm,
                         max_amplitude=self._max_amplitude,
                         effects=control.effects(),
+                        rights=client.rights,
                     ),
                 )
-            case messages.Subscribe() | messages.Unsubscribe():
-                self._subscribe(client, isinstance(request, messages.Subscribe))
+            case messages.Subscribe(to=to):
+                self._subscribe(client, client.subscribed or "touches" in to)
+                self._answer(client, request.id, "done")
+                if "state" in to:
+                    client.informed = True
+                    client.put(self._state(None))
+            case messages.Unsubscribe():
+                self._unsubscribe(client)
                 self._answer(client, request.id, "done")
 
-    def _tell(self, client: Connection, message: messages.Figures | messages.Greeting) -> None:
+    def _remember(self, on: bool) -> None:
+        """Beside the socket, for a service that has to take the place of this one."""
+        try:
+            if on:
+                self._disarmed.unlink(missing_ok=True)
+            else:
+                self._disarmed.touch(mode=0o600)
+        except OSError as error:
+            tell(f"{self._disarmed}: {error.strerror}: a restart would not know that the panel was switched", Priority.WARNING)
+
+    def _state(self, number: Id) -> messages.State:
+        now = self.condition
+        return messages.State(
+            id=number,
+            state=now.state.value,
+            cause=now.cause,
+            outputs_on=now.outputs_on,
+            panel_present=now.panel_present,
+            temperature_c=now.temperature_c,
+        )
+
+    def _tell(self, client: Connection, message: messages.Figures | messages.Greeting | messages.State) -> None:
         """Answer by what was asked for."""
         try:
             client.put(message)
@@ -318,20 +424,37 @@ class CommandSocket:
         self._subscribers += wanted - client.subscribed
         client.subscribed = wanted
 
+    def _unsubscribe(self, client: Connection) -> None:
+        self._subscribe(client, False)
+        client.informed = False
+
     def _ticket(self, client: Connection, number: Id) -> int:
         """A ticket for a command; FULL if it had to be refused."""
-        ticket = FULL if client.waiting >= WAITING_PER_CLIENT else self._tickets.take(Waiting(client.serial, number))
+        uid = client.peer.uid
+        waiting = self._waiting_of[uid]
+        full = client.waiting >= WAITING_PER_CLIENT or waiting >= self._share
+        ticket = FULL if full else self._tickets.take(Waiting(client.serial, number, uid))
         if ticket == FULL:
-            self._answer(client, number, "refused", f"{client.waiting} commands wait for their outcome already")
+            most = max(client.waiting, waiting)
+            self._answer(client, number, "refused", f"{most} commands wait for their outcome already")
         else:
             client.waiting += 1
+            self._waiting_of[uid] = waiting + 1
         return ticket
+
+    def _share_anew(self) -> None:
+        """Where there are several users, what those of one have waiting never pushes out what another has on the plate."""
+        users = len({client.peer.uid for client in self._clients if client.open})
+        self._share = math.inf if users < 2 else max(MOST_WAITING // users, 1)
 
     def _answer_ticket(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
         holder = self._tickets.give_back(ticket)
         if holder is None:
             self.counters.stray_outcomes += 1
             return
+        self._waiting_of[holder.uid] -= 1
+        if not self._waiting_of[holder.uid]:
+            del self._waiting_of[holder.uid]
         self._count(outcome)
         client = next((client for client in self._clients if client.serial == holder.serial), None)
         if client is None:
@@ -375,10 +498,10 @@ class CommandSocket:
         client.flush()
         if client.leaving_reason and client.leave_s == NEVER:
             self.counters.told_to_go += 1
-            self._subscribe(client, False)
+            self._unsubscribe(client)
             client.leave_s = now_s + LEAVE_S
         has_line = client.has_line and not client.leaving_reason
-        over = client.ended and not has_line and not client.waiting and not client.subscribed
+        over = client.ended and not has_line and not client.waiting and not client.subscribed and not client.informed
         if (
             (client.leaving_reason and not client.unsent)
             or client.leave_s <= now_s
@@ -407,8 +530,15 @@ class CommandSocket:
     def _let_go(self, client: Connection) -> None:
         if client.watched != UNWATCHED:
             self._epoll.unregister(client.fd)
-        self._subscribe(client, False)
+        self._unsubscribe(client)
         client.close()
+        self._share_anew()
+
+
+def _send_away(accepted: socket.socket, reason: str, lacks: Right | None = None) -> None:
+    """Tell a client why it has to go at once."""
+    with accepted, contextlib.suppress(OSError):
+        accepted.send(msgspec.json.encode(messages.Farewell(reason=reason, lacks=lacks)) + b"\n")
 
 
 def _events(client: Connection) -> int:

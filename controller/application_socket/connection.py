@@ -8,12 +8,14 @@ import socket
 import msgspec
 
 from controller.application_socket.messages import LINE_BYTES, AnyMessage, Farewell
+from controller.application_socket.peers import Peer, Right
 
 QUEUE_BYTES = 65536  # answers and touches that wait for a client to read them
 FAREWELL_BYTES = 512  # kept free behind them, to say why it has to go
 CLOSED = -1
 UNWATCHED = -1
 NEWLINE = 10
+NOBODY = Peer(-1, -1, frozenset())
 
 
 class LineTooLong(ValueError):
@@ -37,7 +39,11 @@ class Connection:
         self.fd = CLOSED
         self.serial = -1
         self.watched = UNWATCHED  # events asked of epoll, hanging up always among them
-        self.subscribed = False
+        self.peer = NOBODY
+        self.rights: tuple[Right, ...] = ()
+        self.heard_s = -math.inf  # when it said something last
+        self.subscribed = False  # to touches
+        self.informed = False  # of the panel's state
         self.ended = False  # the client sends no more
         self.deaf = False  # the client reads no more
         self.leaving_reason = ""
@@ -58,12 +64,13 @@ class Connection:
         self._encoder = msgspec.json.Encoder()
         self._line = bytearray()
 
-    def begin(self, client: socket.socket, serial: int, now_s: float) -> None:
+    def begin(self, client: socket.socket, serial: int, now_s: float, peer: Peer = NOBODY, rights: tuple[Right, ...] = ()) -> None:
         """Take a client."""
         self._socket = client
+        self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
         self.serial = serial
-        self.subscribed = self.ended = self.deaf = self._skipping = False
+        self.subscribed = self.informed = self.ended = self.deaf = self._skipping = False
         self.leaving_reason = ""
         self.leave_s, self.resume_s = math.inf, -math.inf
         self.watched, self.waiting = UNWATCHED, 0
@@ -82,6 +89,11 @@ class Connection:
     def open(self) -> bool:
         """Whether there is a client."""
         return self.fd != CLOSED
+
+    @property
+    def silent(self) -> bool:
+        """Whether it neither waits for anything nor has said anything that is not answered."""
+        return not (self.subscribed or self.informed or self.waiting or self.has_line or self.leaving_reason)
 
     @property
     def unsent(self) -> bool:

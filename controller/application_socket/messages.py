@@ -1,7 +1,7 @@
 """What goes over the application socket: one JSON object a line, `kind` says which.
 
 Every line of a client is answered exactly once, with its own `id` (null where it gave none, or one
-that cannot be read). Touches come unasked between answers, once subscribed. Lengths are mm and
+that cannot be read). Touches and states come unasked between answers, once subscribed. Lengths are mm and
 times ms here, at the edge; an unknown key is refused, so that a misspelt one is not overlooked.
 """
 
@@ -41,11 +41,25 @@ class Play(Request, frozen=True, kw_only=True, tag="play", gc=False):
 
 
 class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
-    """From now on tell of every touch."""
+    """From now on tell of every touch, or of the panel's state, now and whenever it changes; or of both."""
+
+    to: Annotated[tuple[Literal["touches", "state"], ...], Meta(min_length=1, max_length=2)] = ("touches",)
 
 
 class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
-    """No touches any more."""
+    """No touches and states any more."""
+
+
+class Arm(Request, frozen=True, kw_only=True, tag="arm", gc=False):
+    """Have the outputs on from now on, as far as the FPGA allows it; the state tells when they are."""
+
+
+class Disarm(Request, frozen=True, kw_only=True, tag="disarm", gc=False):
+    """Have the outputs glide to 0 V, and stay off whatever happens, until somebody arms."""
+
+
+class AskState(Request, frozen=True, kw_only=True, tag="state", gc=False):
+    """How is the panel?"""
 
 
 class LoadScene(Request, frozen=True, kw_only=True, tag="load_scene", gc=False):
@@ -87,6 +101,7 @@ class Greeting(Struct, frozen=True, kw_only=True, tag_field="kind", tag="hello",
     width_mm: float
     max_amplitude: float
     effects: tuple[str, ...]
+    rights: tuple[Literal["play", "operate"], ...]
 
 
 class Figures(Struct, frozen=True, kw_only=True, tag_field="kind", tag="figures", gc=False):
@@ -107,14 +122,30 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
     size_mm: float
 
 
-class Farewell(Struct, frozen=True, kw_only=True, tag_field="kind", tag="farewell", gc=False):
-    """The panel ends the connection, and why."""
+class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
+    """How the panel is: answer to `AskState`, or, with an id of null, told to who subscribed.
+
+    `state` is one of `panel_state.PanelState`; `cause` says why not everything works; `temperature_c` is the plate's,
+    null where it is not known.
+    """
+
+    id: Id = None
+    state: str
+    cause: str
+    outputs_on: bool
+    panel_present: bool
+    temperature_c: float | None
+
+
+class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="farewell", gc=False):
+    """The panel ends the connection, and why; `lacks` names a right without which there is none."""
 
     reason: str
+    lacks: Literal["play", "operate"] | None = None
 
 
-AnyRequest = Play | Subscribe | Unsubscribe | LoadScene | AskFigures | Hello
-AnyMessage = Answer | Greeting | Figures | Touch | Farewell
+AnyRequest = Play | Subscribe | Unsubscribe | Arm | Disarm | LoadScene | AskFigures | AskState | Hello
+AnyMessage = Answer | Greeting | Figures | State | Touch | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:

@@ -9,10 +9,11 @@ NONE = -1
 
 
 class Waiting(NamedTuple):
-    """Where the answer to a ticket goes: the client, as its `serial`, and the id that it chose."""
+    """Where the answer to a ticket goes: the client, as its `serial`, and the id that it chose; and whose share it takes."""
 
     serial: int
     id: int | str | None
+    uid: int = -1
 
 
 NOBODY = Waiting(-1, None)

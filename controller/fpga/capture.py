@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,18 @@ class Capture:
         1 where the high-voltage supply is enabled from that tick on.
     focus_ticks : (k,) uint64 array
         Rises of `focus_o`: t = T of each emission that ran to its end.
+    alive_ticks, waiting_ticks, fault_ticks : (k,) uint64 arrays
+        Each change of `hv_alive_o`, `waiting_o` and `fault_o`, which are low at reset.
+    miso_ticks, uart_ticks : (k,) uint64 arrays
+        The same of `spi_miso_o`, low at reset, and of `uart_tx_o`, which is high; of the model only if it was told to note them.
     """
 
     ticks: NDArray[np.uint64]
     words: NDArray[np.uint32]
     hv: NDArray[np.uint8]
     focus_ticks: NDArray[np.uint64]
+    alive_ticks: NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))
+    waiting_ticks: NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))
+    fault_ticks: NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))
+    miso_ticks: NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))
+    uart_ticks: NDArray[np.uint64] = field(default_factory=lambda: np.zeros(0, np.uint64))

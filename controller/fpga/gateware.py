@@ -30,6 +30,16 @@ TRIGGER_PERIOD_TICKS = 8  # between rises of the trigger: high for four clocks, 
 EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
 
 
+BAUD = 1_000_000  # of the UART, what `haptic_core.v` has by itself
+
+
+class Port(IntEnum):
+    """The links that frames come by."""
+
+    SPI = 0
+    UART = 1
+
+
 class Permit(IntEnum):
     """Inputs that have to be high for the outputs to be on."""
 
@@ -135,10 +145,42 @@ GatewareFactory = Callable[[Parameters], Gateware]
 """Gateware just out of reset."""
 
 
+@dataclass(frozen=True)
+class UartTiming:
+    """Bits and bytes of the UART in ticks, as `uart_receiver.v` and `uart_transmitter.v` count them.
+
+    Attributes
+    ----------
+    bit_256 : int
+        Length of a bit, in 256ths of a tick.
+    """
+
+    bit_256: int
+
+    @classmethod
+    def of(cls, parameters: Parameters) -> Self:
+        """At the rate that the gateware has by itself."""
+        return cls((parameters.clock_hz * 512 // BAUD + 1) // 2)
+
+    def bit_tick(self, tick: int, byte: int, bit: int) -> int:
+        """When a bit begins (0: start, 9: stop) of bytes sent back to back from `tick` on."""
+        return tick + ((10 * byte + bit) * self.bit_256 >> 8)
+
+    def heard_tick(self, tick: int) -> int:
+        """The tick in which a byte is there whose start bit falls at `tick`: in the middle of its stop bit."""
+        return tick + 4 + (self.bit_256 // 2 - 256 + 9 * self.bit_256 >> 8)
+
+
 def frame_ticks(size_bytes: int) -> int:
     """The least from the fall of chip select to its rise."""
     clocked = SCK_TICKS * (8 * size_bytes - 1) + SCK_TO_RELEASE_TICKS if size_bytes else 0
     return SELECT_TO_SCK_TICKS + clocked
+
+
+def sck_rise_tick(select_tick: int, release_tick: int, size_bytes: int, bit: int) -> int:
+    """When SCK rises for a bit of a frame, its rises spread evenly between the edges of chip select."""
+    room = release_tick - select_tick - SELECT_TO_SCK_TICKS - (SCK_TO_RELEASE_TICKS - SCK_TICKS)
+    return select_tick + SELECT_TO_SCK_TICKS + bit * room // (8 * size_bytes)
 
 
 class InputTiming:

@@ -13,16 +13,20 @@ from typing import NamedTuple
 
 from controller.fpga.capture import Capture
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER, Status, pack_status
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit, Port, UartTiming, sck_rise_tick
 from controller.fpga.model_commands import Commands
 from controller.fpga.model_decoder import Frame, judge
 from controller.fpga.model_gate import PIN_TICKS, Gate
+from controller.fpga.model_lines import Lines
 from controller.fpga.model_player import DECISION_TICKS, Play
+from controller.fpga.model_uart import BEGIN_TICKS, BYTE_TO_PULSE_TICKS, DELIVER_TICKS, UartSide
 from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
 
 INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
 TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough
 JUDGE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
+LANDED_TICKS = 4  # from the rise of SCK that ends a word of a LOAD to the tick in which it is written
+EMPTY_TICKS = 2  # from the rise of chip select to the last tick of a selection without any bit
 RATE_TICKS = 1  # beyond the time between the edges of chip select, for which a LOAD is found to have lasted
 
 
@@ -33,6 +37,13 @@ class _Kind(Enum):
     ENDED = 3
     FRAME = 4
     UNDERRUN = 5
+    LANDING = 6  # the first word of a LOAD is written
+    UART_BYTE = 7
+    UART_JUDGED = 8
+    UART_BEGIN = 9  # the core's turn is the UART's
+
+
+_UARTS_TURN = (_Kind.UART_BEGIN, _Kind.LANDING, _Kind.FRAME)
 
 
 class _Event(NamedTuple):
@@ -45,12 +56,22 @@ class _Event(NamedTuple):
     landing_busy: bool = False  # when it began
     landing_live: bool = False
     queue_full: bool = False
+    port: Port = Port.SPI
+    byte: int = 0
 
 
 class GatewareModel:
-    """`haptic_core.v` with its pins: a `Gateware`."""
+    """`haptic_core.v` with its pins: a `Gateware`.
 
-    def __init__(self, parameters: Parameters) -> None:
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the module.
+    lines : bool
+        Captures show every change of MISO and of the UART's line too.
+    """
+
+    def __init__(self, parameters: Parameters, *, lines: bool = False) -> None:
         self._commands = Commands(parameters)
         self._gate = self._commands.gate
         self._player = self._commands.player
@@ -62,6 +83,9 @@ class GatewareModel:
         self._timing = InputTiming()
         self._events: list[_Event] = []
         self._permit_pins = dict.fromkeys(Permit, False)
+        self._uart = UartSide(UartTiming.of(parameters))
+        self._spi_until = 0  # the last tick in which a frame of the SPI has the core, as far as is known
+        self._lines = Lines(noting_frames=lines)
 
     @property
     def now(self) -> int:
@@ -71,8 +95,10 @@ class GatewareModel:
     def advance(self, tick: int) -> None:
         """Go to `tick`; a tick already passed changes nothing."""
         while (change := self.next_change()) is not None and change < tick:
+            self._lines.settle(change)
             self._step(change)
             self._now = change + 1
+            self._lines.note(self._now, fault=bool(self._gate.faults), waiting_from=self._waiting_from())
             self._gate.limits.settle(change - PIN_TICKS)
         self._now = max(self._now, tick)
 
@@ -102,19 +128,23 @@ class GatewareModel:
             raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._now}")
         self._timing.frame(select_tick, release_tick, len(mosi))
         self.advance(select_tick + INPUT_TICKS)
-        answer = bytearray(max(FRAME_BYTES, len(miso)))
+        answer = bytearray(max(FRAME_BYTES, len(miso)) + 1)
         pack_status(answer, 0, self.status())
         sent = memoryview(mosi).cast("B")
-        if len(sent) > FRAME_BYTES and sent[2] == FrameType.TEST:
-            answer[FRAME_BYTES : len(sent)] = sent[FRAME_BYTES - ECHO_DELAY_BYTES : -ECHO_DELAY_BYTES]
+        if len(sent) >= FRAME_BYTES and sent[2] == FrameType.TEST:
+            answer[FRAME_BYTES : len(sent) + 1] = sent[FRAME_BYTES - ECHO_DELAY_BYTES : len(sent) + 1 - ECHO_DELAY_BYTES]
         miso[:] = answer[: len(miso)]
+        self._lines.exchange(select_tick, release_tick, answer, len(miso))
+        self._spi_until = release_tick + (JUDGE_TICKS if len(sent) else EMPTY_TICKS)
+        self._put_the_uart_off()
         if not len(sent):
             return
         frame = judge(sent)
         commands = self._commands
         busy, live = commands.landing_busy, commands.landing_live
-        if frame.loaded_words and not busy and not (live and self._buffers.chunk_words[frame.argument]):
-            self._buffers.write(frame.argument, sent[HEADER.size : HEADER.size + 4 * frame.loaded_words])
+        if frame.loaded_words:
+            written = sck_rise_tick(select_tick, release_tick, len(sent), 8 * (HEADER.size + 4) - 1) + LANDED_TICKS
+            self._expect(_Event(written, _Kind.LANDING, frame=frame, landing_busy=busy, landing_live=live))
         ticks = release_tick - select_tick + RATE_TICKS
         self._expect(
             _Event(
@@ -128,18 +158,64 @@ class GatewareModel:
             )
         )
 
+    def uart(self, tick: int, wire: bytes) -> int:
+        """Send bytes over the UART, back to back, the first start bit at `tick`; the tick in which the last stop bit ends."""
+        timing = self._uart.timing
+        for number, byte in enumerate(wire):
+            heard = timing.heard_tick(timing.bit_tick(tick, number, 0))
+            self._expect(_Event(heard + BYTE_TO_PULSE_TICKS, _Kind.UART_BYTE, byte=byte))
+        return timing.bit_tick(tick, len(wire), 0)
+
     def take_capture(self) -> Capture:
         """Everything that happened on the pins since the last capture, up to now."""
-        return self._gate.pins.take(self._now)
+        capture = self._gate.pins.take(self._now)
+        self._lines.settle(self._now)
+        return self._lines.take(capture, self._now, self._uart.take_tx(self._now))
 
     def _expect(self, event: _Event) -> None:
         if event.tick < self._now:
             raise ValueError(f"{event.kind.name} for tick {event.tick} after the model has gone to tick {self._now}")
         insort(self._events, event, key=lambda entry: entry.tick)
 
-    def status(self) -> Status:
-        """What a frame whose chip select fell two ticks ago would be answered."""
-        gate, player, telemetry, now = self._gate, self._player, self._telemetry, self._now
+    def _put_the_uart_off(self) -> None:
+        """A frame of the SPI begins in this tick: one of the UART that was handed on is handed on again behind it."""
+        if self._uart.pending is None:
+            return
+        self._events = [event for event in self._events if event.port is Port.SPI or event.kind not in _UARTS_TURN]
+        self._expect(_Event(self._spi_until + 1, _Kind.UART_BEGIN, port=Port.UART))
+
+    def _hand_on(self, tick: int) -> None:
+        """The core is the UART's from this tick on, as long as no frame of the SPI begins."""
+        frame, commands = self._uart.pending, self._commands
+        assert frame
+        event = _Event(
+            tick + frame.payload_words + DELIVER_TICKS,
+            _Kind.FRAME,
+            frame=frame,
+            landing_busy=commands.landing_busy,
+            landing_live=commands.landing_live,
+            queue_full=self._queue.full,
+            port=Port.UART,
+        )
+        self._expect(event)
+        if frame.loaded_words:
+            self._expect(event._replace(tick=tick + 1, kind=_Kind.LANDING))
+
+    def _hear(self, tick: int, byte: int) -> None:
+        """A byte has come by the UART."""
+        begins, frame = self._uart.hear(byte)
+        if begins:
+            answer = bytearray(FRAME_BYTES)
+            pack_status(answer, 0, self.status(Port.UART, tick))
+            self._uart.answer(tick, bytes(answer))
+        if frame is not None:
+            self._expect(_Event(tick + 1, _Kind.UART_JUDGED, frame=frame))
+
+    def status(self, port: Port = Port.SPI, tick: int | None = None) -> Status:
+        """What a link is answered whose frame's beginning is seen in this tick, now unless told otherwise."""
+        gate, player, telemetry = self._gate, self._player, self._telemetry
+        now = self._now if tick is None else tick
+        link = telemetry.links[port]
         bits = (
             (State.ARMED, gate.state is Gate.ON),
             (State.RAMPING, gate.ramping),
@@ -153,15 +229,15 @@ class GatewareModel:
             (State.TEMPERATURE_GOOD, gate.permits[Permit.TEMPERATURE]),
             (State.CHECKING, self._buffers.checking(now)),
             (State.DELAYED, player.delayed),
-            (State.WAITING, self._waiting()),
+            (State.WAITING, self._waiting(now)),
         )
         state = State(sum(bit for bit, holds in bits if holds))
         return Status(
-            telemetry.result,
-            telemetry.sequence,
+            link.result,
+            link.sequence,
             state,
             gate.faults,
-            telemetry.data,
+            link.data,
             telemetry.triggers & 0xFFFFFFFF,
             now,
             telemetry.emissions & 0xFFFFFFFF,
@@ -170,9 +246,16 @@ class GatewareModel:
             telemetry.ignored & 0xFFFF,
         )
 
-    def _waiting(self) -> bool:
-        head = self._queue.head(self._now)
-        return head is not None and head.start is Start.TRIGGER and self._free(self._now)
+    def _waiting(self, tick: int) -> bool:
+        begin = self._waiting_from()
+        return begin is not None and tick >= begin
+
+    def _waiting_from(self) -> int | None:
+        """The tick from which on the head waits for a trigger, if nothing else happens."""
+        plays, player = self._queue.plays, self._player
+        if not plays or plays[0].start is not Start.TRIGGER or self._gate.state is not Gate.ON or player.playing or player.delayed:
+            return None
+        return max(self._queue.head_from, player.free_from)
 
     def _free(self, tick: int) -> bool:
         """A play at the head may begin."""
@@ -213,6 +296,12 @@ class GatewareModel:
         player.known_words = end
         return True
 
+    def _land(self, event: _Event) -> None:
+        """Words of a LOAD are written, unless what is there plays; its chunk does not count until it is accepted."""
+        chunk = event.frame.argument
+        if not event.landing_busy and not (event.landing_live and self._buffers.chunk_words[chunk]):
+            self._buffers.write(chunk, memoryview(event.frame.payload))
+
     def _step(self, tick: int) -> None:
         """All that happens in one tick; what comes later here wins, as in the Verilog."""
         cause = self._gate.cause(tick)
@@ -220,6 +309,8 @@ class GatewareModel:
         if tick == self._arrival_tick() and not self._arrive():
             self._expect(_Event(tick + 1, _Kind.UNDERRUN))
         frame: _Event | None = None
+        landing: _Event | None = None
+        judged: Frame | None = None
         permits = dict(self._gate.permits)
         while self._events and self._events[0].tick == tick:
             event = self._events.pop(0)
@@ -231,6 +322,14 @@ class GatewareModel:
                 cause |= Fault.UNDERRUN if self._gate.live(tick) else Fault(0)
             elif event.kind is _Kind.FRAME:
                 frame = event
+            elif event.kind is _Kind.LANDING:
+                landing = event
+            elif event.kind is _Kind.UART_BYTE:
+                self._hear(tick, event.byte)
+            elif event.kind is _Kind.UART_JUDGED:
+                judged = event.frame
+            elif event.kind is _Kind.UART_BEGIN:
+                self._hand_on(tick)
             else:
                 trigger |= event.kind is _Kind.TRIGGER
                 ended |= event.kind is _Kind.ENDED
@@ -238,12 +337,23 @@ class GatewareModel:
         if frame is not None:
             effect = self._commands.carry_out(
                 tick,
+                frame.port,
                 frame.frame,
                 frame.ticks,
                 landing_busy=frame.landing_busy,
                 landing_live=frame.landing_live,
                 queue_full=frame.queue_full,
             )
+            if frame.port is Port.UART:
+                self._uart.pending = None
+        if landing is not None:
+            self._land(landing)
+        if judged is not None and judged.refusal is not Result.OK:
+            self._commands.refuse(Port.UART, judged.refusal)
+        elif judged is not None:
+            self._uart.pending = judged
+            begin = max(tick + BEGIN_TICKS - 1, self._spi_until + 1)
+            self._expect(_Event(begin, _Kind.UART_BEGIN, port=Port.UART))
         if ended and not cause:
             self._telemetry.emissions += 1
             self._gate.pins.focus(tick + 1, self._registers.bit_ticks)

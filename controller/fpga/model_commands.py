@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.gateware import Parameters, Permit, Port
 from controller.fpga.model_buffers import Buffers
 from controller.fpga.model_decoder import Frame
 from controller.fpga.model_gate import Gate, OutputGate
@@ -42,20 +42,28 @@ _HIGH_OF = {
 
 
 @dataclass
-class Telemetry:
-    """Everything that is only counted or noted."""
+class Conversation:
+    """What a link is told of itself alone."""
 
     result: Result = Result.OK
     sequence: int = 0
     data: int = 0
     high: int = 0  # half of the time whose LOW was read last
+    frame_errors: int = 0
+    gaps: int = 0
+    unlocked: bool = False  # by the frame before
+
+
+@dataclass
+class Telemetry:
+    """Everything that is only counted or noted."""
+
+    links: tuple[Conversation, Conversation] = field(default_factory=lambda: (Conversation(), Conversation()))  # by Port
     triggers: int = 0
     ignored: int = 0
     missed: int = 0
     emissions: int = 0
     underruns: int = 0
-    frame_errors: int = 0
-    gaps: int = 0
     trigger_tick: int = 0
     emission_tick: int = 0
     input_tick: int = 0
@@ -68,6 +76,7 @@ class Effect(NamedTuple):
     take: Callable[[int], None]
     halts: bool = False  # nothing begins in its tick
     triggers: bool = False
+    arms: bool = False
 
 
 class Commands:
@@ -80,9 +89,9 @@ class Commands:
         self.player = Player()
         self.queue = Queue()
         self.telemetry = Telemetry()
-        self._unlocked = False
         self._fast = False  # the last LOAD came as fast as it would play
         self._free_tick = 0  # when the last scheduled play will be over
+        self._armed_by = Port.SPI
 
     @property
     def landing_busy(self) -> bool:
@@ -100,29 +109,32 @@ class Commands:
         self.queue.drop(tick)
         self._free_tick = 0
 
+    def refuse(self, port: Port, refusal: Result) -> None:
+        """Note that a frame was refused."""
+        link = self.telemetry.links[port]
+        link.result, link.unlocked = refusal, False
+        link.frame_errors += 1
+
     def carry_out(
-        self, tick: int, frame: Frame, ticks: int, *, landing_busy: bool, landing_live: bool, queue_full: bool
+        self, tick: int, port: Port, frame: Frame, ticks: int, *, landing_busy: bool, landing_live: bool, queue_full: bool
     ) -> Effect | None:
         """Note the result of a frame from the state as it was; its effect comes after everything else of the tick."""
-        telemetry = self.telemetry
-        telemetry.result = frame.refusal
-        unlocked, self._unlocked = self._unlocked, False
         if frame.refusal is not Result.OK:
-            telemetry.frame_errors += 1
+            self.refuse(port, frame.refusal)
             return None
-        telemetry.gaps += frame.sequence != telemetry.sequence + 1 & 0xFF
-        telemetry.sequence = frame.sequence
-        self.gate.hear(tick)
+        telemetry = self.telemetry.links[port]
+        telemetry.result = Result.OK
+        unlocked, telemetry.unlocked = telemetry.unlocked, False
         effect: Effect | None = None
         if frame.kind == FrameType.READ:
-            telemetry.result = self._read(tick, frame.argument)
+            telemetry.result = self._read(tick, telemetry, frame.argument)
         elif frame.kind == FrameType.WRITE and frame.argument == Register.CONTROL:
-            telemetry.result, effect = self._control(frame.words, unlocked)
+            telemetry.result, effect = self._control(telemetry, frame.words, unlocked)
         elif frame.kind == FrameType.WRITE:
             telemetry.result = self._write(tick, frame.argument, frame.words[0])
         elif frame.kind == FrameType.LOAD:
             words = frame.loaded_words
-            self._fast = words * self.registers.bit_period >= ticks << 16
+            self._fast = port is Port.SPI and words * self.registers.bit_period >= ticks << 16
             telemetry.result = self._load(frame.argument, words, landing_busy=landing_busy, landing_live=landing_live)
         elif frame.kind == FrameType.STORE:
             length_words, crc = frame.words[:2]
@@ -131,6 +143,13 @@ class Commands:
             telemetry.result, effect = self._play(tick, frame, queue_full=queue_full)
         elif frame.kind not in (FrameType.NOP, FrameType.TEST):
             telemetry.result = Result.UNKNOWN_TYPE
+        telemetry.gaps += frame.sequence != telemetry.sequence + 1 & 0xFF  # a READ of the gaps does not count its own
+        telemetry.sequence = frame.sequence
+        if effect is not None and effect.arms:
+            self._armed_by = port
+            self.gate.hear(tick)
+        elif self.gate.state is not Gate.OFF and port is self._armed_by:
+            self.gate.hear(tick)
         return effect
 
     def _write(self, tick: int, address: int, value: int) -> Result:
@@ -141,7 +160,7 @@ class Commands:
             self.gate.limits.activity(tick + 2, active=False)  # clamped once more on its way
         return result
 
-    def _read(self, tick: int, address: int) -> Result:
+    def _read(self, tick: int, link: Conversation, address: int) -> Result:
         result, value = Result.OK, 0
         if address >= READ_MEMORY:
             slot, word = divmod(address - READ_MEMORY, 1024)
@@ -157,9 +176,9 @@ class Commands:
         elif address not in set(Register):
             result = Result.UNKNOWN_REGISTER
         else:
-            value = self._register(tick, Register(address))
+            value = self._register(tick, link, Register(address))
         if result is Result.OK:
-            self.telemetry.data = value & 0xFFFFFFFF
+            link.data = value & 0xFFFFFFFF
         return result
 
     def _read_queue(self, tick: int, number: int, word: int) -> tuple[Result, int]:
@@ -170,7 +189,7 @@ class Commands:
             return Result.BUSY, 0
         return Result.OK, plays[number].raw[word]
 
-    def _register(self, tick: int, register: Register) -> int:
+    def _register(self, tick: int, link: Conversation, register: Register) -> int:
         value = self.registers.read(register)
         if value is not None:
             return value
@@ -182,10 +201,10 @@ class Commands:
             Register.EMISSION_TIME_LOW: telemetry.emission_tick,
         }
         if register in times:
-            telemetry.high = times[register] >> 32
+            link.high = times[register] >> 32
             return times[register]
         if register in _HIGH_OF.values():
-            return telemetry.high
+            return link.high
         at_fault = gate.faults & (Fault.SHORT_PULSE | Fault.CHANNEL_EDGES)
         trigger = any(start <= tick < end for start, end in telemetry.trigger_pin)
         inputs = gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2
@@ -200,19 +219,19 @@ class Commands:
             Register.EMISSIONS: telemetry.emissions,
             Register.PLAYS_MISSED: telemetry.missed,
             Register.UNDERRUNS: telemetry.underruns,
-            Register.FRAME_ERRORS: telemetry.frame_errors,
-            Register.SEQUENCE_GAPS: telemetry.gaps,
+            Register.FRAME_ERRORS: link.frame_errors,
+            Register.SEQUENCE_GAPS: link.gaps,
             Register.SLOTS_LOADED: self.buffers.loaded(tick),
             Register.QUEUE: len(self.queue.plays),
             Register.DUTY_LEVEL: gate.limits.duty_level(tick),
         }[register]
 
-    def _control(self, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
+    def _control(self, link: Conversation, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
         command, *key = words[:4]
         if command == Control.UNLOCK:
             if tuple(key) != (IDENTITY_MAGIC, PROTOCOL_VERSION, self.registers.parameters.build_hash):
                 return Result.BAD_KEY, None
-            self._unlocked = True
+            link.unlocked = True
             return Result.OK, None
         if command == Control.ARM:
             if not unlocked:
@@ -221,7 +240,7 @@ class Commands:
                 return Result.ARMED, None
             if self.gate.faults:
                 return Result.FAULTED, None
-            return (Result.OK, Effect(self.gate.arm)) if all(self.gate.permits.values()) else (Result.NO_PERMIT, None)
+            return (Result.OK, Effect(self.gate.arm, arms=True)) if all(self.gate.permits.values()) else (Result.NO_PERMIT, None)
         effects: dict[int, Effect] = {
             Control.DISARM: Effect(self._disarm, halts=True),
             Control.CLEAR: Effect(self.gate.clear),

@@ -28,6 +28,8 @@ class Frame(NamedTuple):
     argument: int = 0
     words: tuple[int, ...] = (0, 0, 0, 0, 0, 0)
     loaded_words: int = 0  # that entered the landing buffer, at chunk `argument`
+    payload_words: int = 0  # by its header
+    payload: bytes = b""  # of a LOAD
 
 
 def judge(mosi: memoryview) -> Frame:
@@ -44,8 +46,10 @@ def judge(mosi: memoryview) -> Frame:
     else:
         length_good = length == SHORT_PAYLOAD_BYTES
     loaded_words = 0
+    payload = b""
     if is_load and sync_good and length_good and argument < CHUNKS:
         loaded_words = min(size - HEADER.size, length) // 4
+        payload = bytes(mosi[HEADER.size : HEADER.size + 4 * loaded_words])
     if not sync_good:
         refusal = Result.BAD_SYNC
     elif not length_good or size != HEADER.size + length + CRC.size:
@@ -55,4 +59,4 @@ def judge(mosi: memoryview) -> Frame:
     else:
         refusal = Result.OK
     words = SHORT.unpack_from(mosi)[5:] if size >= SHORT.size else Frame(Result.OK).words
-    return Frame(refusal, kind, sequence, argument, words, loaded_words)
+    return Frame(refusal, kind, sequence, argument, words, loaded_words, length // 4, payload)

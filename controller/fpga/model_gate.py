@@ -14,6 +14,7 @@ from controller.fpga.model_registers import RegisterFile
 from controller.fpga.registers import Fault
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
+ALIVE_HZ_4 = 40_000  # `hv_alive_o` changes twice as often as its 20 kHz have periods
 _LIMITS_SHIFT = int(Fault.SHORT_PULSE).bit_length() - 1
 
 
@@ -34,7 +35,7 @@ class OutputGate:
     def __init__(self, registers: RegisterFile) -> None:
         self._registers = registers
         self.limits = StageLimits(registers.limits, registers.parameters.edge_window_ticks)
-        self.pins = Pins(self.limits)
+        self.pins = Pins(self.limits, max(registers.parameters.clock_hz // ALIVE_HZ_4, 1))
         self.state = Gate.OFF
         self.faults = Fault(0)
         self.fault_count = 0

@@ -45,8 +45,11 @@ class Stretch(NamedTuple):
 class Pins:
     """Channel pins, high-voltage enable and focus pin since the last capture; the stage limits see them too."""
 
-    def __init__(self, limits: StageLimits) -> None:
+    def __init__(self, limits: StageLimits, alive_half_ticks: int) -> None:
         self._limits = limits
+        self._alive_half_ticks = alive_half_ticks
+        self._on_from: int | None = None  # when the high voltage was enabled, at the end of the last capture
+        self._taken_until = -1
         self._stretches = [Stretch(0, np.zeros(1, np.uint32), WHOLE, 0)]
         self._shown = 1  # words of the first stretch that earlier captures had
         self._last = (0, 0)  # word and enable at the end of the last capture
@@ -109,7 +112,25 @@ class Pins:
             self._last = (int(all_words[-1]), int(all_levels[-1]))
         focus_ticks = np.array(self._focus_ticks, np.uint64)
         self._focus_ticks = []
-        return Capture(np.concatenate(ticks)[changed].astype(np.uint64), all_words[changed], all_levels[changed], focus_ticks)
+        all_ticks = np.concatenate(ticks)[changed]
+        alive = self._alive(all_ticks, all_levels[changed], level_before, now)
+        return Capture(all_ticks.astype(np.uint64), all_words[changed], all_levels[changed], focus_ticks, alive_ticks=alive)
+
+    def _alive(self, ticks: NDArray[np.int64], levels: NDArray[np.uint8], level_before: int, now: int) -> NDArray[np.uint64]:
+        """Changes of `hv_alive_o`: high as the enable goes on, then to and fro, low as it goes off."""
+        changes = []
+        switched = np.diff(levels, prepend=np.uint8(level_before)) != 0
+        edges = [*zip(ticks[switched].tolist(), levels[switched].tolist(), strict=True), (now + 1, None)]
+        for tick, level in edges:
+            if self._on_from is not None:
+                toggles = np.arange(self._on_from, tick, self._alive_half_ticks)
+                changes.append(toggles[toggles > self._taken_until])
+                if level == 0 and len(toggles) % 2:
+                    changes.append(np.array([tick]))
+            if level is not None:
+                self._on_from = tick if level else None
+        self._taken_until = now
+        return np.concatenate([np.zeros(0, np.int64), *changes]).astype(np.uint64)
 
 
 def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -> tuple[list[bool], tuple[int, int]]:

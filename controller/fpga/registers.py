@@ -152,7 +152,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     ),
     Register.RAMP_SAMPLES: Description("RW", "17:0", "the board's", "drive words in the glide between 0 and idle"),
     Register.HEARTBEAT_TICKS: Description(
-        "RW", "31:0", "largest", "ticks without a good frame until HOST_SILENT; at most what is built in"
+        "RW", "31:0", "largest", "ticks without a good frame of the link that armed until HOST_SILENT; at most what is built in"
     ),
     Register.PULSE_TICKS: Description(
         "RW", "15:0", "smallest", "shortest time between two changes of one channel; at least what is built in, at most BIT_PERIOD"
@@ -170,7 +170,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
     Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
     Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
-    Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW was read last"),
+    Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW this link read last"),
     Register.INPUTS: Description("RO", "2:0", "the pins", "levels of the pins: run permit (0), temperature good (1), trigger (2)"),
     Register.INPUT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last change of run permit or temperature; holds its HIGH"),
     Register.INPUT_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
@@ -187,8 +187,8 @@ REGISTERS: Final[dict[Register, Description]] = {
         "RO", "31:0", "0", "scheduled plays dropped because their time had passed or something sounded"
     ),
     Register.UNDERRUNS: Description("RO", "31:0", "0", "emissions that overtook their upload"),
-    Register.FRAME_ERRORS: Description("RO", "31:0", "0", "frames refused for sync word, length or CRC"),
-    Register.SEQUENCE_GAPS: Description("RO", "31:0", "0", "accepted frames whose number did not follow the one before"),
+    Register.FRAME_ERRORS: Description("RO", "31:0", "0", "frames of this link refused for sync word, length or CRC"),
+    Register.SEQUENCE_GAPS: Description("RO", "31:0", "0", "frames of this link, before this one, whose number skipped"),
     Register.SLOTS_LOADED: Description("RO", "15:0", "0", "bit k: slot k holds a waveform whose CRC matches"),
     Register.QUEUE: Description("RO", "7:0", "0", "plays accepted and not yet begun"),
     Register.DUTY_LEVEL: Description("RO", "31:0", "0", "ticks of emission that have run ahead of DUTY_SHARE"),
@@ -291,7 +291,7 @@ class Result(IntEnum):
 
 _FAULT_SENTENCES: Final = {
     Fault.NO_PERMIT: "The run permit went away while the outputs were on.",
-    Fault.HOST_SILENT: "No good frame came from the host within the heartbeat time.",
+    Fault.HOST_SILENT: "No good frame came within the heartbeat time from the host that armed.",
     Fault.OVER_TEMPERATURE: "The temperature input went low while the outputs were on.",
     Fault.UNDERRUN: "An emission reached words that had not arrived yet.",
     Fault.SHORT_PULSE: "A channel changed twice within the shortest pulse allowed.",

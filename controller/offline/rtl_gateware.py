@@ -17,11 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit
+from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit, UartTiming
 from controller.offline.rtl_build import build_library
 
 TRIGGER: Final = 0  # pins, as in wrapper.cpp
 PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}
+UART: Final = 3
+LINES: Final = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_ticks")  # as in wrapper.cpp
 
 
 class RtlGateware:
@@ -45,6 +47,7 @@ class RtlGateware:
         self._panel = self._library.panel_open()
         weakref.finalize(self, self._library.panel_close, self._panel)
         self._timing = InputTiming()
+        self._uart = UartTiming.of(parameters)
 
     @property
     def now(self) -> int:
@@ -76,6 +79,14 @@ class RtlGateware:
         self._library.panel_exchange(self._panel, select_tick, release_tick, sent.size, sent.ctypes.data, received.ctypes.data)
         miso[:] = received.data
 
+    def uart(self, tick: int, wire: bytes) -> int:
+        """Send bytes over the UART, back to back, the first start bit at `tick`; the tick in which the last stop bit ends."""
+        self._not_past("a byte begins", tick)
+        for number, byte in enumerate(wire):
+            for bit, level in enumerate((0, *(byte >> bit & 1 for bit in range(8)), 1)):
+                self._library.panel_set(self._panel, UART, self._uart.bit_tick(tick, number, bit), level)
+        return self._uart.bit_tick(tick, len(wire), 0)
+
     def wave(self, levels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Drive the link's pins tick by tick from now on: what a damaged line does, beyond any frame.
 
@@ -101,9 +112,12 @@ class RtlGateware:
             np.empty(changes, np.uint32),
             np.empty(changes, np.uint8),
             np.empty(self._library.panel_foci(self._panel), np.uint64),
+            *(np.empty(self._library.panel_line_changes(self._panel, number), np.uint64) for number in range(len(LINES))),
         )
         arrays = (capture.ticks, capture.words, capture.hv, capture.focus_ticks)
         self._library.panel_take(self._panel, *(array.ctypes.data for array in arrays))
+        for number, name in enumerate(LINES):
+            self._library.panel_take_line(self._panel, number, getattr(capture, name).ctypes.data)
         return capture
 
     def _not_past(self, what: str, tick: int) -> None:
@@ -127,6 +141,8 @@ def _load(path: Path) -> Any:
         ("panel_changes", number, [panel]),
         ("panel_foci", number, [panel]),
         ("panel_take", None, [panel, address, address, address, address]),
+        ("panel_line_changes", number, [panel, ctypes.c_uint32]),
+        ("panel_take_line", None, [panel, ctypes.c_uint32, address]),
     ):
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments

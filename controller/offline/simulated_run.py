@@ -157,7 +157,7 @@ def spoiled(counters: Counters, real_time: bool) -> str:
     late_s = max(stage.worst_ns for stage in stages) * 1e-9
     advice = "end other work, or replay with --speed max"
     if counters.host_silent:
-        return f"this machine was busy: the host fell silent {counters.host_silent} times and the FPGA switched off; {advice}"
+        return f"this machine was busy: the host fell silent ({counters.host_silent} ×) and the FPGA switched off; {advice}"
     if late_s > SPOILED_S:
         return f"this machine was busy: the host was late by {late_s * 1e3:.0f} ms, and fingers had moved on; {advice}"
     return ""

@@ -22,7 +22,8 @@ namespace {
 constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/fpga/gateware.py
 constexpr int RESET_CLOCKS = 4;
 constexpr uint64_t NEVER = UINT64_MAX;
-enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2 };
+enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2, UART_RX = 3 };
+constexpr int LINES = 5;  // lines of which every change is recorded: as of `lines`
 
 struct Change {
     Pin pin;
@@ -88,6 +89,7 @@ public:
     }
 
     std::vector<uint64_t> ticks, focus_ticks;  // of changes on channel_o or hv_enable_o; of rises of focus_o
+    std::vector<uint64_t> changes[LINES];      // of hv_alive_o, waiting_o, fault_o, spi_miso_o and uart_tx_o, whose ticks these are
     std::vector<uint32_t> words;
     std::vector<uint8_t> levels;
 
@@ -100,7 +102,12 @@ private:
     }
 
     uint8_t &level_of(Pin pin) {
-        return pin == TRIGGER ? core_.trigger_i : pin == RUN_PERMIT ? core_.run_permit_i : core_.temperature_ok_i;
+        switch (pin) {
+        case TRIGGER: return core_.trigger_i;
+        case RUN_PERMIT: return core_.run_permit_i;
+        case TEMPERATURE_OK: return core_.temperature_ok_i;
+        default: return core_.uart_rx_i;
+        }
     }
 
     void apply() {
@@ -117,6 +124,12 @@ private:
         }
         if (core_.focus_o && !focus_) focus_ticks.push_back(now_);
         focus_ = core_.focus_o;
+        const uint32_t lines = core_.hv_alive_o | core_.waiting_o << 1 | core_.fault_o << 2 | core_.spi_miso_o << 3 | core_.uart_tx_o << 4;
+        if (lines != lines_) {
+            for (int line = 0; line < LINES; ++line)
+                if ((lines ^ lines_) >> line & 1) changes[line].push_back(now_);
+            lines_ = lines;
+        }
     }
 
     VerilatedContext context_;
@@ -124,7 +137,7 @@ private:
     uint64_t now_ = 0;
     std::multimap<uint64_t, Change> inputs_;  // not yet on the pins
     uint64_t next_input_ = NEVER;
-    uint32_t word_ = 0;
+    uint32_t word_ = 0, lines_ = 1 << 4;
     uint8_t level_ = 0, focus_ = 0;
 };
 
@@ -158,6 +171,10 @@ void panel_wave(Panel *panel, size_t ticks, const uint8_t *levels, uint8_t *miso
 size_t panel_changes(const Panel *panel) { return panel->ticks.size(); }
 
 size_t panel_foci(const Panel *panel) { return panel->focus_ticks.size(); }
+
+size_t panel_line_changes(const Panel *panel, uint32_t line) { return panel->changes[line].size(); }
+
+void panel_take_line(Panel *panel, uint32_t line, uint64_t *ticks) { move_to(ticks, panel->changes[line]); }
 
 void panel_take(Panel *panel, uint64_t *ticks, uint32_t *words, uint8_t *levels, uint64_t *focus_ticks) {
     move_to(ticks, panel->ticks);

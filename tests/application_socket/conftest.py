@@ -8,11 +8,13 @@ import select
 import shutil
 import socket
 import tempfile
+from collections import deque
 from pathlib import Path
 
 import msgspec
 import pytest
 
+from controller.application_socket import peers
 from controller.application_socket.command_socket import CommandSocket
 from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
@@ -26,12 +28,16 @@ class WritesDown:
     def __init__(self):
         self.plays = []
         self.scenes = []
+        self.switched = []
         self.times_told = 0
 
     def play(self, ticket, effect, x_m, y_m, finger, amplitude, now_s):  # noqa: ARG002
         if effect not in EFFECTS:
             raise ControllerError(f"effect {effect!r} is unknown")
         self.plays.append((ticket, effect, x_m, y_m, finger, amplitude))
+
+    def switch(self, on):
+        self.switched.append(on)
 
     def load_scene(self, ticket, name):
         if name == "broken":
@@ -51,7 +57,8 @@ class Panel:
 
     def __init__(self, board, settings):
         self.settings = settings
-        self.socket = CommandSocket(board, settings)
+        self.peers = deque()  # of those who connect, in their order; None: as the kernel says
+        self.socket = CommandSocket(board, settings, self.peer_of)
         self.control = WritesDown()
         self.now_s = 100.0
         self.clients = []
@@ -73,7 +80,12 @@ class Panel:
                 return turns
         raise AssertionError(f"still busy after {most} turns")
 
-    def connect(self):
+    def peer_of(self, client):
+        given = self.peers.popleft() if self.peers else None
+        return peers.peer_of(client) if given is None else given
+
+    def connect(self, peer=None):
+        self.peers.append(peer)
         client = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         client.connect(self.settings.path)
         client.setblocking(False)

@@ -1,14 +1,18 @@
 """The Python client and its command line, against the panel's own end of the socket."""
 
+import grp
 import json
+import os
 import socket
 import threading
+from collections import deque
 
 import pytest
 
 from controller.client import PanelClient, main
 from controller.command_source import Outcome
 from controller.errors import ControllerError, LinkError
+from controller.panel_state import Condition, PanelState
 from controller.touch.samples import TouchSample
 
 
@@ -16,6 +20,7 @@ from controller.touch.samples import TouchSample
 def served(panel):
     """A panel whose loop turns in a thread: every command is played, a scene is taken over unless it is called `absent`."""
     ended = threading.Event()
+    panel.conditions = deque()
 
     def loop():
         while not ended.is_set():
@@ -25,6 +30,8 @@ def served(panel):
             while panel.control.scenes:
                 ticket, name = panel.control.scenes.pop(0)
                 panel.socket.loaded(ticket, "absent.toml: no such scene" if name == "absent" else "")
+            while panel.conditions:
+                panel.socket.changed(panel.conditions.popleft())
             panel.socket.touches([TouchSample(7, 0.1, 0.07, panel.now_s, True, 8e-3)])
             panel.now_s += 1e-3
 
@@ -123,9 +130,52 @@ def test_the_command_line_prints_what_the_panel_says(served, capsys, arguments, 
 
 def test_the_command_line_fails_in_one_line(served, folder, capsys):
     assert main(["--socket", served.settings.path, "load", "drums"]) == 0
+    capsys.readouterr()
     assert main(["--socket", served.settings.path, "load", "absent"]) == 1
-    assert capsys.readouterr().err == "error: the panel refused: absent.toml: no such scene\n"
+    *_, last = capsys.readouterr().err.splitlines()  # behind what the panel, in this process too, has to say
+    assert last == "error: the panel refused: absent.toml: no such scene"
     assert main(["--socket", served.settings.path, "play", "click", "--at", "-1", "70"]) == 1
     assert json.loads(capsys.readouterr().out)["outcome"] == "refused"
     assert main(["--socket", str(folder / "nobody.sock"), "hello"]) == 69
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_the_panel_is_armed_and_disarmed_and_says_how_it_is(served, capsys):
+    path = served.settings.path
+    with PanelClient(path) as client:
+        assert client.hello().rights == ("play", "operate")
+        states = client.states()
+        assert next(states).state == "waiting for FPGA"
+        client.disarm()
+        served.conditions.append(Condition(PanelState.DISARMED, "a client has switched the panel off", temperature_c=23.5))
+        state = next(states)
+        assert (state.state, state.temperature_c, client.state().state) == ("disarmed", 23.5, "disarmed")
+        assert (state.id, state.outputs_on, state.panel_present) == (None, False, True)
+        states.close()
+        client.arm()
+    assert main(["--socket", path, "disarm"]) == main(["--socket", path, "arm"]) == 0
+    assert served.control.switched == [False, True, False, True]
+    capsys.readouterr()
+    assert main(["--socket", path, "state"]) == 0
+    assert json.loads(capsys.readouterr().out)["state"] == "disarmed"
+
+
+def test_one_without_the_right_is_told_which_one_and_who_gives_it(panel_with, folder, another):
+    """A file of another user's group, and a socket that everybody may connect to."""
+    if os.geteuid() != 0:
+        pytest.skip("takes root: processes of other users are made")
+    group = next(group for group in grp.getgrall() if group.gr_gid)
+    panel = panel_with(group=group.gr_name, mode="660")
+    folder.chmod(0o755)
+
+    def connects(says, hears):
+        try:
+            PanelClient(panel.settings.path)
+        except ControllerError as error:
+            says.write(f"{error.exit_code} {error}".encode())
+
+    with another(connects, uid=65534) as (_, hears):
+        said = hears.read().decode()
+    assert said.startswith(f"1 {panel.settings.path}: user ")
+    assert f"group {group.gr_name!r} may: have root do `adduser " in said
+    assert "running" not in said

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import controller.application_socket
 from controller.command_source import Outcome
+from controller.panel_state import Condition, PanelState
 from controller.touch.samples import TouchSample
 
 README = Path(controller.application_socket.__file__).with_name("README.md")
@@ -24,9 +25,14 @@ def test_the_conversation_of_the_readme_is_real(panel):
                 panel.socket.outcome(ticket, Outcome.PLAYED, 1.5e-3)
             for ticket, _ in panel.control.scenes:
                 panel.socket.loaded(ticket, "")
+            if panel.control.switched:
+                on = panel.control.switched.pop()
+                off = {"state": PanelState.DISARMED, "cause": "a client has switched the panel off"}
+                how = {"state": PanelState.ARMED, "outputs_on": True} if on else off
+                panel.socket.changed(Condition(**how, temperature_c=23.5))
             panel.control.plays.clear()
             panel.control.scenes.clear()
-            if '"subscribe"' in line:
+            if line.endswith('"subscribe", "id": 5}'):
                 panel.socket.touches([TouchSample(7, 0.1, 0.07, 12.5, True, 8e-3)])
             said += panel.ask(client)
         else:

@@ -103,6 +103,33 @@ def test_before_the_outputs_are_on_a_command_is_refused_with_that_reason(serve):
     assert not played
 
 
+def test_a_panel_that_is_disarmed_plays_nothing_through_a_stall_until_it_is_armed(serve):
+    """Of three commands in one breath the last finds the panel disarmed already."""
+    script = [
+        (0.2, "a", click(1, PLACES[0])),
+        (0.25, "o", {"kind": "disarm", "id": 2}),
+        (0.25, "o", click(3, PLACES[1])),
+        (0.9, "a", click(4, PLACES[2])),
+        (1.0, "o", {"kind": "arm", "id": 5}),
+        (1.2, "a", click(6, PLACES[3])),
+    ]
+    answers, commands, counters, played = serve(script, until_s=1.3, scene_text=SPOT, stalls_s=[0.5])
+    told = by_id(answers["a"]) | by_id(answers["o"])
+    assert {number: answer["outcome"] for number, answer in told.items()} == {
+        1: "played",
+        2: "done",
+        3: "refused",
+        4: "refused",
+        5: "done",
+        6: "played",
+    }
+    assert "the panel is disarmed, until somebody with the right to operate it arms it" in told[3]["reason"]
+    assert told[4]["reason"] == told[3]["reason"]
+    assert not [one for one in played if 0.25 < one.trigger_s < 1.0], "nor the spot"
+    assert any(one.trigger_s > 1.0 for one in played)
+    assert (commands.waiting, counters.outages) == (0, 0)
+
+
 def test_of_two_thousand_commands_a_second_each_is_answered_once_and_the_sums_are_exact(serve):
     script = [(0.2 + number / 2000, "ab"[number % 2], click(number, PLACES[number * 7 % 40])) for number in range(600)]
     answers, commands, counters, played = serve(script, until_s=0.7)

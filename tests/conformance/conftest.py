@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from controller.fpga.model import GatewareModel
 from controller.offline.rtl_build import verilator_root
 from controller.offline.rtl_gateware import RtlGateware
 
 sys.path.insert(0, str(Path(__file__).parent))  # where the tests find pin_script
+from pin_script import MODEL
 
-BACK_ENDS = {"model": GatewareModel} | ({"rtl": RtlGateware} if verilator_root() else {})
+BACK_ENDS = {"model": MODEL} | ({"rtl": RtlGateware} if verilator_root() else {})
 
 
 def pytest_report_header() -> str:

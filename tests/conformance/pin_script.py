@@ -6,8 +6,10 @@ pins while a frame is on the wire comes before that frame in the script.
 
 import zlib
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
+from cobs import cobs
 
 from controller.board import data_folder
 from controller.fpga import frames
@@ -21,6 +23,7 @@ from controller.fpga.gateware import (
     TRIGGER_PERIOD_TICKS,
     Parameters,
     Permit,
+    UartTiming,
     frame_ticks,
 )
 from controller.fpga.model import GatewareModel
@@ -51,11 +54,16 @@ PARAMETERS = Parameters(
 
 BIT_TICKS = 6
 RAMP_SAMPLES = 9
+UART = UartTiming.of(PARAMETERS)
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
 SETTLE_TICKS = PARAMETERS.hv_settle_ticks
 IDLE_WORD = 0x96969696
 FRAME_TICKS = frame_ticks(frames.FRAME_BYTES)
 JUDGED_TICKS = 4  # from the rise of chip select to the tick in which a frame is carried out
+
+
+MODEL = partial(GatewareModel, lines=True)  # that notes every change of MISO and of the UART's line too
+LINES = ("alive_ticks", "waiting_ticks", "fault_ticks", "miso_ticks", "uart_ticks")
 
 
 def open_gateware(back_end):
@@ -69,6 +77,8 @@ class Script:
         self.steps = []
         self.tick = READY_TICKS
         self.sequence = 0
+        self.uart_sequence = 0
+        self._uart_from = READY_TICKS
         self.slack_ticks = 0  # of the next frames: SCK slower than it might be
         self._trigger_from = READY_TICKS
         self._buffer = bytearray(frames.LOAD_FRAME_BYTES)
@@ -92,6 +102,28 @@ class Script:
         self.steps.append(("exchange", (self.tick, release, bytes(frame))))
         self.tick = release + SELECT_HIGH_TICKS
         return release
+
+    def uart(self, *wires, tick=None):
+        """Send bytes over the UART, now or as soon as it is free, while the script goes on; the tick in which that ends."""
+        begin = max(self.tick if tick is None else tick, self._uart_from)
+        wire = b"".join(wires)
+        self.steps.append(("uart", (begin, wire)))
+        self._uart_from = UART.bit_tick(begin, len(wire), 0)
+        return self._uart_from
+
+    def uart_frame(self, pack, *arguments, **named):
+        """The bytes of a frame by the UART, with two zeros before it as the host sends them."""
+        self.uart_sequence += 1
+        end = pack(self._buffer, 0, self.uart_sequence, *arguments, **named)
+        return b"\0\0" + cobs.encode(bytes(self._buffer[:end])) + b"\0"
+
+    @property
+    def uart_is_free(self):
+        return self.tick >= self._uart_from
+
+    def wait_for_the_uart(self, ticks=0):
+        """Until what it was given to send has come, and some more."""
+        self.tick = max(self.tick, self._uart_from) + ticks
 
     def packed(self, pack, *arguments, **named):
         self.sequence += 1
@@ -148,7 +180,7 @@ class Script:
             else:
                 tick, *others = arguments
                 getattr(gateware, method)(tick + later, *others)
-        gateware.advance(self.tick)
+        gateware.advance(max(self.tick, self._uart_from))
         return answers, gateware.take_capture()
 
 
@@ -158,7 +190,7 @@ COMPILED = ThreadPoolExecutor(1)  # the compiled Verilog lets go of the interpre
 def perform_on_both(script, rtl):
     """What comes of a script on the model and on the compiled Verilog."""
     compiled = COMPILED.submit(script.perform, rtl)
-    return script.perform(GatewareModel), compiled.result()
+    return script.perform(MODEL), compiled.result()
 
 
 def assert_same(left, right):
@@ -170,7 +202,7 @@ def assert_same(left, right):
 
 
 def assert_same_capture(capture, other):
-    for name in ("focus_ticks", "ticks", "words", "hv"):
+    for name in ("focus_ticks", "ticks", "words", "hv", *LINES):
         values, others = getattr(capture, name), getattr(other, name)
         assert values.dtype == others.dtype
         assert np.array_equal(values, others), f"{name} differ: {difference(values, others)}"

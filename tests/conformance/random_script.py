@@ -14,8 +14,26 @@ BIT_PERIODS = (BIT_TICKS << 16, BIT_TICKS << 16, 7 << 16, 11 << 16, (6 << 16) + 
 SLOW = (110 << 16, 120 << 16, (104 << 16) + 7)  # a chunk arrives faster than that plays
 WEIGHTS = {"play": 34, "load": 8, "store": 10, "swap": 6, "live": 4, "trigger": 20, "wait": 10, "stop": 5, "disarm": 3, "arm": 4}
 WEIGHTS |= {"permit": 2, "clear": 3, "read": 8, "write": 4, "limits": 1, "damaged": 4, "burst": 4, "silence": 1, "echo": 1}
-WEIGHTS |= {"command": 3, "glitch": 2, "period": 2}
+WEIGHTS |= {"command": 3, "glitch": 2, "period": 2, "count": 8, "uart": 12, "noise": 2}
 CONTROLS = {"stop": Control.STOP, "disarm": Control.DISARM, "clear": Control.CLEAR, "command": Control.TRIGGER}
+COUNTERS = (
+    Register.FAULT_COUNT,
+    Register.FAULT_TIME_LOW,
+    Register.FAULT_TIME_HIGH,
+    Register.TRIGGERS,
+    Register.TRIGGERS_IGNORED,
+    Register.TRIGGER_TIME_LOW,
+    Register.EMISSIONS,
+    Register.EMISSION_TIME_LOW,
+    Register.PLAYS_MISSED,
+    Register.UNDERRUNS,
+    Register.FRAME_ERRORS,
+    Register.SEQUENCE_GAPS,
+    Register.SEQUENCE_GAPS,
+    Register.SLOTS_LOADED,
+    Register.QUEUE,
+    Register.DUTY_LEVEL,
+)
 LIMITS = {
     Register.PULSE_TICKS: (4, 6, 7),
     Register.CHANNEL_EDGES: (20, 100, 100_000),
@@ -58,8 +76,8 @@ def random_script(seed, actions=25):
             run.control(Control.CLEAR)
             run.arm()
     run.wait(300)
-    for register in (Register.FAULT_COUNT, Register.TRIGGERS_IGNORED, Register.PLAYS_MISSED, Register.DUTY_LEVEL):
-        run.send(frames.pack_read, register)
+    for register in rng.sample(COUNTERS, 8):
+        count(run, rng, register)
     run.status()
     run.status()
     return run
@@ -115,6 +133,12 @@ def act(run, rng, action):
         run.wait(rng.randrange(1, 200))
     elif action == "silence":
         run.wait(rng.choice([7, 61]) * FRAME_TICKS)
+    elif action == "count":
+        count(run, rng, rng.choice(COUNTERS))
+    elif action == "uart":
+        by_uart(run, rng, slot, length)
+    elif action == "noise":
+        run.uart(rng.randbytes(rng.randrange(1, 20)), bytes(rng.randrange(3)))
     elif action == "read":
         read(run, rng, slot)
     elif action == "write":
@@ -177,6 +201,39 @@ def play_live(run, rng):
         run.wait(125 * 120 * chunks)
         run.store(1, words)
     run.send(frames.pack_write, Register.BIT_PERIOD, run.bit_period)
+
+
+def count(run, rng, register):
+    """Read a counter, in a frame whose own number may skip."""
+    run.sequence += rng.choice([0, 0, 0, 1, 2, 254, 255])
+    run.send(frames.pack_read, register)
+
+
+def by_uart(run, rng, slot, length):
+    """A frame over the UART, or two, while the script goes on."""
+    pack, *arguments = rng.choice(
+        [
+            (frames.pack_nop,),
+            (frames.pack_read, rng.choice(COUNTERS)),
+            (frames.pack_read, Register.SEQUENCE_GAPS),
+            (frames.pack_unlock, BUILD_HASH),
+            (frames.pack_control, rng.choice([Control.ARM, Control.STOP, Control.CLEAR, Control.TRIGGER])),
+            (frames.pack_write, rng.choice([9, 11, 13, 50]), rng.choice([4, 0x10000, 7 << 16])),
+            (frames.pack_load, rng.randrange(3), memoryview(random_words(rng, length).tobytes())),
+            (frames.pack_store, slot, length, 0),
+            (frames.pack_test, rng.randbytes(40)),
+        ]
+    )
+    if rng.random() < 0.3:
+        pack, arguments = frames.pack_play, [slot]
+    run.uart_sequence += rng.choice([0, 0, 0, 1, 250])
+    named = random_play(run, rng) if pack is frames.pack_play else {}
+    wire = bytearray(run.uart_frame(pack, *arguments, **named))
+    if rng.random() < 0.15:
+        wire[rng.randrange(len(wire))] ^= 1 << rng.randrange(8)
+    run.uart(bytes(wire))
+    if rng.random() < 0.2:
+        run.uart(run.uart_frame(frames.pack_unlock, BUILD_HASH), run.uart_frame(frames.pack_control, Control.ARM))
 
 
 def read(run, rng, slot):

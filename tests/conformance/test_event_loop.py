@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from pin_script import assert_same_capture, open_gateware
+from pin_script import MODEL, assert_same_capture, open_gateware
 
 from controller.bank.reader import Bank
-from controller.fpga.model import GatewareModel
 from controller.offline.simulated_run import judge, play, report
 from controller.scene import load_scene
 from controller.touch.recording import Recording
@@ -78,7 +77,7 @@ def test_a_session_ends_with_outputs_off_and_every_focus_where_a_finger_was(sess
 
 
 def test_both_give_the_same_answers_pins_and_figures(session, rtl):
-    (run, answers), (other, others) = session(GatewareModel), session(rtl)
+    (run, answers), (other, others) = session(MODEL), session(rtl)
     assert answers == others
     assert_same_capture(run.capture, other.capture)
     assert run.capture.words.size > 5000

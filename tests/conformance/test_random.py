@@ -6,13 +6,12 @@
 from collections import Counter
 
 import pytest
-from pin_script import Script, assert_same, perform_on_both
+from pin_script import MODEL, Script, assert_same, perform_on_both
 from random_script import random_script
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Fault, Result, State
 
 SCRIPTS = 72
@@ -51,7 +50,7 @@ def test_a_hundred_thousand_random_frames_give_the_same_on_both(rtl):
 def test_the_random_scripts_meet_every_result_every_fault_and_every_state():
     results, states, faults, emissions = Counter(), State(0), Fault(0), 0
     for seed in range(200):
-        answers, capture = random_script(seed).perform(GatewareModel)
+        answers, capture = random_script(seed).perform(MODEL)
         for answer in answers:
             if len(answer) >= FRAME_BYTES:
                 status = parse_status(answer)
@@ -76,12 +75,12 @@ def test_one_tick_of_difference_fails(rtl, late):
     run.wait(200)
     run.permit(False, which=Permit.RUN)
     run.wait(20)
-    right = run.perform(GatewareModel)
+    right = run.perform(MODEL)
     assert_same(right, run.perform(rtl))
     with pytest.raises(AssertionError):
         assert_same(right, run.perform(rtl, late))
     with pytest.raises(AssertionError):
-        assert_same(run.perform(GatewareModel, late), run.perform(rtl))
+        assert_same(run.perform(MODEL, late), run.perform(rtl))
 
 
 def test_scripts_are_the_same_every_time():

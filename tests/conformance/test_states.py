@@ -9,6 +9,7 @@ from pin_script import (
     BUILD_HASH,
     FRAME_TICKS,
     JUDGED_TICKS,
+    MODEL,
     RAMP_TICKS,
     Script,
     assert_same,
@@ -19,7 +20,6 @@ from pin_script import (
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, Control, Fault, Register, Start, State
 
 WORDS = [0x1111 * number for number in range(1, 9)]
@@ -196,7 +196,7 @@ def test_every_event_does_the_same_in_every_state(rtl, state, offsets):
 
 
 WANTED = {
-    "off": State.HEARTBEAT,
+    "off": State.RUN_PERMIT,
     "ramp up": State.RAMPING | State.HV_ENABLE,
     "armed": State.ARMED,
     "checking": State.ARMED | State.CHECKING,
@@ -215,7 +215,7 @@ WANTED = {
 @pytest.mark.parametrize("state", WANTED)
 def test_the_states_are_met(state):
     run, begun = begin(state)
-    gateware = open_gateware(GatewareModel)
+    gateware = open_gateware(MODEL)
     for method, arguments in run.steps:
         if method == "exchange":
             gateware.exchange(*arguments, memoryview(bytearray(len(arguments[2]))))
@@ -231,7 +231,7 @@ def test_the_states_are_met(state):
 def test_the_faults_and_misses_of_the_events_are_met():
     faults, missed = Fault(0), 0
     for state, event, offset in itertools.product(("playing", "scheduled"), EVENTS, (0, 33)):
-        answers, _ = script_of(state, event, offset).perform(GatewareModel)
+        answers, _ = script_of(state, event, offset).perform(MODEL)
         statuses = [parse_status(answer) for answer in answers if len(answer) >= FRAME_BYTES]
         faults |= statuses[-1].faults
         missed += statuses[-1].data

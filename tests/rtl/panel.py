@@ -8,7 +8,6 @@ clock edge, so at every ratio of SCK to the clock it is plain which edge samples
 import os
 import random
 import zlib
-from itertools import pairwise
 from pathlib import Path
 
 import cocotb
@@ -29,6 +28,7 @@ from pin_script import (
     RAMP_TICKS,
     SETTLE_TICKS,
     SLOTS,
+    UART,
 )
 from uart import Wire
 
@@ -37,6 +37,7 @@ from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.gateware import (
+    BAUD,
     READY_TICKS,
     SCK_TICKS,
     SCK_TO_RELEASE_TICKS,
@@ -72,13 +73,10 @@ CLOCK_PS = 1000 * CLOCK_NS
 PHASE_PS = CLOCK_PS // 2 + 500  # within a tick: inputs move half a nanosecond behind the clock's fall
 SCK_HALF_NS = SCK_TICKS * CLOCK_NS // 2  # half of the clock, the fastest allowed
 SCK_TO_RELEASE_NS = SCK_TO_RELEASE_TICKS * CLOCK_NS
-ALIVE_HALF_TICKS = CLOCK_HZ // 40_000  # as in haptic_core.v
 PAD_TICKS = 1  # from the state to waiting_o and fault_o, which have a register each
-BAUD = 1_000_000  # what haptic_core.v has by itself
 UART_BIT_TICKS = CLOCK_HZ // BAUD
-UART_BYTE_TICKS = 3 + UART_BIT_TICKS // 2 - 1 + 9 * UART_BIT_TICKS + 2  # from the start bit's fall to select_o or release_o
 UART_ANSWER_BITS = 12 * FRAME_BYTES  # more than an answer takes
-ORDER = ("permit", "exchange", "trigger")  # in which a model is given what happens in one tick
+ORDER = ("uart", "permit", "exchange", "trigger")  # in which a model is given what happens in one tick
 PERMIT_PINS = {Permit.RUN: "run_permit_i", Permit.TEMPERATURE: "temperature_ok_i"}
 
 
@@ -101,6 +99,7 @@ class Panel:
         self.answers = []  # what came back, in the order of the exchanges
         self.words, self.levels, self.alive = [], [], []  # (tick, value) of channel_o, hv_enable_o and hv_alive_o
         self.waits, self.faults, self.foci = [], [], []  # of waiting_o, fault_o and focus_o
+        self.tx = []  # of uart_tx_o
         self._frame = bytearray(frames.LOAD_FRAME_BYTES)
 
     @classmethod
@@ -147,9 +146,10 @@ class Panel:
             dut.waiting_o: self.waits,
             dut.fault_o: self.faults,
             dut.focus_o: self.foci,
+            dut.uart_tx_o: self.tx,
         }
         for output in outputs:
-            assert output.value == 0, output._name
+            assert output.value == (output is dut.uart_tx_o), output._name
         self._recordings = [cocotb.start_soon(self._record(output, changes)) for output, changes in outputs.items()]
         await self.until(READY_TICKS)  # when the synchronisers have seen every input at rest
 
@@ -247,31 +247,29 @@ class Panel:
             assert bool(status.faults) == fault, status
 
     async def exchange_by_uart(self, frame):
-        """A frame over the UART; returns its answer. The model is given a chip select with the same effects at the same ticks."""
+        """A frame over the UART; returns its answer."""
         wire = self.wire
         answered = len(wire.answers)
-        encoded = cobs.encode(bytes(frame))
-        begin = self.tick
-        await wire.send(encoded)
-        end = self.tick
-        assert end == begin + 10 * len(encoded) * UART_BIT_TICKS
-        await wire.send(b"\0")
-        self.release_tick = end + UART_BYTE_TICKS - (JUDGED_TICKS - 1)
-        select_tick = begin + UART_BYTE_TICKS - INPUT_TICKS
+        await self.send_by_uart(cobs.encode(bytes(frame)) + b"\0")
         for _ in range(UART_ANSWER_BITS):
             if len(wire.answers) > answered:
                 break
             await wire.bits(1)
         (answer,) = wire.answers[answered:]
-        self.inputs.append((select_tick, "exchange", (self.release_tick, bytes(frame))))
-        self.answers.append(answer)
         return answer
+
+    async def send_by_uart(self, data):
+        """Bytes back to back, of which the model is told."""
+        begin = self.tick
+        self.inputs.append((begin, "uart", (data,)))
+        await self.wire.send(data)
+        assert self.tick == begin + 10 * len(data) * UART_BIT_TICKS
 
     async def open_uart(self):
         """The zero behind which the first frame may come."""
         self.wire = Wire(self.dut)
         await self.wire.bits(2)
-        await self.wire.send(b"\0")
+        await self.send_by_uart(b"\0")
 
     def packed(self, pack, *arguments, **named):
         self.sequence += 1
@@ -344,6 +342,9 @@ class Panel:
             if method == "permit":
                 level, which = arguments
                 edges.append((tick, PERMIT_PINS[which], level))
+            elif method == "uart":
+                bits = [(0, *(byte >> bit & 1 for bit in range(8)), 1) for byte in arguments[0]]
+                edges += [(UART.bit_tick(tick, n, bit), "uart_rx_i", bits[n][bit]) for n in range(len(bits)) for bit in range(10)]
             elif method == "trigger":
                 edges += [(tick, "trigger_i", True), (tick + arguments[0], "trigger_i", False)]
             if method != "exchange":
@@ -371,7 +372,7 @@ class Panel:
             "permit", "trigger" or "exchange": that kind of input comes to the model one tick late.
         """
         now = self.tick
-        model = GatewareModel(PARAMETERS)
+        model = GatewareModel(PARAMETERS, lines=True)
         answers = []
         for at, method, arguments in sorted(self.inputs, key=lambda entry: (entry[0], ORDER.index(entry[1]))):
             tick = at + (method == late)
@@ -388,7 +389,13 @@ class Panel:
         hv = _changes(capture.ticks, capture.hv)
         _same("channel_o", self.words, _changes(capture.ticks, capture.words))
         _same("hv_enable_o", self.levels, hv)
-        _same("hv_alive_o", self.alive, _alive(hv, now))
+        for name, seen, foreseen in (
+            ("hv_alive_o", self.alive, capture.alive_ticks),
+            ("waiting_o", self.waits, capture.waiting_ticks),
+            ("fault_o", self.faults, capture.fault_ticks),
+            ("uart_tx_o", self.tx, capture.uart_ticks),
+        ):
+            _same(name, [tick for tick, _ in seen], foreseen.tolist())
         _same("focus_o", self.focus_ticks, capture.focus_ticks.tolist())
         return capture
 
@@ -412,17 +419,6 @@ def random_words(length):
 def _changes(ticks, values):
     changed = np.diff(values.astype(np.int64), prepend=0) != 0
     return list(zip(ticks[changed].tolist(), values[changed].tolist(), strict=True))
-
-
-def _alive(hv, now):
-    """Changes of hv_alive_o: high as the outputs go on, then to and fro, low when they go off."""
-    changes = []
-    for (on, level), (off, _) in pairwise([*hv, (now + 1, 0)]):
-        if level:
-            ticks = range(on, off, ALIVE_HALF_TICKS)
-            changes += [(tick, 1 - number % 2) for number, tick in enumerate(ticks)]
-            changes += [(off, 0)] * (len(ticks) % 2 and off <= now)
-    return changes
 
 
 def _same(name, seen, foreseen):

@@ -182,8 +182,18 @@ class Bench:
 
     def begin(self):
         self.reference = Reference(self.dut)
+        self.uart, self._other = False, (False, 0, 0, 0)
+        self.dut.uart_i.value = 0
         self.state = {"off": 1, "quiet": 1, "fault": 0, "permitted": 1}
         self.inputs = {name: 0 for name, _ in INPUTS.values()} | dict.fromkeys(TIMES.values(), 0)
+
+    def turn(self):
+        """Frames come by the other link from now on."""
+        reference = self.reference
+        self.uart = not self.uart
+        self.dut.uart_i.value = int(self.uart)
+        own = (reference.unlocked, reference.high, reference.frame_errors, reference.gaps)
+        (reference.unlocked, reference.high, reference.frame_errors, reference.gaps), self._other = self._other, own
 
     def show(self):
         for name, value in (self.inputs | {f"{name}_i": value for name, value in self.state.items()}).items():
@@ -238,13 +248,16 @@ class Bench:
     async def other_frame(self, refused=False, gap=False):
         """A frame that is no READ or WRITE, or was refused."""
         dut = self.dut
-        (dut.refused_i if refused else dut.accept_i).value = 1
+        if refused:
+            dut.refused_i.value = 0b10 if self.uart else 0b01
+        else:
+            dut.accept_i.value = 1
         dut.gap_i.value = gap
         await clocks(dut)
         dut.refused_i.value = dut.accept_i.value = dut.gap_i.value = 0
         self.reference.unlocked = False
         self.reference.frame_errors += refused
-        self.reference.gaps += gap
+        self.reference.gaps += gap and not refused
 
     async def unlock(self):
         key = (IDENTITY_MAGIC, PROTOCOL_VERSION, self.reference.constants[Register.BUILD_HASH])
@@ -423,10 +436,34 @@ async def the_low_half_of_a_time_holds_its_high_half(dut):
 async def counts_refused_frames_and_gaps(dut):
     bench = await Bench.ready(dut)
     for number in range(1, 5):
-        await bench.other_frame(refused=True)
+        await bench.other_frame(refused=True, gap=number % 2)
         assert await bench.read(Register.FRAME_ERRORS) == (Result.OK, number)
         assert await bench.read(Register.SEQUENCE_GAPS) == (Result.OK, number - 1)
         await bench.other_frame(gap=True)
+
+
+@cocotb.test(timeout_time=1, timeout_unit="ms")
+async def each_link_has_counts_a_held_half_and_a_lock_of_its_own(dut):
+    bench = await Bench.ready(dut)
+    low, high = Register.FAULT_TIME_LOW, Register.FAULT_TIME_HIGH
+    assert await bench.unlock() is Result.OK
+    bench.inputs["fault_time_i"] = 0x1111_2222_3333_4444
+    await bench.read(low)
+    bench.turn()  # to the UART
+    assert await bench.arm() is Result.LOCKED
+    await bench.other_frame(refused=True)
+    await bench.other_frame(gap=True)
+    bench.inputs["fault_time_i"] = 0x5555_6666_7777_8888
+    await bench.read(low)
+    assert await bench.read(Register.FRAME_ERRORS) == (Result.OK, 1)
+    assert await bench.read(Register.SEQUENCE_GAPS) == (Result.OK, 1)
+    assert await bench.unlock() is Result.OK
+    bench.turn()  # and back: what the UART did between changes nothing for the SPI
+    assert await bench.read(high) == (Result.OK, 0x1111_2222)
+    assert await bench.read(Register.FRAME_ERRORS) == (Result.OK, 0)
+    assert await bench.read(Register.SEQUENCE_GAPS) == (Result.OK, 0)
+    bench.turn()
+    assert await bench.read(high) == (Result.OK, 0x5555_6666)
 
 
 @cocotb.test(timeout_time=20, timeout_unit="ms")
@@ -440,6 +477,8 @@ async def random_frames_go_as_the_reference_says_and_a_reset_restores_all(dut):
         for name, bits in (*INPUTS.values(), *((name, 64) for name in TIMES.values())):
             bench.inputs[name] = random.getrandbits(bits)
         bench.inputs["fault_i"] = bench.state["fault"]
+        if random.random() < 0.2:
+            bench.turn()
         register = random.choice([*Register, *bench.reference.settings, random.getrandbits(16)])
         match random.randrange(8):
             case 0 | 1:

@@ -3,6 +3,7 @@
 import contextlib
 import errno
 from pathlib import Path
+from random import Random
 from types import SimpleNamespace
 
 import pytest
@@ -542,3 +543,47 @@ def test_what_an_edt_m06_holds_from_before_its_start_is_no_touch(bench):
     assert source.warnings == {"stale_reports": 1}
     bench.touch({1: (110, 200)})
     assert bench.read(source) == [(0, 11, 20, True)]
+
+
+# ---- whatever happens
+
+
+@pytest.mark.parametrize("make", [Gt911Chip, Ft5x06Chip, EdtM06Chip])
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_the_bus_does_the_reader_goes_on_and_a_panel_that_works_again_is_felt_again(bench, make, seed):
+    random = Random(seed)
+    chip = bench.put(make())
+    source = (bench.gt911 if make is Gt911Chip else bench.ft5x06)(reset_line=random.choice(["", "RST"]))
+    down = set()
+
+    def look(samples):
+        for finger, _, _, contact in samples:
+            assert contact or finger in down
+            (down.add if contact else down.discard)(finger)
+
+    for _ in range(300):
+        fault = random.choice(["none", "none", "none", "nacks", "silent", "hangs", "garbage", "power"])
+        chip.silent, chip.garbage = fault == "silent", random.randrange(256) if fault == "garbage" else None
+        chip.nacks = random.randrange(5) if fault == "nacks" else 0
+        chip.hangs = fault == "hangs"
+        if fault == "power" and make is not EdtM06Chip:
+            chip.power_up()
+        held = {
+            number: (random.randrange(1, 400), random.randrange(1, 400)) for number in random.sample(range(5), random.randrange(5))
+        }
+        bench.touch(held, pulse=random.random() < 0.7)
+        look(bench.read(source))
+        for _ in range(random.randrange(4)):
+            look(bench.until_due(source)[1])
+        bench.now_s += random.choice([0, 1e-3, 8e-3, 0.1, 0.6])
+    chip.silent, chip.garbage, chip.nacks, chip.hangs = False, None, 0, False
+    for _ in range(200):  # it is started again, if need be, and what it holds is let go
+        bench.touch({})
+        look(bench.until_due(source)[1])
+    assert source.present
+    assert not down
+    for x in (100, 110):
+        bench.now_s += 8e-3
+        bench.touch({0: (x, 100)})
+        look(bench.read(source))
+    assert len(down) == 1

@@ -1,0 +1,97 @@
+"""The UART of the gateware model, byte by byte: `uart_peripheral.v`, `frame_relay.v` and the decoder between them."""
+
+from __future__ import annotations
+
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.gateware import UartTiming
+from controller.fpga.model_decoder import Frame, judge
+from controller.fpga.registers import Result
+
+BYTE_TO_PULSE_TICKS = 1  # from a byte's tick to what the COBS decoder says of it
+ANSWER_TICKS = 40  # from a frame's first byte to the start bit of its answer
+BEGIN_TICKS = 2  # from a frame's end to the first tick in which it may be handed on
+DELIVER_TICKS = 40  # from then on, beyond one for each word, until it is carried out
+
+
+def cobs_encoded(data: bytes) -> bytes:
+    """One message of up to 253 bytes with the zero that ends it."""
+    return b"".join(bytes([len(block) + 1]) + block for block in data.split(b"\0")) + b"\0"
+
+
+class UartSide:
+    """What the gateware knows of its UART.
+
+    Attributes
+    ----------
+    pending : Frame or None
+        An accepted frame that waits for a pause of the SPI, or has it.
+    landing_busy, landing_live, queue_full : bool
+        As they were when it got its turn.
+    tx_ticks : list of int
+        Ticks of changes on the line of the answers.
+    """
+
+    def __init__(self, timing: UartTiming) -> None:
+        self.timing = timing
+        self.pending: Frame | None = None
+        self.landing_busy = self.landing_live = self.queue_full = False
+        self.tx_ticks: list[int] = []
+        self._synced = self._open = self._taken = self._zero = False
+        self._left = 0  # of the COBS block
+        self._frame = bytearray()
+        self._answer_from = 0  # the first tick in which another answer may be begun
+        self._fraction = 0  # of a tick, in 256ths, that the transmitter has left
+
+    def hear(self, byte: int) -> tuple[bool, Frame | None]:
+        """Take a byte; whether a frame begins with it, and the frame that ends with it, judged.
+
+        A frame that began while another was pending is BUSY.
+        """
+        in_block = self._open and self._left != 0
+        if byte == 0:
+            ended, self._open, self._synced = self._open, False, True
+            return False, self._judged(partial=in_block) if ended else None
+        if not self._synced:
+            return False, None
+        begins = not self._open
+        if begins:
+            self._taken = self.pending is None
+            self._frame.clear()
+        elif in_block:
+            self._frame.append(byte)
+        elif self._zero:
+            self._frame.append(0)
+        if not in_block:
+            self._zero = byte != 0xFF
+        self._left = (self._left if in_block else byte) - 1
+        self._open = True
+        return begins, None
+
+    def answer(self, tick: int, status: bytes) -> None:
+        """A frame begins in this tick: send a status, unless the answer before is still on its way."""
+        if tick < self._answer_from:
+            return
+        wire = cobs_encoded(status[:FRAME_BYTES])
+        bits = "".join("0" + f"{byte:08b}"[::-1] + "1" for byte in wire)
+        start, bit_256 = tick + ANSWER_TICKS, self.timing.bit_256
+        for number, (before, level) in enumerate(zip("1" + bits[:-1], bits, strict=True)):
+            if level != before:
+                self.tx_ticks.append(start + (self._fraction + number * bit_256 >> 8))
+        self._answer_from = start + (self._fraction + 10 * (len(wire) - 1) * bit_256 >> 8)
+        self._fraction = self._fraction + len(bits) * bit_256 & 0xFF
+
+    def take_tx(self, now: int) -> list[int]:
+        """Changes of the line up to now that were not taken yet."""
+        due = sum(tick <= now for tick in self.tx_ticks)
+        taken, self.tx_ticks = self.tx_ticks[:due], self.tx_ticks[due:]
+        return taken
+
+    def _judged(self, *, partial: bool) -> Frame:
+        if not self._taken:
+            return Frame(Result.BUSY)
+        if not self._frame:
+            return Frame(Result.BAD_SYNC)
+        frame = judge(memoryview(bytes(self._frame)))
+        if partial and frame.refusal in (Result.OK, Result.BAD_CRC):
+            return Frame(Result.BAD_LENGTH)
+        return frame
