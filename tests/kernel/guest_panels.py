@@ -386,16 +386,18 @@ def test_a_lag_is_measured_from_both_devices_at_once_and_strokes_that_tell_nothi
     assert "hold the mouse to the finger and slide both" in running.stderr.readline()
     for k in range(50):
         send(panel, *finger(0, 5, 500 + k, 500), TOUCH)
-        send(device, (e.EV_REL, e.REL_X, 4))
+        for _ in range(4):  # a fast mouse, as seen by the median of its periods, however slow this machine
+            send(device, (e.EV_REL, e.REL_X, 1))
         time.sleep(0.01)
     out, errors = running.communicate()
     assert (running.returncode, out) == (1, ""), errors
-    assert errors.startswith("haptic-panel: only 0 turns: slide to and fro")
+    assert errors.startswith("haptic-panel: only 0 turns: slide to and fro"), errors
     assert (folder / "board.toml").read_text() == text
     recording = Recording.open(kept)
     assert sum(value for kind, _, value, _ in recording.events if kind == e.EV_REL) == 200
     positions = [value for kind, code, value, _ in recording.events if (kind, code) == (e.EV_ABS, e.ABS_MT_POSITION_X)]
-    assert positions[-50:] == list(range(500, 550))
+    assert positions == list(range(positions[0], 550)), "from the state at the first read on"
+    assert len(positions) > 10
     panel.close()
     device.close()
 
