@@ -49,7 +49,7 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "play_queue": {},
     "idle_ramp": {},
     "waveform_player": {},
-    "output_gate": {"ALIVE_HALF_TICKS": 7, "HV_SETTLE_TICKS": 9},
+    "output_gate": {"ALIVE_HALF_TICKS": 7, "HV_SETTLE_TICKS": 9, "REST_TICKS": 50},
     "stage_limits": {"EDGE_WINDOW_TICKS": 480},
 }
 VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
