@@ -52,7 +52,7 @@ class PanelClient:
     LinkError
         By every method: if nobody listens, does not answer in time, or ends the connection.
     ControllerError
-        If this user may not connect.
+        If this user may not connect, or not play.
     """
 
     def __init__(self, path: str = DEFAULT_PATH, timeout_s: float = 5.0) -> None:
@@ -230,6 +230,8 @@ class PanelClient:
             self._touches.append(message)
         elif isinstance(message, State) and message.id is None:
             self._states.append(message)
+        elif isinstance(message, Farewell) and message.lacks:
+            raise ControllerError(f"{self._path}: {message.reason}")
         elif isinstance(message, Farewell):
             raise LinkError(f"{self._path}: the panel has ended the connection: {message.reason}")
         elif isinstance(message.id, int):

@@ -85,6 +85,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             change=change,
             progress=housekeeping.progress,
         )
+        if commands is not None and commands.disarmed:
+            assembly.loop.switch(on=False)
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):

@@ -103,12 +103,16 @@ def _limit(bank: Path, limit_s: float) -> None:
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")  # of all processes of the service this goes first
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     with contextlib.suppress(FileNotFoundError):
-        most = pages * resource.getpagesize() + bank.stat().st_size + MEMORY_BYTES
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
-    seconds = math.ceil(limit_s) + 1  # it is told to have taken too long before
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        _lower(resource.RLIMIT_AS, pages * resource.getpagesize() + bank.stat().st_size + MEMORY_BYTES)
+    _lower(resource.RLIMIT_CPU, math.ceil(limit_s) + 1)  # it is told to have taken too long before
+    _lower(resource.RLIMIT_FSIZE, 0)
+    _lower(resource.RLIMIT_CORE, 0)
+
+
+def _lower(which: int, most: int) -> None:
+    hard = resource.getrlimit(which)[1]
+    most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    resource.setrlimit(which, (most, most))
 
 
 def _write(pipe: int, answer: bytes) -> None:

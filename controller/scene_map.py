@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from controller.board import Board
 from controller.effects import EffectTable
-from controller.records import Positive
 from controller.scene_file import RegionRead, Shape, read_scene, spot_at
 from controller.shapes import Boxes, Place
 from controller.spacings import Spacing, spacing_of
@@ -24,6 +23,7 @@ from controller.trains import Loudness, Train, train_of
 
 OUTSIDE = -1
 SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
+LEAST_SIDE_M = 1e-9  # of all meshes together: a region may be so thin that it has no width in floating point
 MESHES = 32  # each way: in each mesh the regions that a finger there can be in
 
 
@@ -68,8 +68,8 @@ class Meshes(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
 
     low_x: Place
     low_y: Place
-    per_x: Positive
-    per_y: Positive
+    per_x: Annotated[float, Meta(gt=0, le=MESHES / LEAST_SIDE_M)]
+    per_y: Annotated[float, Meta(gt=0, le=MESHES / LEAST_SIDE_M)]
     regions: Annotated[tuple[tuple[int, ...], ...], Meta(min_length=MESHES * MESHES, max_length=MESHES * MESHES)]
 
     @classmethod
@@ -78,7 +78,8 @@ class Meshes(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
         bounds = [area.shape.bounds for area in areas] or [(0.0, 0.0, 1.0, 1.0)]
         low_x, low_y, high_x, high_y = (f(side) for f, side in zip((min, min, max, max), zip(*bounds, strict=True), strict=True))
         # A hair wider, so that what lies on the far rim has a mesh too.
-        mesh_x, mesh_y = ((high - low) * (1 + 1e-9) / MESHES for low, high in ((low_x, high_x), (low_y, high_y)))
+        sides = (max((high - low) * (1 + 1e-9), LEAST_SIDE_M) for low, high in ((low_x, high_x), (low_y, high_y)))
+        mesh_x, mesh_y = (side / MESHES for side in sides)
         column, row = (part.ravel() for part in np.meshgrid(np.arange(MESHES), np.arange(MESHES), indexing="ij"))
         hair = 1e-6 * max(mesh_x, mesh_y)
         boxes = Boxes(

@@ -3,13 +3,15 @@
 // the high-voltage enable.
 // A fault is kept, with its cause, until it is cleared by command; a cause counts for as long as anything is on, the
 // words on their way after a ramp down included. A state that does not exist counts as off.
+// What a limit of the stages has shut stays so for REST_TICKS, whatever is commanded: to trip it again and again gains nothing.
 // The high voltage has HV_SETTLE_TICKS before the first word of a ramp up. Without a clock the outputs are low too.
 `default_nettype none
 `include "registers.vh"
 
 module output_gate #(
     parameter [31:0] ALIVE_HALF_TICKS = 32'd2_000,  // half a period of hv_alive_o; at least 10 kHz
-    parameter [31:0] HV_SETTLE_TICKS  = 32'd0  // of the board
+    parameter [31:0] HV_SETTLE_TICKS  = 32'd0,  // of the board
+    parameter [31:0] REST_TICKS       = 32'd0   // EDGE_WINDOW_TICKS of the board
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -56,6 +58,8 @@ module output_gate #(
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
     reg        silent_q;                   // none
     reg [8:0]  fault_q;
+    reg [31:0] rest_left_q;                // ticks for which a fault by a limit cannot be cleared
+    reg        resting_q;
     reg [31:0] fault_count_q, underruns_q;
     reg [63:0] fault_time_q;
     reg [SETTLE_BITS-1:0] settle_left_q;
@@ -93,7 +97,14 @@ module output_gate #(
             silent_q  <= silence_q == 32'd1;
         end
 
-        fault_q <= (clear_i ? 9'd0 : fault_q) | cause;
+        fault_q <= (clear_i ? {fault_q[`FAULT_DUTY:`FAULT_SHORT_PULSE] & {5{resting_q}}, 4'd0} : fault_q) | cause;
+        if (cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] != 5'd0) begin
+            rest_left_q <= REST_TICKS;
+            resting_q   <= 1'b1;
+        end else if (resting_q) begin
+            rest_left_q <= rest_left_q - 32'd1;
+            resting_q   <= rest_left_q != 32'd1;
+        end
         if (shut) begin
             fault_count_q <= fault_count_q + 32'd1;
             fault_time_q  <= now_i;
@@ -128,6 +139,8 @@ module output_gate #(
             silence_q    <= 32'd0;
             silent_q     <= 1'b1;
             fault_q       <= 9'd0;
+            rest_left_q   <= 32'd0;
+            resting_q     <= 1'b0;
             fault_count_q <= 32'd0;
             fault_time_q  <= 64'd0;
             underruns_q   <= 32'd0;
@@ -172,6 +185,10 @@ module output_gate #(
     assign hv_enable_o = hv_enable_q;
     assign hv_alive_o  = hv_alive_q;
     assign focus_o     = focus_q;
+
+`ifdef FORMAL
+    `include "output_gate_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

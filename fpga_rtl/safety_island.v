@@ -132,7 +132,7 @@ module safety_island #(
         .cause_o(limits), .channels_o(culprits), .duty_level_o(duty_level_o)
     );
 
-    output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS), .HV_SETTLE_TICKS(HV_SETTLE_TICKS)) output_gate (
+    output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS), .HV_SETTLE_TICKS(HV_SETTLE_TICKS), .REST_TICKS(EDGE_WINDOW_TICKS)) output_gate (
         .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i),
         .arm_i(arm), .disarm_i(disarm_i), .clear_i(clear_i),
         .heartbeat_i(heartbeat), .heartbeat_ticks_i(heartbeat_ticks_q),

@@ -7,7 +7,9 @@ every run gives the same ticks.
 import gc
 import itertools
 import selectors
+import shutil
 import signal
+from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -287,6 +289,52 @@ def test_a_bad_entry_is_left_out_counted_and_the_loop_goes_on(perform, bank_file
     assert run.capture.focus_ticks.size == 1
 
 
+@pytest.mark.parametrize("how", ["written over", "one bit"])
+def test_a_bank_that_is_changed_in_place_never_plays_wrong_bits(board, bank_file, tmp_path, evemu_text, how):
+    """Entries used before the change and after it, alone and composed; `cp` over the file, which the host has mapped."""
+    own, other = tmp_path / "own.bank", tmp_path / "other.bank"
+    content = bytearray(bank_file.read_bytes())
+    own.write_bytes(content)
+    with Bank.open(bank_file, board) as bank:
+        one, two = ([float(at) * 1e3 for at in bank.grid.points()[cell]] for cell in (130, 46))
+        entries = {cell: np.frombuffer(bytes(bank.words(cell)), "<u4") for cell in (130, 46)}
+        selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
+        points = [(x_mm * 1e-3, y_mm * 1e-3, 1.0) for x_mm, y_mm in (one, two)]
+        both = np.frombuffer(bytes(selection.words(selection.key(points))), "<u4")
+        for name in ("drive", "response"):
+            section = bank.sections[name]
+            changed = np.frombuffer(content, np.uint8, section.size, section.offset)
+            if how == "written over":
+                changed ^= 1
+            else:
+                changed[50 :: section.stride] ^= 1
+    other.write_bytes(content)
+    taps = [{0: one}, {0: two}, {0: one, 1: two}, {0: one}]  # then two slots are left, and the change comes at 1 s
+    reports = [report for k, slots in enumerate(taps * 2) for report in ((0.2 * k, slots), (0.2 * k + 0.1, dict.fromkeys(slots)))]
+
+    class Change(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.85 and own.read_bytes() != content:
+                shutil.copyfile(other, own)
+
+    two_slots = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=2))
+    with Bank.open(own, board) as bank:
+        link, counters, loop = loop_of(two_slots, bank, tmp_path, Change(), reports, evemu_text, CLICK)
+        loop.run()
+        link.close()
+    capture = link.take_capture()
+    right = [entries[130], entries[46], both]
+    ran = SimpleNamespace(capture=capture, board=board)
+    for tick in capture.focus_ticks.tolist():
+        assert any(np.array_equal(words_before(ran, tick), words) for words in right), "other words than those of the bank"
+    assert counters.uploads >= 3, "before it was changed"
+    assert counters.skipped.bad_entries + counters.foci == counters.due == 10
+    assert counters.skipped.bad_entries == 3, "the second place, and both together; what is resident is still good"
+    assert counters.skipped.refused == 0
+    assert "is damaged" in counters.bad_entry or "changed in place" in counters.bad_entry
+
+
 def test_a_replay_in_virtual_time_is_the_same_every_time(perform):
     reports = [(0.004 * k, {0: (20.0 + 3 * k, 54.0), 1: (180.0 - 2 * k, 30.0 + k)}) for k in range(40)]
     first, second = (perform(reports, SPOT + TEXTURE) for _ in range(2))
@@ -467,6 +515,26 @@ def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, b
     assert counters.outages == 1
     assert "run permit went away" in counters.outage
     assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
+
+
+def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
+    """A spot whose shadows touch: a contact beside it is a suspect; one that comes while the outputs are off is not."""
+
+    class PermitLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                link.gateware.permit(max(round(self._now_s * board.link.clock_hz), link.gateware.now), False)
+
+    haunted = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=30.0))
+    reports = [(0.0, {}), (0.4, {0: cell[1]}), (0.5, {0: None}), (0.6, {})]
+    with Bank.open(bank_file, haunted) as bank:
+        scene_text = SPOT.replace("20.0", "40.0")
+        link, counters, loop = loop_of(haunted, bank, tmp_path, PermitLost(), reports, evemu_text, scene_text)
+        loop.run()
+        link.close()
+    assert counters.outages == 1
+    assert loop._source.tracking.held_back == 0
 
 
 def test_spots_of_different_rates_each_keep_their_own_beat(perform):

@@ -536,6 +536,15 @@ def test_a_region_is_found_as_by_asking_one_after_the_other(x_m, y_m):
         assert scene.region_at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
 
 
+@pytest.mark.parametrize("side", [1e-20, 1e-300])
+def test_a_region_without_width_in_floating_point_is_a_scene_nevertheless(scene_of, side):
+    scene = scene_of(
+        f'name = "thin"\nshape = "rectangle"\nx_mm = 50\ny_mm = 50\nwidth_mm = {side}\nheight_mm = {side}\neffects = ["click"]'
+    )
+    assert (scene.region_at(0.05, 0.05), scene.region_at(0.06, 0.05)) == (0, OUTSIDE)
+    assert unpack_scene(pack_scene(scene)) == scene
+
+
 def test_the_far_rim_belongs_to_a_scene():
     shape = Rectangle(0.1, 0.05, 0.21, 0.148)
     assert [_scene(shape).region_at(x, y) for x, y in ((0.21, 0.148), (0.1, 0.05), (0.21, 0.05), (0.0999, 0.05))] == [

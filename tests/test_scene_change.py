@@ -311,6 +311,8 @@ AREA, SHAPE, TRAIN = ["scene", 0, 0], ["scene", 0, 0, 1], ["scene", 1, "click"]
         (["scene", 1, "long"], [1.0, 1, 0.0, 0.0, [[0.0, 1.0]] * 1001]),
         (["scene", 2, 0], float("nan")),
         (["scene", 2, 2], 0.0),
+        (["scene", 2, 2], float("inf")),
+        (["scene", 2, 3], 1e300),
         (["scene", 2, 4], []),
         (["scene", 2, 4, 0], [1]),
         (["scene", 2, 4, 0], [-1]),

@@ -15,6 +15,7 @@ import socket
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -30,7 +31,7 @@ from controller.board import Board
 from controller.command_source import Outcome, PanelControl
 from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
-from controller.log import tell
+from controller.log import Priority, tell
 from controller.panel_state import Condition
 from controller.performance import MOST_WAITING
 from controller.touch.samples import TouchSample
@@ -98,6 +99,7 @@ class CommandSocket:
         self._clients_per_user = settings.clients_per_user
         self._idle_s = settings.idle_s
         self._file = SocketFile(settings)
+        self._disarmed = Path(f"{settings.path}.disarmed")
         self._listener_fd = self._file.listener.fileno()
         self._listen_s = NEVER  # when the listener is looked at again
         self._epoll = select.epoll()
@@ -113,6 +115,11 @@ class CommandSocket:
         self._share = math.inf  # of these, the most that one user may have
         self._subscribers = 0
         self._next_s = NEVER
+
+    @property
+    def disarmed(self) -> bool:
+        """Whether the panel was disarmed and not armed again, by a client of this service or of one before it that has died."""
+        return self._disarmed.exists()
 
     def fileno(self) -> int:
         """File to wait on for reading."""
@@ -218,7 +225,7 @@ class CommandSocket:
         rights = self._rights.of(peer)
         if not rights:
             self.counters.without_right += 1
-            _send_away(accepted, self._rights.why_not(peer, "play"))
+            _send_away(accepted, self._rights.why_not(peer, "play"), "play")
             return
         place, reason = self._place_for(peer, rights, now_s)
         if place is None:
@@ -336,6 +343,7 @@ class CommandSocket:
                 on = isinstance(request, messages.Arm)
                 tell(f"{self._rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
                 control.switch(on)
+                self._remember(on)
                 self._answer(client, request.id, "done")
             case messages.AskState(id=number):
                 self._tell(client, self._state(number))
@@ -381,6 +389,16 @@ class CommandSocket:
             case messages.Unsubscribe():
                 self._unsubscribe(client)
                 self._answer(client, request.id, "done")
+
+    def _remember(self, on: bool) -> None:
+        """Beside the socket, for a service that has to take the place of this one."""
+        try:
+            if on:
+                self._disarmed.unlink(missing_ok=True)
+            else:
+                self._disarmed.touch(mode=0o600)
+        except OSError as error:
+            tell(f"{self._disarmed}: {error.strerror}: a restart would not know that the panel was switched", Priority.WARNING)
 
     def _state(self, number: Id) -> messages.State:
         now = self.condition
@@ -517,10 +535,10 @@ class CommandSocket:
         self._share_anew()
 
 
-def _send_away(accepted: socket.socket, reason: str) -> None:
+def _send_away(accepted: socket.socket, reason: str, lacks: Right | None = None) -> None:
     """Tell a client why it has to go at once."""
     with accepted, contextlib.suppress(OSError):
-        accepted.send(msgspec.json.encode(messages.Farewell(reason=reason)) + b"\n")
+        accepted.send(msgspec.json.encode(messages.Farewell(reason=reason, lacks=lacks)) + b"\n")
 
 
 def _events(client: Connection) -> int:

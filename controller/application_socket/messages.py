@@ -137,10 +137,11 @@ class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc
     temperature_c: float | None
 
 
-class Farewell(Struct, frozen=True, kw_only=True, tag_field="kind", tag="farewell", gc=False):
-    """The panel ends the connection, and why."""
+class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="farewell", gc=False):
+    """The panel ends the connection, and why; `lacks` names a right without which there is none."""
 
     reason: str
+    lacks: Literal["play", "operate"] | None = None
 
 
 AnyRequest = Play | Subscribe | Unsubscribe | Arm | Disarm | LoadScene | AskFigures | AskState | Hello

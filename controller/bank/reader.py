@@ -45,7 +45,9 @@ class Bank:
         self.sections = sections
         self.grid = header.grid
         self.samples = header.samples
-        self.file_bytes = os.fstat(fd).st_size
+        opened = os.fstat(fd)
+        self.file_bytes = opened.st_size
+        self._written_ns = opened.st_mtime_ns
         self.counters = Counters()
         self.rebuild = rebuild
         self._fd = fd
@@ -88,7 +90,7 @@ class Bank:
             start = os.pread(fd, 16, 0)
             header, sections = parse(os.pread(fd, header_length(start, size), 0), size)
             name = header.parameters.get("board")
-            if not board and isinstance(name, str):
+            if not board and isinstance(name, str) and name.isprintable():
                 rebuild = build_line(path, name)
             if board and header.board_digest != board.digest():
                 raise BankError(
@@ -153,6 +155,33 @@ class Bank:
                 raise self._bad("drive", entry, cell)
             self._drive_good[entry] = 1
         return view
+
+    def drive_crc(self, cell: int) -> int:
+        """CRC-32 of a cell's drive words as the bank's table has it, whatever the file holds by now; `words` has given them."""
+        return self._crc_of[self._entry_of[cell]][0]
+
+    def recheck(self, cell: int) -> None:
+        """Look again at drive words that somebody found wrong.
+
+        Raises
+        ------
+        BankError
+            If it is the file that does not hold what its table says, such as one that was written over in place.
+        """
+        self._drive_good[self._entry_of[cell]] = 0
+        self.words(cell)
+
+    def require_unchanged(self) -> None:
+        """Refuse a file that was written to since it was opened: responses are checked when they are first used only.
+
+        Raises
+        ------
+        BankError
+        """
+        now = os.fstat(self._fd)
+        if now.st_mtime_ns != self._written_ns or now.st_size != self.file_bytes:
+            self.counters.bad += 1
+            raise BankError(f"{self.path}: was changed in place while in use; load the scene again, or restart")
 
     def response(self, cell: int) -> tuple[NDArray[np.int8], float]:
         """Response of a cell.

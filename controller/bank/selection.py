@@ -9,6 +9,7 @@ same waveform again and finds it resident.
 from __future__ import annotations
 
 import math
+import zlib
 from collections.abc import Sequence
 
 from controller.bank.amplitude import AMPLITUDES, amplitude_step
@@ -85,13 +86,24 @@ class Selection:
         Raises
         ------
         BankError
-            If an entry it needs is damaged or not in the bank.
+            If an entry it needs is damaged or not in the bank, or the file was changed in place.
         """
         if isinstance(key, int):
             return self._bank.words(key)
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
-        return self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
+        words = self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
+        self._bank.require_unchanged()
+        return words
+
+    def crc(self, key: Key, words: memoryview) -> int:
+        """CRC-32 of the drive words of a key: of an entry the one it was built with, which vouches for it up to the FPGA."""
+        return self._bank.drive_crc(key) if isinstance(key, int) else zlib.crc32(words)
+
+    def recheck(self, key: Key) -> None:
+        """Raise BankError if words of a key that the FPGA found wrong came so from the bank."""
+        if isinstance(key, int):
+            self._bank.recheck(key)
 
     def reusable(self, key: Key, resident: Key, near_m: float = NEAR_M) -> bool:
         """Whether a waveform that the FPGA holds serves instead of another that it does not.

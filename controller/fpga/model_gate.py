@@ -14,6 +14,7 @@ from controller.fpga.model_registers import RegisterFile
 from controller.fpga.registers import Fault
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
+LIMITS = Fault.SHORT_PULSE | Fault.CHANNEL_EDGES | Fault.TOTAL_EDGES | Fault.LONG_EMISSION | Fault.DUTY
 ALIVE_HZ_4 = 40_000  # `hv_alive_o` changes twice as often as its 20 kHz have periods
 _LIMITS_SHIFT = int(Fault.SHORT_PULSE).bit_length() - 1
 
@@ -38,6 +39,7 @@ class OutputGate:
         self.pins = Pins(self.limits, max(registers.parameters.clock_hz // ALIVE_HZ_4, 1))
         self.state = Gate.OFF
         self.faults = Fault(0)
+        self._rest_until = 0  # the tick from which on a fault by a limit can be cleared
         self.fault_count = 0
         self.fault_tick = 0
         self.permits = dict.fromkeys(Permit, False)
@@ -139,6 +141,8 @@ class OutputGate:
     def shut(self, tick: int, cause: Fault) -> None:
         """Outputs low with the next tick, whatever is still on its way to them."""
         self.faults |= cause
+        if cause & LIMITS:
+            self._rest_until = tick + 1 + self._registers.parameters.edge_window_ticks
         self.fault_count += 1
         self.fault_tick = tick
         self.state = Gate.OFF
@@ -149,8 +153,8 @@ class OutputGate:
         self.limits.emission(tick + 1, sounding=False)
 
     def clear(self, tick: int) -> None:
-        """Forget the causes of a fault."""
-        self.faults = Fault(0)
+        """Forget the causes of a fault, but for those of a limit while it rests."""
+        self.faults &= LIMITS if tick < self._rest_until else Fault(0)
         self.limits.clear(tick)
 
     def _come_to_off(self, tick: int) -> None:

@@ -135,7 +135,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.PARAMETERS: Description(
         "RO", "23:0", "built in", "plays in the queue (7:0), ticks from trigger to first word (15:8), of the glitch filter (23:16)"
     ),
-    Register.EDGE_WINDOW_TICKS: Description("RO", "31:0", "built in", "ticks over which edges are counted"),
+    Register.EDGE_WINDOW_TICKS: Description("RO", "31:0", "built in", "ticks over which edges are counted, wherever they begin"),
     Register.CONTROL: Description(
         "WO",
         "31:0",
@@ -166,7 +166,7 @@ REGISTERS: Final[dict[Register, Description]] = {
     Register.DUTY_TICKS: Description(
         "RW", "31:0", "largest", "ticks of emission that may run ahead of DUTY_SHARE; at most what is built in"
     ),
-    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR"),
+    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR, and EDGE_WINDOW_TICKS if of a limit"),
     Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
     Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
     Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),

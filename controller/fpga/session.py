@@ -269,8 +269,13 @@ class Session:
             self._look_for_reset(refusal)
             raise
 
-    def upload(self, slot: int, words: memoryview) -> None:
+    def upload(self, slot: int, words: memoryview, crc: int | None = None) -> None:
         """Send drive words and make them the slot's waveform, without playing it.
+
+        Parameters
+        ----------
+        crc : int, optional
+            CRC-32 that they shall have, else they are not played: of where they come from, or of the words as they are.
 
         Raises
         ------
@@ -278,11 +283,13 @@ class Session:
             If the FPGA cannot take it.
         """
 
+        stored_crc = zlib.crc32(words) if crc is None else crc
+
         def send(_: bool) -> Status:
             sequence = self.exchange.sequence
             end = self._upload.pack(sequence, words)
             sequence += self._upload.frames
-            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
+            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, stored_crc)
             fillers = self._check_frames + 1
             for number in range(1, fillers + 1):
                 end = frames.pack_nop(self._sent, end, sequence + number)
@@ -300,11 +307,12 @@ class Session:
         stop: bool,
         start: Start = Start.TRIGGER,
         when_ticks: int = 0,
+        crc: int | None = None,
     ) -> None:
         """Send drive words, make them the slot's waveform and have it accepted: for the next trigger, at once, or at a time.
 
-        The words are copied once, into the frames, and each frame's CRC is taken there. What is sent again because it
-        was damaged may come too late for its time: it is refused then.
+        The words are copied once, into the frames, and each frame's CRC is taken there; `crc` is as `upload` has it.
+        What is sent again because it was damaged may come too late for its time: it is refused then.
 
         Raises
         ------
@@ -316,11 +324,13 @@ class Session:
             If the link damages whatever is tried; nothing is left to play then.
         """
 
+        stored_crc = zlib.crc32(words) if crc is None else crc
+
         def send(again: bool) -> Status:
             sequence = self.exchange.sequence
             commands = end = self._upload.pack(sequence, words)
             sequence += self._upload.frames
-            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, zlib.crc32(words))
+            end = frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, stored_crc)
             sequence += 1
             if stop or again:
                 end = frames.pack_control(self._sent, end, sequence, Control.STOP)

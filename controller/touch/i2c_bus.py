@@ -15,10 +15,10 @@ from controller.errors import TouchError
 
 ATTEMPTS: Final = 3
 # What adapters say when nobody acknowledges: ENXIO, EREMOTEIO (Pi), ENODEV; EIO and EAGAIN: a disturbed transfer.
-# ETIMEDOUT, a hung bus, is not among them: each attempt would hold up the loop once more.
+# ETIMEDOUT, a hung bus, is not among them: each attempt would hold up touches once more.
 WORTH_ANOTHER: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO, errno.EAGAIN)
 I2C_TIMEOUT: Final = 0x0702  # linux/i2c-dev.h, in units of 10 ms
-TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second: a bus that hangs must not cost the FPGA its heartbeat
+TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second: touches wait for it, where it keeps to that
 
 
 class Transfer:

@@ -68,10 +68,23 @@ def test_one_who_may_do_nothing_is_told_so_and_takes_no_place(panel):
         panel.settle()
         assert json.loads(stranger.recv(1000)) == {
             "kind": "farewell",
+            "lacks": "play",
             "reason": f"uid 50004 (pid 14) does not have the right to play: group {PLAY_GROUP.gr_name!r} gives it",
         }
         assert stranger.recv(1) == b""
     assert (panel.socket.counters.without_right, panel.socket.counters.clients) == (20, 0)
+
+
+def test_that_it_was_disarmed_is_known_to_the_next_service_until_somebody_arms(panel, board, changed):
+    client = panel.connect(OPERATOR)
+    assert not panel.socket.disarmed
+    panel.ask(client, {"kind": "disarm"}, {"kind": "disarm"})
+    panel.socket.close()
+    again = type(panel)(board, panel.settings)
+    assert again.socket.disarmed
+    assert again.ask(again.connect(OPERATOR), {"kind": "arm", "id": 1})[0]["outcome"] == "done"
+    assert not again.socket.disarmed
+    again.close()
 
 
 def test_without_groups_whoever_may_connect_plays_and_only_the_services_own_user_and_root_operate(panel_with):

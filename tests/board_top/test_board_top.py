@@ -1,6 +1,8 @@
 """boards/ulx3s as it is: its top with the bitstream's parameters, at its pins SpiLink with board.toml unchanged."""
 
+import sys
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,11 +11,27 @@ from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inpu
 from controller.board import data_folder, load_board
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
+from controller.fpga.capture import Capture
 from controller.fpga.exchange import Refused
-from controller.fpga.frames import pack_nop
-from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Register, Result, State
+from controller.fpga.frames import (
+    FRAME_BYTES,
+    LOAD_FRAME_BYTES,
+    pack_control,
+    pack_load,
+    pack_nop,
+    pack_play,
+    pack_store,
+    pack_unlock,
+    parse_status,
+)
+from controller.fpga.gateware import Parameters
+from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
+
+from hard_limits import broken_limits
 
 ULX3S = load_board(BOARD / "board.toml")
 CLOCK_PS = PS / ULX3S.link.clock_hz
@@ -129,3 +147,59 @@ def test_a_frame_damaged_on_its_way_is_refused_and_the_next_one_taken(pi):
         session.exchange.short(end)
     assert caught.value.result is Result.BAD_CRC
     session.heartbeat()
+
+
+def test_unlocked_and_armed_with_no_setting_written_it_keeps_the_limits_of_its_board(pi):
+    """What any program at the port could send: one endless play of alternating words."""
+    link, sequence = opened(pi), 0
+    buffer, answer = bytearray(LOAD_FRAME_BYTES), bytearray(LOAD_FRAME_BYTES)
+
+    def send(pack, *arguments, **named):
+        nonlocal sequence
+        sequence += 1
+        end = pack(buffer, 0, sequence, *arguments, **named)
+        link.exchange(memoryview(buffer)[:end], [end], memoryview(answer)[:end])
+
+    words = np.tile(np.array([0xFFFFFFFF, 0], "<u4"), 500)
+    send(pack_nop)
+    for chunk in range(8):
+        send(pack_load, chunk, memoryview(words[125 * chunk : 125 * chunk + 125]).cast("B"))
+    send(pack_store, 0, 1000, zlib.crc32(words))
+    send(pack_unlock, build_hash(data_folder("fpga_rtl")))
+    send(pack_control, Control.ARM)
+    pi.board.run((ULX3S.limits.arming_s + 0.1e-3) * PS)
+    send(pack_play, 0, count=0, period_ticks=125_000, start=Start.NOW)
+    pi.board.run(26e-3 * PS)
+    send(pack_nop)
+    status = parse_status(answer[:FRAME_BYTES])
+    assert status.faults == Fault.TOTAL_EDGES
+    assert not pi.board.high(signal_pins()["hv_enable"])
+
+    times, pins = pi.board.take()
+    words, hv = channels_of(pins), (pins & np.uint64(signal_pins()["hv_enable"])) != 0
+    ticks = np.round(times.astype(np.int64) / CLOCK_PS).astype(np.int64)
+    changed = (np.diff(words, prepend=np.uint32(0)) != 0) | (np.diff(hv, prepend=False) != 0)
+    capture = Capture(ticks[changed].astype(np.uint64), words[changed], hv[changed].astype(np.uint8), np.empty(0, np.uint64))
+    assert capture.words.size > 10_000
+    assert broken_limits(capture, Parameters.of(ULX3S, 0), ULX3S.bit_ticks) == []
+    link.close()
+
+
+def test_when_its_oscillator_stops_the_outputs_are_low_as_soon_as_the_pll_says_so(pi):
+    session = session_on(pi, opened(pi))
+    arm(pi, session)
+    assert channels_of(np.array([pi.board.levels], np.uint64))[0] == ULX3S.idle_word
+    outputs = sum(channel_pins()) | sum(signal_pins()[name] for name in ("hv_enable", "hv_alive", "focus", "waiting", "fault"))
+    assert pi.board.levels & outputs
+    pi.board.take()
+    pi.board.oscillate(False)
+    pi.board.run(400_000)  # ten periods of the oscillator
+    assert not pi.board.high(signal_pins()["configured"])
+    assert pi.board.levels & outputs == 0
+    times, pins = pi.board.take()
+    configured = times[(pins & np.uint64(signal_pins()["configured"])) == 0][0]
+    assert times[(pins & np.uint64(outputs)) == 0][0] == configured, "at once: there is no clock any more"
+    pi.board.oscillate(True)
+    pi.board.run(3e-6 * PS)
+    assert pi.board.high(signal_pins()["configured"])
+    assert pi.board.levels & outputs == 0, "armed no longer"

@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
-from controller.fpga.bring_up import BitErrors
+from controller.fpga.bring_up import BitErrors, bit_errors
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.gateware import Parameters
 from controller.fpga.link_check import MARGIN, SWEEP_STEPS, Speed, counted, error_rate_bound, measured_hz, proposed_hz, sweep
 from controller.fpga.model import GatewareModel
+from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.simulated_link import SimulatedLink
 
@@ -58,11 +60,31 @@ def test_one_damaged_bit_counts_once():
     assert counted(BitErrors(frames=8, frames_refused=0, answers_damaged=0, bits=0, wrong_bits=0)) == (8 * 512 * 8, 0)
 
 
+def test_a_frame_refused_there_and_an_answer_damaged_on_its_way_back_are_two_errors():
+    assert counted(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=0, wrong_bits=0)) == (8 * 512 * 8, 5)
+    assert counted(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=30_000, wrong_bits=9)) == (30_000, 9)
+
+
+def test_errors_of_before_are_not_counted_again(board, wired):
+    link, session = wired
+    link.carried_hz = 0.9 * board.link.sck_hz
+    rng = np.random.default_rng(1)
+    assert bit_errors(session, 1e4, rng).wrong_bits > 0
+    session.exchange.sent[:FRAME_BYTES] = bytes(FRAME_BYTES)  # no frame at all
+    session.exchange.unchecked([FRAME_BYTES])
+    assert session.exchange.read(Register.FRAME_ERRORS) > 0
+    link.carried_hz = math.inf
+    found = bit_errors(session, 1e4, rng)
+    assert (found.frames_refused, found.answers_damaged, found.wrong_bits) == (0, 0, 0)
+
+
 @pytest.mark.parametrize("carried", [1.0, 0.8, 0.55, 0.3])
 def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
     link, session = wired
     link.carried_hz = carried * board.link.sck_hz
-    speeds = sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))
+    told = []
+    speeds = sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1), lambda *done: told.append(done))
+    assert told == [(number, len(SWEEP_STEPS)) for number in range(1, len(SWEEP_STEPS) + 1)]
     assert [speed.asked_hz for speed in speeds] == [round(step * board.link.sck_hz) for step in SWEEP_STEPS]
     assert [speed.good for speed in speeds] == [step <= carried for step in SWEEP_STEPS]
     assert all("only ones came back" in speed.trouble for speed in speeds if speed.sck_hz > 2 * link.carried_hz)

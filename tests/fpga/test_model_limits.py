@@ -1,5 +1,6 @@
 """The model of the stage protection against the reference that goes tick by tick, replaced plans included."""
 
+from bisect import bisect_left, bisect_right
 from dataclasses import asdict
 
 import numpy as np
@@ -11,9 +12,11 @@ from limits_reference import NO_LIMITS, Inputs, limits_reference
 from controller.fpga.model_limits import (
     CHANNEL_EDGES,
     DUTY,
+    EDGE_TICKS,
     LONG_EMISSION,
     SHORT_PULSE,
     TOTAL_EDGES,
+    TOTAL_TICKS,
     LimitSettings,
     StageLimits,
     part_ticks,
@@ -41,7 +44,7 @@ def reference(limit_settings, inputs):
     return limits_reference(inputs, asdict(limit_settings), WINDOW_TICKS)
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=60)
 @given(limits, st.lists(plans, max_size=8), st.lists(st.tuples(st.integers(1, 50), st.booleans()), max_size=8), st.data())
 def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
     """Plans made at rising ticks, each for now or later, replacing what is not past; sounds, activity, clears, settling."""
@@ -104,6 +107,49 @@ def test_planned_words_that_never_come_do_not_count():
     assert limits_.channels(312) == 1
     limits_.show(np.array([300, 1000 + 16 * part_ticks(1000)]), np.array([1, 0], np.uint32))
     assert limits_.next_change(0) is None, "the second edge is beyond all parts of the first"
+
+
+def most_within(ticks, window_ticks):
+    return max((bisect_left(ticks, tick + window_ticks) - at for at, tick in enumerate(ticks)), default=0)
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    st.lists(st.tuples(st.integers(1, 40) | st.integers(1, 3), words), max_size=60),
+    st.integers(0, 700),
+    st.integers(0, 20),
+    st.integers(0, 80),
+    st.sampled_from([60, 479, 480, 481, 700]),
+)
+def test_no_interval_of_a_window_has_more_edges_than_the_limit_wherever_it_begins(gaps, start, channel_edges, total_edges, window):
+    """Of the edges that trip nothing, by the reference; an edge too many is the last before the outputs are off."""
+    inputs, word = [Inputs() for _ in range(start)], 0
+    for wait, following in gaps:
+        inputs += [Inputs(word) for _ in range(wait)]
+        word = following
+    inputs.append(Inputs(word))
+    seen = limits_reference(inputs, NO_LIMITS | {"channel_edges": channel_edges, "total_edges": total_edges}, window)
+    edges = {channel: [] for channel in range(32)}
+    every = []
+    for tick in range(1, len(inputs) - TOTAL_TICKS):
+        change = inputs[tick].word ^ inputs[tick - 1].word
+        every += [tick] * change.bit_count()
+        if not seen[tick + EDGE_TICKS].cause & CHANNEL_EDGES:
+            for channel in edges:
+                edges[channel] += [tick] * (change >> channel & 1)
+        if not seen[tick + TOTAL_TICKS].cause & TOTAL_EDGES:
+            assert len(every) - bisect_right(every, tick - window) <= total_edges or not change
+    assert max(most_within(ticks, window) for ticks in edges.values()) <= channel_edges
+
+
+def test_twice_the_limit_across_the_end_of_a_window_is_too_many():
+    """What windows at fixed times let pass."""
+    for window in (480, 4800):
+        for end in (window, 2 * window, 15 * part_ticks(window), 16 * part_ticks(window)):
+            limits_ = StageLimits(LimitSettings(channel_edges=20, total_edges=20), window)
+            limits_.show(np.arange(end - 20, end + 20), np.arange(1, 41, dtype=np.uint32) & 1)
+            assert limits_.next_change(0) == end + 2
+            assert limits_.cause(end + 2) == CHANNEL_EDGES
 
 
 @pytest.mark.parametrize(

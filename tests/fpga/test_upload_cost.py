@@ -4,13 +4,22 @@ import tracemalloc
 import zlib
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from controller.bank import reader
+from controller.bank import selection as selection_module
+from controller.bank.reader import Bank
+from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
+from controller.fpga.time_base import TimeBase
 from controller.fpga.upload_image import UploadImage
 from controller.hardware import open_session, open_simulated
+from controller.latency import Counters
+from controller.playback import Playback
+from controller.scene import Emission
 
 WORDS = memoryview(np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8))
 BUFFER = memoryview(bytearray(frames.UPLOAD_BYTES))
@@ -52,15 +61,40 @@ def test_packing_an_upload_is_one_crc_pass(monkeypatch):
     assert checked == [8 + 500] * 8
 
 
-def test_an_upload_and_its_play_are_two_crc_passes(monkeypatch, board):
+@pytest.mark.parametrize(("crc", "more"), [(None, [4000]), (zlib.crc32(WORDS), [])], ids=["composed", "of the bank"])
+def test_an_upload_is_one_crc_pass_in_its_frames_and_one_more_for_what_no_bank_vouches_for(monkeypatch, board, crc, more):
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     fpga = open_session(link, board, clock.now_s)
     checked = count_crcs(monkeypatch, frames, session, upload_image)
-    fpga.upload(0, WORDS)
-    long = [size for size in checked if size > frames.FRAME_BYTES]
-    assert long == [*[8 + 500] * 8, 4000]
+    fpga.upload(0, WORDS, crc)
+    long = sorted(size for size in checked if size > frames.FRAME_BYTES)
+    assert long == [*[8 + 500] * 8, *more]
     assert link.bytes_sent > frames.UPLOAD_BYTES
+
+
+def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(monkeypatch, board, bank_file):
+    """First uses are checked by the host; later ones by the FPGA, against the bank's own table."""
+    clock, counters = VirtualClock(), Counters()
+    link = open_simulated(board, clock.now_s)
+    fpga = open_session(link, board, clock.now_s)
+    fpga.arm()
+    clock._now_s += 0.02
+    with Bank.open(bank_file, board) as bank:
+        selection = Selection(bank, 1e-3, board.idle_word)
+        playback = Playback(
+            fpga, selection, TimeBase(link.clock_hz), lambda *_: None, slots=4, duration_s=2e-3, max_duty=1.0, upload_s=1.4e-3,
+            command_s=1e-5, counters=counters,
+        )  # fmt: skip
+        checked = count_crcs(monkeypatch, frames, session, upload_image, reader, selection_module)
+        passes = []
+        for x_m, y_m in [tuple(place) for place in bank.grid.points()[[60, 61, 62, 63, 64]]] * 2:  # of four slots none serves
+            checked.clear()
+            clock._now_s += 0.01
+            assert playback.prepare([Emission(0.0, x_m, y_m, None, "")], 0) is not None
+            passes.append(sum(size > frames.FRAME_BYTES for size in checked))
+    assert counters.uploads == 10
+    assert passes == [8 + 1] * 5 + [8] * 5
 
 
 def test_every_byte_of_the_payload_arrives_in_its_chunk():

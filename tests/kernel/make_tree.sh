@@ -23,7 +23,11 @@ base=$("$python" -c 'import sys; print(sys.base_prefix)')
 version=$("$python" -c 'import sys; print(f"python3.{sys.version_info[1]}")')
 packages=$("$python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
 printf '%s %s\n' /usr /usr "$checkout" /checkout "$packages" /opt/packages >"$tree/binds"
-case "$*" in *commissioning*) mkdir "$tree/opt/wheels" && echo "$("$here/make_wheels.sh") /opt/wheels" >>"$tree/binds" ;; esac
+if [[ "$*" == *commissioning* ]]; then # what it installs by itself
+  wheels=$("$here/make_wheels.sh")
+  mkdir "$tree/opt/wheels"
+  echo "$wheels /opt/wheels" >>"$tree/binds"
+fi
 interpreter=/usr/bin
 case $base in
   /usr) ;;

@@ -1,25 +1,27 @@
 #!/bin/bash
-# Wheels of all that `pip install '.[offline]'` asks for, for a container without network; made once for each pyproject.toml.
+# Wheels of all that `pip install '.[offline]'` asks for, for a container without network; made once for each list of it.
 # usage: make_wheels.sh     prints their folder
 set -euo pipefail
 checkout=$(realpath "$(dirname "$0")/../..")
-cache=${XDG_CACHE_HOME:-$HOME/.cache}/haptic-panel/wheels
-done=$cache/$(cat "$checkout/pyproject.toml" "$0" <(/usr/bin/python3 -V) | sha256sum | cut -c1-16)
-mkdir -p "$cache"
-exec 9>"$cache/lock"
-flock 9 # a second run waits for the first and finds its work
-if [ ! -e "$done" ]; then
-  work=$(mktemp -d "$cache/making.XXXXXX")
-  trap 'rm -rf "$work"' EXIT
-  /usr/bin/python3 -m venv "$work/venv" # that of the container: its /usr is this one
-  "$work/venv/bin/python" - "$checkout/pyproject.toml" >"$work/wanted" <<'P'
+python=/usr/bin/python3 # that of the container: its /usr is this one
+wanted=$("$python" - "$checkout/pyproject.toml" <<'P'
 import sys, tomllib
 with open(sys.argv[1], "rb") as file:
     tables = tomllib.load(file)
 project = tables["project"]
 print(*tables["build-system"]["requires"], *project["dependencies"], *project["optional-dependencies"]["offline"], sep="\n")
 P
-  "$work/venv/bin/pip" wheel -q --disable-pip-version-check -w "$work/wheels" -r "$work/wanted" >&2
+)
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/haptic-panel/wheels
+done=$cache/$({ echo "$wanted" && "$python" -V && cat "$0"; } | sha256sum | cut -c1-16)
+mkdir -p "$cache"
+exec 9>"$cache/lock"
+flock 9 # a second run waits for the first and finds its work
+if [ ! -e "$done" ]; then
+  work=$(mktemp -d "$cache/making.XXXXXX")
+  trap 'rm -rf "$work"' EXIT
+  "$python" -m venv "$work/venv"
+  "$work/venv/bin/pip" wheel -q --disable-pip-version-check -w "$work/wheels" -r <(echo "$wanted") >&2
   mv -T "$work/wheels" "$done" # whole or not there
 fi
 echo "$done"

@@ -17,6 +17,7 @@ from host_gateware import HostGateware
 from the_service import cell, fresh_start, install, main_pid, said, wait_for, wait_for_emission
 
 from controller.board import load_board
+from controller.client import PanelClient
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "touch"))
 
@@ -94,6 +95,26 @@ def test_a_finger_plays_the_banks_entry_of_its_cell():
 def test_damaged_frames_change_nothing():
     pid = main_pid()
     bench().fpga.ask("damage", 3)
+    bench().finger_is_felt()
+    assert main_pid() == pid
+    assert "outputs off" not in said()
+
+
+def heartbeats():
+    """How many the service has given so far."""
+    with PanelClient() as panel:
+        return panel.figures()["heartbeats"]
+
+
+def test_a_touch_bus_that_hangs_for_seconds_costs_no_heartbeat():
+    """Of an adapter that does not keep to the time it is given: 20 s."""
+    pid = main_pid()
+    bench().chip.hangs = True
+    bench().panel.touch({0: (700, 700)})
+    wait_for("the transfer that does not end", lambda: not bench().chip.hangs)
+    before = heartbeats()
+    wait_for("heartbeats", lambda: heartbeats() >= before + 12)  # a second, at a timeout of 250 ms
+    assert bench().fpga.pins()["hv"] == 1
     bench().finger_is_felt()
     assert main_pid() == pid
     assert "outputs off" not in said()

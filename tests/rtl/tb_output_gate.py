@@ -13,7 +13,8 @@ from controller.fpga.registers import Fault
 
 HEARTBEAT_TICKS = 40
 ALIVE_HALF_TICKS = 7  # as test_rtl.py sets it
-SETTLE_TICKS = 9  # as benches.py sets it
+SETTLE_TICKS, REST_TICKS = 9, 50  # as benches.py sets them
+LIMITS = Fault(31 << 4)
 BIT_TICKS = 5
 ALL = 0xFFFFFFFF
 OFF, SETTLING, RAMP_UP, ON, STOPPING, RAMP_DOWN = "off", "settling", "ramp_up", "armed", "stopping", "ramp_down"
@@ -30,6 +31,7 @@ class Reference:
         self.channel = 0
         self.open_since = None  # tick in which the enable rose
         self.settled_tick = None  # the last of SETTLING
+        self.rests_until = 0  # the tick from which on a fault by a limit can be cleared
         self.focus_until = 0
 
     def alive(self, tick):
@@ -83,8 +85,10 @@ class Reference:
                 self.emissions += 1
                 self.focus_until = tick + 1 + inputs["bit_ticks"]
         if inputs["clear"]:
-            self.fault = Fault(0)
+            self.fault &= LIMITS if tick < self.rests_until else Fault(0)
         self.fault |= causes
+        if causes & LIMITS:
+            self.rests_until = tick + 1 + REST_TICKS
         if shut:
             self.fault_count += 1
             self.fault_time = inputs["now"]
@@ -316,6 +320,13 @@ async def shuts_with_the_next_clock_for_each_cause_in_each_state_and_counts_it_o
             assert (int(dut.fault_count_o.value), int(dut.fault_time_o.value)) == (1, at)
             assert int(dut.emissions_o.value) == 0
             assert int(dut.underruns_o.value) == ("underrun" in change)
+            if cause & LIMITS:
+                await bench.step(clear=1)
+                assert Fault(int(dut.fault_o.value)) == cause & LIMITS, "the stages rest"
+                await bench.step(REST_TICKS - 8)
+                assert bench.is_shut()
+                await bench.step(clear=1)
+                assert Fault(int(dut.fault_o.value)) == cause & LIMITS, "the last tick"
             await bench.step(clear=1)
             assert int(dut.fault_o.value) == 0
             assert int(dut.fault_count_o.value) == 1, "counted for good"
@@ -336,7 +347,7 @@ async def causes_add_up_until_they_are_cleared(dut):
     await bench.arm()
     await bench.step(2)
     await bench.step(temperature_good=0, clear=1)
-    assert Fault(int(dut.fault_o.value)) == Fault.OVER_TEMPERATURE, "a fault in the very clock of a clear is kept"
+    assert Fault(int(dut.fault_o.value)) == Fault.OVER_TEMPERATURE | Fault.LONG_EMISSION, "one in the very clock of a clear is kept"
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")

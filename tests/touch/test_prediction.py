@@ -9,7 +9,7 @@ from scripted_source import ScriptedSource, touch
 
 from controller.device_settings import TouchPanel
 from controller.offline.prediction_error import HORIZONS_MS, METHODS, Kalman, main, measure, overshoot_m, rest_m
-from controller.touch.prediction import FARTHEST_AHEAD_M, LONGEST_AHEAD_S, PAUSE_S, REST_M, STOP_GAIN, Motion
+from controller.touch.prediction import FARTHEST_AHEAD_M, LONGEST_AHEAD_S, PAUSE_S, REST_M, REST_REPORTS, STOP_GAIN, Motion
 from controller.touch.recording import Recording
 from controller.touch.tracker import Tracker
 
@@ -61,7 +61,7 @@ def test_a_finger_at_rest_has_one_place_whatever_noise_its_reports_have(noise):
     places = set()
     for k, (x_m, y_m) in enumerate(noise, 1):
         motion.report(0.1 + x_m / 2, 0.05 + y_m / 2, k * PERIOD_S)
-        if k >= 9:
+        if k >= REST_REPORTS:
             places.add(place(motion, 5e-3, 10e-3))
     assert len(places) == 1
     assert math.dist(places.pop(), (0.1, 0.05)) < REST_M

@@ -1,0 +1,153 @@
+"""Hosts that write nothing, and hosts that write everything: the limits built in hold, on the model and on the Verilog."""
+
+import random
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hard_limits import broken_limits
+from pin_script import BUILD_HASH, PARAMETERS, Script, readable
+
+from controller.board import find_board, load_board
+from controller.fpga import frames
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.gateware import Parameters, Permit
+from controller.fpga.model import GatewareModel
+from controller.fpga.registers import Control, Fault, Register, Start
+
+ULX3S = Parameters.of(load_board(find_board("ulx3s")), BUILD_HASH)
+TIGHT = replace(
+    PARAMETERS,
+    channel_mask_max=0x7FFF00FF,
+    hv_settle_ticks=40,
+    heartbeat_ticks_max=4000,
+    edge_window_ticks=5000,
+    pulse_ticks_min=7,
+    channel_edges_max=150,
+    total_edges_max=2500,
+    emission_ticks_max=300,
+    duty_share_max=20_000,
+    duty_ticks_max=1500,
+    bit_period_reset=7 << 16,
+    ramp_samples_reset=20,
+)
+ALTERNATING = np.array([0xFFFFFFFF, 0] * 20, np.uint32)  # 280 ticks at the fastest
+WORD_TICKS = 7
+SETTINGS = [register for register in Register if Register.IDLE_WORD <= register <= Register.DUTY_TICKS]
+SCRIPTS = {"model": 100, "rtl": 15}
+
+
+def perform(script, back_end, parameters):
+    """Statuses and capture of a script."""
+    gateware, answers = back_end(parameters), []
+    for method, arguments in script.steps:
+        if method == "exchange":
+            select_tick, release_tick, mosi = arguments
+            answers.append(bytearray(len(mosi)))
+            gateware.exchange(select_tick, release_tick, mosi, memoryview(answers[-1]))
+        else:
+            getattr(gateware, method)(*arguments)
+    gateware.advance(script.tick)
+    return [readable(answer) for answer in answers if len(answer) >= FRAME_BYTES], gateware.take_capture()
+
+
+def unlock_and_arm(script):
+    script.send(frames.pack_unlock, BUILD_HASH)
+    script.control(Control.ARM)
+
+
+def endless(script, words, period_ticks):
+    """One play for ever, at once."""
+    script.send(frames.pack_play, 0, length=len(words), count=0, period_ticks=period_ticks, start=Start.NOW)
+
+
+def test_with_no_setting_written_a_board_keeps_its_limits():
+    """Unlock, arm, and one endless play of alternating words; on the compiled top: tests/board_top."""
+    script, words = Script(), np.tile(ALTERNATING, 25)
+    for permit in Permit:
+        script.permit(True, which=permit)
+    script.upload(0, words)
+    unlock_and_arm(script)
+    while script.tick < ULX3S.hv_settle_ticks + 5000 * 125 + 100_000:
+        script.wait(ULX3S.heartbeat_ticks_max // 2)
+        script.status()
+    endless(script, words, 1000 * ULX3S.bit_period_reset >> 16)
+    began = script.tick
+    while script.tick < began + 40e-3 * ULX3S.clock_hz:
+        script.wait(ULX3S.clock_hz // 100)
+        script.status()
+    statuses, capture = perform(script, GatewareModel, ULX3S)
+    assert statuses[-1].faults == Fault.TOTAL_EDGES
+    assert capture.words.size > 10_000
+    assert capture.hv[-1] == 0
+    assert broken_limits(capture, ULX3S, 125) == []
+    loose = replace(ULX3S, total_edges_max=2**29 - 1, channel_edges_max=2**24 - 1, duty_share_max=65536)
+    _, capture = perform(script, GatewareModel, loose)  # as bitstreams were before: the judge sees it
+    assert {said.split()[0] for said in broken_limits(capture, ULX3S, 125)} >= {"channel", "all"}
+
+
+def hostile(seed):
+    """Anything in any register, and then as much of everything as can be had, again and again."""
+    rng, script = random.Random(seed), Script()
+    for permit in Permit:
+        script.permit(True, which=permit)
+    words = ALTERNATING if rng.random() < 0.8 else np.array([rng.getrandbits(32) for _ in range(40)], np.uint32)
+    script.upload(0, words)
+    for _ in range(rng.randrange(2, 7)):
+        for _ in range(rng.randrange(25)):
+            value = rng.choice([0, 1, 4, 6, 20, 6 << 16, 7 << 16, 0xFFFF, 65536, 0x7FFF00FF, 0xFFFFFFFF, rng.getrandbits(32)])
+            register = rng.choice([*SETTINGS, rng.randrange(64)])
+            if register == Register.RAMP_SAMPLES:
+                value = rng.choice([0, 1, 4, 20, 0xFFFFFFFF])  # a long ramp is only long
+            script.send(frames.pack_write, register, value & 0xFFFFFFFF)
+        if rng.random() < 0.7:
+            script.send(frames.pack_write, Register.IDLE_WORD, rng.getrandbits(32))
+        script.control(Control.CLEAR)
+        unlock_and_arm(script)
+        script.wait(rng.choice([100, 200, 600]))
+        endless(script, words, rng.choice([280, 281, 240, 300]))
+        for _ in range(rng.randrange(1, 30)):
+            script.wait(rng.choice([0, 0, 100, 900, 3000]))
+            rng.choice([script.status, script.trigger, lambda: script.control(Control.CLEAR), lambda: unlock_and_arm(script)])()
+            if rng.random() < 0.3:
+                endless(script, words, rng.choice([280, 240, 300]))
+            if rng.random() < 0.1:
+                script.control(rng.choice([Control.STOP, Control.DISARM]))
+    script.status()
+    return script
+
+
+def test_a_host_that_writes_everything_exceeds_no_limit(back_end, request):
+    scripts = SCRIPTS[request.node.callspec.params["back_end"]]
+    faults: Counter[Fault] = Counter()
+    changes = 0
+    for seed in range(scripts):
+        statuses, capture = perform(hostile(seed), back_end, TIGHT)
+        assert broken_limits(capture, TIGHT, WORD_TICKS) == [], seed
+        faults.update(fault for fault in Fault if any(fault in status.faults for status in statuses))
+        changes += capture.words.size
+    assert changes > 50 * scripts
+    assert faults.keys() >= {Fault.CHANNEL_EDGES, Fault.TOTAL_EDGES, Fault.DUTY, Fault.HOST_SILENT}, faults
+
+
+@pytest.mark.parametrize(
+    ("name", "looser", "said"),
+    [
+        ("channel_edges_max", 100_000, "edges in a window"),
+        ("total_edges_max", 1_000_000, "all channels had"),
+        ("duty_ticks_max", 400_000, "ran ahead of the duty"),
+        ("pulse_ticks_min", 4, "short pulse"),
+        ("channel_mask_max", 0xFFFFFFFF, "has no stage"),
+        ("hv_settle_ticks", 39, "behind hv_enable"),
+    ],
+)
+def test_the_judge_sees_a_limit_that_is_not_built_in(name, looser, said):
+    most = {"channel_edges_max": 100_000, "total_edges_max": 1_000_000, "duty_ticks_max": 400_000}
+    built = replace(TIGHT, **({other: most[other] for other in most if name in most} | {name: looser}))
+    for seed in range(200):
+        _, capture = perform(hostile(seed), GatewareModel, built)
+        judge = replace(built, **{name: getattr(TIGHT, name)})
+        if any(said in sentence for sentence in broken_limits(capture, judge, WORD_TICKS)):
+            return
+    pytest.fail(f"nothing said of {name}")
