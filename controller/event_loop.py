@@ -32,7 +32,7 @@ from controller.wakeup import Wakeup, signals
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
-PREFETCH_AHEAD_S = 30e-3  # for where a moving finger will be then
+PREFETCHED_S = 0.1e-3  # from a report to the start of a waveform that is there
 
 
 class EventLoop:
@@ -381,12 +381,15 @@ class EventLoop:
         """Send ahead what the finger that moved last will ask for, if there is time for it."""
         finger, self._moving = self._moving, None
         assert finger is not None
-        wanted = self._performance.expected(finger, self._source.place, now_s, PREFETCH_AHEAD_S, self._playback.duration_s)
+        reported_s = now_s - max(self._report_ns, 0) * 1e-9
+        wanted = self._performance.expected(
+            finger, self._source.place, reported_s, self._source.report_s, self._playback.duration_s + PREFETCHED_S
+        )
         if wanted is None or self._session.free_s() > now_s:
             return
         soonest_s = min(self._time_base.host_s(self._performance.next_s()), self._time_base.host_s(self._performance.next_spot_s()))
         if soonest_s - self._lead_s > now_s + PREFETCH_AFTER_S:
-            self._playback.prefetch(*wanted)
+            self._playback.prefetch(finger, *wanted)
 
     def _next_s(self, now_s: float) -> float | None:
         commands_s = NEVER if self._commands is None else self._commands.next_time_s()

@@ -85,6 +85,11 @@ class Overheard:
     def place(self, _finger: int, _at_s: float) -> None:
         """No finger is anywhere."""
 
+    @property
+    def report_s(self) -> float:
+        """Of no use without fingers."""
+        return 0.0
+
     def confirmed(self, _finger: int) -> bool:
         """No finger is."""
         return False

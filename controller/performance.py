@@ -33,8 +33,8 @@ from controller.scene import (
 from controller.touch.samples import TouchSample
 
 MOST_WAITING = 32  # commands; of more the oldest is skipped
-LEAST_STEP_M = 0.5e-3  # a finger that moves less is at rest
-GLIMPSE_S = 5e-3  # over which a finger's velocity is seen
+FORESEEN_M = 0.75e-3  # of a finger's way, should that take more than one report
+LEAST_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
 MOST_HELD_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
 SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
 
@@ -190,32 +190,36 @@ class Performance:
         )
 
     def expected(
-        self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, ahead_s: float, after_s: float
+        self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
     ) -> tuple[float, float, float] | None:
-        """Where a moving finger will be asked to be played next, and how strong, if that comes within `ahead_s`.
+        """Where a moving finger will be played, and how strong, if one of its next reports will complete a spacing.
+
+        A spacing is felt at the first report behind it: where it falls is known, where the finger is played depends on
+        when the panel reports.
 
         Parameters
         ----------
         place : callable
             Where the finger will be at a time of the host.
         now_s : float
-            In host time.
+            In host time: of its last report.
+        report_s : float
+            From one report to the next.
         after_s : float
-            From crossing to the focus.
+            From a report to the focus.
         """
         state = self._states.get(finger)
-        here, soon = place(finger, now_s), place(finger, now_s + GLIMPSE_S)
-        if state is None or here is None or soon is None:
+        here, then = place(finger, now_s), place(finger, now_s + report_s)
+        if state is None or here is None or then is None:
             return None
-        step_m = math.dist(here, soon)
-        if step_m * ahead_s < LEAST_STEP_M * GLIMPSE_S:
+        step_m = math.dist(here, then)
+        if step_m < LEAST_STEP_M:
             return None
-        x, y = (soon[0] - here[0]) / step_m, (soon[1] - here[1]) / step_m
-        way_m, amplitude = state.next_crossing(x, y)
-        if way_m * GLIMPSE_S > step_m * ahead_s:
+        way_m, amplitude = state.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
+        if way_m > max(step_m, FORESEEN_M):
             return None
-        way_m += step_m * after_s / GLIMPSE_S
-        return here[0] + x * way_m, here[1] + y * way_m, amplitude
+        focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
+        return None if focus is None else (*focus, amplitude)
 
     def started(self, emissions: list[Emission], start_s: float) -> None:
         """These were started; trains that began with them keep their beat from there."""

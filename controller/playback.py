@@ -27,6 +27,7 @@ from controller.slot_cache import SlotCache
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
 HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
 ENDLESS = 0
+SURE = 2  # so many times in a row must have come true what was expected, before a waveform is sent ahead
 
 Where = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host."""
@@ -132,6 +133,8 @@ class Playback:
         self._played = played
         self._slots = SlotCache(slots, selection.lone)
         self._latest: int | None = None  # slot of the last play
+        self._expected: tuple[int, Key] | None = None  # who is to be played next, and what
+        self._came_true = 0  # of what was expected, in a row
         self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
         self._prepared: _Prepared | None = None
         self._running: _Repetition | None = None
@@ -206,6 +209,9 @@ class Playback:
             resident = self._slots.find(key)
             if resident is not None:  # there, too, something may be resident: never is a key looked up but not this one
                 break
+        if self._expected is not None and any(emission.finger == self._expected[0] for emission in emissions):
+            self._came_true = self._came_true + 1 if self._foreseen(emissions[0].finger, key) else 0
+            self._expected = None
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
         try:
@@ -252,10 +258,21 @@ class Playback:
             self.trigger()
         return self._time_base.fpga_s(prepared.start_s)
 
-    def prefetch(self, x_m: float, y_m: float, amplitude: float) -> bool:
-        """Send the waveform of a point ahead; False if it is there already, or cannot be had."""
+    def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
+        """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.
+
+        How certain is told by the record of what was expected before, sent or not: SURE in a row have come true.
+
+        Returns
+        -------
+        bool
+            Whether it was sent; not if it is there already, or cannot be had.
+        """
         key = self._selection.key(((x_m, y_m, amplitude),))
-        if self._slots.slots == 1 or self._slots.find(key) is not None:
+        if self._expected is not None and not self._foreseen(finger, key):
+            self._came_true = 0
+        self._expected = finger, key
+        if self._came_true < SURE or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             words = self._selection.words(key)
@@ -268,6 +285,12 @@ class Playback:
         self._counters.prefetched += 1
         self._counters.prefetch_wasted += 1  # until it is played
         return True
+
+    def _foreseen(self, finger: int | None, key: Key) -> bool:
+        """Whether this is what was expected last: a waveform sent for that serves for this."""
+        assert self._expected is not None
+        expected_of, expected = self._expected
+        return finger == expected_of and (key == expected or self._selection.reusable(key, expected))
 
     def pin(self, points: Sequence[tuple[float, float, float]]) -> None:
         """Keep the waveforms of these points (x_m, y_m, amplitude) in their slots once they are there."""

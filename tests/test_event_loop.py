@@ -517,6 +517,26 @@ def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, b
     assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
 
 
+def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
+    """A spot whose shadows touch: a contact beside it is a suspect; one that comes while the outputs are off is not."""
+
+    class PermitLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                link.gateware.permit(max(round(self._now_s * board.link.clock_hz), link.gateware.now), False)
+
+    haunted = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=30.0))
+    reports = [(0.0, {}), (0.4, {0: cell[1]}), (0.5, {0: None}), (0.6, {})]
+    with Bank.open(bank_file, haunted) as bank:
+        scene_text = SPOT.replace("20.0", "40.0")
+        link, counters, loop = loop_of(haunted, bank, tmp_path, PermitLost(), reports, evemu_text, scene_text)
+        loop.run()
+        link.close()
+    assert counters.outages == 1
+    assert loop._source.tracking.held_back == 0
+
+
 def test_spots_of_different_rates_each_keep_their_own_beat(perform):
     other = SPOT.replace('"spot"', '"slow"').replace("x_mm = 60.0", "x_mm = 150.0").replace("rate_hz = 20.0", "rate_hz = 8.0")
     run = perform(nearby(1.0), SPOT + other)

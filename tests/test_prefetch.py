@@ -1,11 +1,16 @@
 """What is sent ahead of a moving finger, and what stays resident: counted, on the pins of the simulated panel."""
 
 import random
+from pathlib import Path
 
 import msgspec
 import pytest
 
+from controller.bank.reader import Bank
 from controller.bank.selection import NEAR_M
+from controller.offline.simulated_run import play
+from controller.scene import load_scene
+from controller.touch.recording import Recording
 
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -62,17 +67,50 @@ def test_a_spot_stays_resident_whatever_fingers_play(perform):
     assert run.counters.uploads == len(places) + 1, "each place once, and the spot once"
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_rubbing_a_fine_texture_to_and_fro_goes_on(perform, board, seed):
-    """What a stroke asks for lies near what the one before asked for: often nearer to where an upload would meet the finger."""
+def rubbing(seed, duration_s):
+    """Reports of a finger that goes to and fro, each stroke at another speed."""
     rng = random.Random(seed)
-    sixteen = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=16))
     x_mm, speed_mm_s, reports = 60.0, 80.0, []
-    for k in range(750):  # 6 s
+    for k in range(round(duration_s / REPORT_S)):
         reports.append((k * REPORT_S, {0: (x_mm, 74.0)}))
         x_mm += speed_mm_s * REPORT_S
         if not 50.0 < x_mm < 90.0:
             speed_mm_s = -speed_mm_s / abs(speed_mm_s) * rng.uniform(60, 250)
             x_mm = min(max(x_mm, 50.0), 90.0)
-    run = perform([*reports, (6.1, {0: None})], TEXTURE.replace("5.0", "2.0"), on=sixteen)
+    return [*reports, (duration_s + 0.1, {0: None})]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rubbing_a_fine_texture_to_and_fro_goes_on(perform, board, seed):
+    """What a stroke asks for lies near what the one before asked for: often nearer to where an upload would meet the finger."""
+    sixteen = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=16))
+    run = perform(rubbing(seed, 6.0), TEXTURE.replace("5.0", "2.0"), on=sixteen)
     assert run.counters.emissions > 150
+
+
+def test_of_what_is_sent_ahead_at_most_a_fifth_is_never_played(perform, board, bank_file):
+    """Over the recordings of real panels on the board's own scene, and over strokes to and fro on textures."""
+    scene = load_scene(board.folder / "scene.toml", board)
+    recordings = sorted((Path(__file__).parent / "touch" / "recordings").glob("*.ev*"))
+    with Bank.open(bank_file, board) as bank:
+        real = [play(board, scene, bank, Recording.open(file), real_time=False).counters for file in recordings]
+    strokes = [perform(rubbing(9, 3.0), TEXTURE.replace("5.0", spacing)).counters for spacing in ("1.0", "2.0", "5.0")]
+    for runs, least in ((real, 30), (strokes, 200)):
+        sent, wasted = (sum(getattr(counters, name) for counters in runs) for name in ("prefetched", "prefetch_wasted"))
+        assert sent >= least, "it is of use"
+        assert 0 < wasted <= 0.2 * sent
+        uploads = sum(counters.uploads for counters in runs)
+        assert sent - wasted <= sum(counters.resident for counters in runs)
+        assert uploads > 0
+
+
+def test_what_is_sent_ahead_of_a_finger_that_is_lifted_is_counted_as_wasted(perform):
+    """Of a stroke it is known where the next waveform is wanted; lifted before, or not."""
+    lengths_s = [1.2 + k * REPORT_S for k in range(0, 16, 2)]  # within one spacing
+    counted = set()
+    for length_s in lengths_s:
+        reports = [(time_s, slots) for time_s, slots in stroke(40.0, 3.0) if time_s < length_s]
+        counters = perform([*reports, (length_s + REPORT_S / 2, {0: None})], TEXTURE).counters
+        counted.add(counters.prefetch_wasted)
+        assert counters.prefetched >= counters.resident
+    assert counted == {0, 1}

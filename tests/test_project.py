@@ -67,6 +67,14 @@ def test_device_code_needs_nothing_of_the_offline_extra():
     assert done.returncode == 0, done.stderr
 
 
+def test_the_command_line_begins_without_any_driver_or_offline_tool():
+    """Each is imported where it is opened: a computer that builds banks has no drivers, a device no offline tools."""
+    banned = ["spidev", "gpiod", "evdev", "smbus2", "serial", "cobs", "scipy", "matplotlib", "tqdm", "threadpoolctl"]
+    code = f"import sys, controller.cli\nsys.exit(str([name for name in {banned} if name in sys.modules] or ''))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stderr.strip() == ""
+
+
 def test_no_code_of_the_device_reads_the_clock_of_the_day():
     """It may be set at any time: panels stamp their events, and the loop reads its time, by CLOCK_MONOTONIC."""
     for path in (ROOT / "controller").rglob("*.py"):

@@ -58,13 +58,20 @@ class Ran:
 
 @pytest.fixture
 def run(board, bank_file, tmp_path, evemu_text):
-    def run_it(reports, scene_text, clock=None, on=board):
+    def run_it(reports, scene_text, clock=None, on=board, slow_s=0.0):
+        """`slow_s`: from the decision for an upload to its first bit on the wire."""
         clock = clock or VirtualClock()
         (tmp_path / "s.toml").write_text(scene_text)
         recording = Recording(evemu_text(*reports))
         link = open_simulated(on, clock.now_s)
         session = open_session(link, on, clock.now_s)
-        played = []
+        exchange, played = link.exchange, []
+
+        def slow(sent, lengths, received):
+            clock._now_s += slow_s if sum(lengths) > UPLOAD_BYTES else 0.0
+            exchange(sent, lengths, received)
+
+        link.exchange = slow
         with Bank.open(bank_file, on) as bank:
             source = tracked(RecordingSource(recording, recording.axes(on), 0.1), on)
             assembly = assemble(on, load_scene(tmp_path / "s.toml", on), bank, clock, session, source, played=played.append)
@@ -125,6 +132,25 @@ def test_a_host_that_wakes_up_late_does_not_move_a_beat(run, late_s):
 def test_a_host_later_than_the_lead_does(run):
     done = run(sliding(1.1), train(50), LateClock(2e-3))
     assert np.unique(done.spacings()).size > 1
+
+
+TAPS = [report for k in range(5) for report in ((0.2 * k, {0: (30.0 + 30 * k, 54.0)}), (0.2 * k + 0.1, {0: None}))]
+
+
+@pytest.mark.parametrize("slow_s", [0.0, 0.75 * HANDOVER_S, 0.15e-3])
+def test_a_host_that_is_no_slower_than_the_handover_allows_for_has_each_beat_started_to_the_clock(run, slow_s):
+    done = run(TAPS, train(50, 80.0), slow_s=slow_s)
+    assert done.counters.late == 0
+    assert done.counters.scheduled == done.counters.emissions == 20
+    assert done.counters.skipped.refused == 0
+
+
+def test_a_beat_that_comes_too_late_for_its_time_is_played_at_once_and_counted(run):
+    done = run(TAPS, train(50, 80.0), slow_s=1.5 * HANDOVER_S)
+    assert done.counters.late == 5, "the first of each touch, which is wanted as soon as can be"
+    assert (done.counters.emissions, done.counters.scheduled) == (20, 15)
+    assert done.counters.skipped.refused == 0
+    assert len(done.starts) == 20
 
 
 @pytest.mark.parametrize("rate", [50, 100])

@@ -68,11 +68,12 @@ def make_folder(folder: Path) -> None:
         If it cannot be made.
     """
     try:
+        owner = service_user() if os.geteuid() == 0 else None
         for place in (*reversed(folder.parents), folder):
-            if os.geteuid() == 0 and SERVICE_STATE in (place, *place.parents) and not place.exists():
-                place.mkdir(SERVICE_STATE_MODE)
-                owner = service_user()
-                if owner is not None:
+            if owner is not None and SERVICE_STATE in (place, *place.parents):
+                if not place.exists():
+                    place.mkdir(SERVICE_STATE_MODE)
+                if place.stat().st_uid == 0:  # just made, or before there was such a user
                     os.chown(place, owner.pw_uid, owner.pw_gid, follow_symlinks=False)
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -90,7 +90,7 @@ class Bank:
             start = os.pread(fd, 16, 0)
             header, sections = parse(os.pread(fd, header_length(start, size), 0), size)
             name = header.parameters.get("board")
-            if not board and isinstance(name, str):
+            if not board and isinstance(name, str) and name.isprintable():
                 rebuild = build_line(path, name)
             if board and header.board_digest != board.digest():
                 raise BankError(

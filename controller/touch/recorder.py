@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from io import FileIO
 from pathlib import Path
 
-from controller.errors import TouchError
+from controller.errors import ConfigError, TouchError
 from controller.touch.evemu_writer import EvemuWriter
 from controller.touch.event_reader import EventReader
 from controller.touch.report_times import ReportTimes
@@ -76,13 +76,15 @@ def open_recording(path: Path) -> FileIO:
     ------
     TouchError
         If it cannot be.
+    ConfigError
+        If something else is there.
     """
     try:
         if path.is_file():
             with path.open("rb") as old:
                 start = old.read(len(FIRST_LINE))
             if start and start != FIRST_LINE:
-                raise TouchError(
+                raise ConfigError(
                     f"{path}: is there and is no recording: it is left as it is, give another --out, or remove it first"
                 )
         return FileIO(path, "w")

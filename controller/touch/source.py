@@ -52,6 +52,10 @@ class TrackedTouch(TouchSource, Protocol):
             In the loop's clock, at most some tens of ms ahead: the T of an emission.
         """
 
+    @property
+    def report_s(self) -> float:
+        """Time from one report of the panel to the next, as far as it is known."""
+
     def confirmed(self, finger: int) -> bool:
         """Whether the panel has confirmed the contact; the emissions of one that is not are capped.
 

@@ -186,6 +186,11 @@ class Tracker:
             0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
         )
 
+    @property
+    def report_s(self) -> float:
+        """As `TrackedTouch.report_s` has it."""
+        return self.rate.period_s
+
     def confirmed(self, finger: int) -> bool:
         """Whether a second report, or silence for as long, has shown that the contact stays, or that it stayed.
 

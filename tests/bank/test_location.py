@@ -72,6 +72,9 @@ def test_folders_that_root_makes_for_the_service_are_the_services(panel, tmp_pat
     for place in (folder, folder.parent):
         assert (place.owner(), place.stat().st_mode & 0o777) == ("nobody", 0o750)
     assert folder.parent.parent.owner() == "root"
+    os.chown(folder, 0, 0)
+    make_folder(folder)
+    assert folder.owner() == "nobody", "one that root made before the user was there is given to it too"
 
 
 @ROOT_ONLY

@@ -175,3 +175,10 @@ def test_nothing_is_advised_for_what_cannot_be_read(tmp_path):
         Bank.open(tmp_path)
     with pytest.raises(BankError, match=r"cannot be read \(No such file or directory\); build it: haptic-panel bank build"):
         Bank.open(tmp_path / "none.bank")
+
+
+def test_a_name_in_a_bank_that_is_no_name_is_not_shown(path, make_bank):
+    make_bank(path, board="x\nhaptic-panel: all is well")
+    path.write_bytes(path.read_bytes()[:-1] + b"\1")
+    with Bank.open(path) as bank:
+        assert bank.rebuild.startswith("haptic-panel bank build --board NAME --out ")

@@ -41,7 +41,7 @@ def test_it_is_installed_as_the_readme_says():
     Path(os.ttyname(PANEL)).chmod(0o660)
     assert run("systemd-analyze", "verify", "--man=no", f"/etc/systemd/system/{UNIT}.service") == ""
     groups = set(run("id", "-nG", UNIT).split())
-    assert groups == {UNIT, "spi", "i2c", "gpio", "input", "dialout"}
+    assert groups == {UNIT, "spi", "i2c", "gpio", "input", "dialout", "haptic-play"}
 
 
 def test_its_sandbox_leaves_little_exposed():

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.board import data_folder, load_board
+from controller.cli import main
 from controller.errors import CalibrationError, ConfigError, TouchError
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.board_lines import board_lines, with_calibration, write_calibration
@@ -360,3 +361,12 @@ def test_what_goes_wrong_is_refused_and_the_board_stays_as_it_was(board_folder, 
     with pytest.raises(CalibrationError, match="ends after 0 of 5 touches"):
         command("--board", str(board_folder), "--replay", missed, "--write")
     assert (board_folder / "board.toml").read_bytes() == before
+
+
+def test_a_board_that_cannot_be_written_is_told_before_anything_is_touched(tmp_path, monkeypatch, capsys):
+    shutil.copy(BOARD.folder / "board.toml", tmp_path)
+    monkeypatch.setattr("os.access", lambda *_, **__: False)
+    assert main(["calibrate-touch", "--board", str(tmp_path), "--write"]) == 1
+    said = capsys.readouterr().err
+    assert "board.toml: cannot be written (Permission denied): do it as root, or without --write" in said
+    assert said.count("\n") == 1, "nobody was asked to touch a mark"

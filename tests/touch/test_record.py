@@ -15,7 +15,7 @@ from peers.elo_panel import INITIAL, UNTOUCH, touch
 
 from controller.cli import main
 from controller.device_settings import SerialTouch
-from controller.errors import TouchError
+from controller.errors import ConfigError, TouchError
 from controller.touch.live_source import LiveSource
 from controller.touch.panel import Protocol
 from controller.touch.recorder import open_recording, record
@@ -153,7 +153,7 @@ def test_a_file_that_cannot_be_made_is_named(tmp_path, out):
 def test_only_a_recording_is_written_over(tmp_path):
     notes = tmp_path / "board.toml"
     notes.write_text('name = "panel"\n')
-    with pytest.raises(TouchError, match="is no recording: it is left as it is"):
+    with pytest.raises(ConfigError, match="is no recording: it is left as it is"):
         open_recording(notes)
     assert notes.read_text() == 'name = "panel"\n'
     for old in ("", "# EVEMU 1.3\nN: a panel\n"):
