@@ -160,7 +160,9 @@ def await_panel(board: Board) -> AwaitedReader | PanelProcess:
         raise ConfigError(NO_PANEL.format(board.name))
     if isinstance(board.touch, I2cTouch):
         return PanelProcess(_beside("panel", board.realtime.priority, board.touch))
-    return AwaitedReader(lambda: open_panel(board))
+    reader = AwaitedReader(lambda: open_panel(board))
+    reader.read(0.0)  # a first look, with the driver's import, which would keep the loop from its heartbeats
+    return reader
 
 
 def tracked(

@@ -159,7 +159,8 @@ class Playback:
         """When the endless repetition next starts an emission, after a time; never without one."""
         if self._running is None:
             return NEVER
-        return self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
+        next_s = self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
+        return max(next_s, self.begins_s)  # before the first it is that, whatever was rounded on the way
 
     def stop_repeating(self, now_s: float) -> float | None:
         """End the endless repetition; when its last emission began, or None if its first one has yet to."""

@@ -72,6 +72,7 @@ def service_table(figures: dict[str, Any]) -> str:
         f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
         f"resident, {figures['scheduled']} at a time given to the FPGA), {figures['heartbeats']} heartbeats",
         f"bank: {figures['bank']}",
+        f"at the end: {figures['state']}" + (f" ({figures['cause']})" if figures["cause"] else ""),
         f"outputs were off for {_number(figures['outputs_off_s'])} s: {figures['host_silent']} stalls of this host, "
         f"{figures['outages']} other outages" + (f", the last: {figures['outage']}" if figures["outage"] else ""),
         *_became(figures),

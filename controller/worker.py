@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from controller.errors import ControllerError
 
 MESSAGE_BYTES = 16384  # the longest: a report of ten contacts is 1 kB
-END_S = 2.0  # a process whose bus hangs cannot be ended before; systemd does it, or it ends by itself
+END_S = 0.5  # a process whose bus hangs cannot be ended before; systemd does it, or it ends by itself
 
 
 class WorkerEnded(ControllerError):

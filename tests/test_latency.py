@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.latency import P999_SAMPLES, STAGES, LatencyHistogram, Stages
+from controller.latency import P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
+from controller.tables import service_table
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 
@@ -70,3 +71,10 @@ def test_an_exported_histogram_has_every_record_below_its_upper_bound(durations_
     for upper_us, count in exported:
         below += count
         assert below == sum(duration_ns < round(upper_us * 1e3) for duration_ns in durations_ns)
+
+
+def test_the_table_of_a_service_says_how_it_ended():
+    said = {"board": "panel", "bank": "panel.bank", "state": "waiting for FPGA", "cause": "there is no serial port", "warnings": []}
+    table = service_table(Counters().export() | said)
+    assert "at the end: waiting for FPGA (there is no serial port)\n" in table
+    assert "at the end: armed\n" in service_table(Counters().export() | said | {"state": "armed", "cause": ""})

@@ -5,6 +5,7 @@ The simulated panel hears the channel pins themselves. Latency is from the first
 
 import math
 import random
+from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -13,8 +14,11 @@ import pytest
 from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
+from controller.fpga.time_base import TimeBase
 from controller.hardware import open_session, open_simulated, tracked
+from controller.latency import Counters
 from controller.offline.ghostly_panel import PERIOD_S, GhostlyPanel, pins_of
+from controller.playback import Playback, _Repetition
 from controller.scene import load_scene
 from controller.touch.ghost_guard import SHARE
 from controller.touch.live_source import LiveSource
@@ -177,6 +181,20 @@ def test_what_the_fpga_repeats_is_stopped_for_a_tap_and_goes_on_in_its_beat(haun
         assert first.trigger_s < tap_s < click.trigger_s < again.trigger_s < click.trigger_s + 26e-3
         beats = (again.trigger_s - first.trigger_s) / 0.025
         assert beats == pytest.approx(round(beats), abs=1e-3)
+
+
+def test_a_repetition_that_is_to_begin_is_not_expected_before_it_does():
+    """As the clocks are known a little better it was: the loop woke, found nothing to stop, and woke again at once."""
+    time_base = TimeBase(80_000_000)
+    playback = Playback(
+        None, SimpleNamespace(lone=None), time_base, None, slots=4, duration_s=T_S, max_duty=1.0, upload_s=UPLOAD_S,
+        command_s=23e-6, counters=Counters(),
+    )  # fmt: skip
+    for learnt_s in (-5e-6, 0.0, 5e-6):
+        playback.begins_s, playback._running = 10.0, _Repetition(time_base.fpga_s(10.0), 0.025)
+        time_base.offset_s += learnt_s
+        assert playback.next_repetition_s(9.9985) >= 10.0
+        assert playback.next_repetition_s(10.001) == pytest.approx(10.025, abs=6e-6)
 
 
 @pytest.mark.slow

@@ -6,17 +6,21 @@ bound for all adapters; the loop waits for neither.
 
 from __future__ import annotations
 
+import math
 import select
 import socket
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
+from typing import Final
 
 from controller.errors import TouchError
 from controller.touch import panel_messages as messages
 from controller.touch.awaited_reader import LOST, RETRY_S, UNSEEN
 from controller.touch.event_reader import DeviceDescription, Event, EventReader
 from controller.worker import Worker
+
+HANGS_S: Final = 5.0  # without a first word
 
 
 class PanelProcess:
@@ -45,6 +49,7 @@ class PanelProcess:
         self.present = False
         self.cause = ""
         self._worker = worker
+        self._silent_s = math.inf  # when it is taken to hang before it has said anything
 
     def fileno(self) -> int:
         """The way from its process."""
@@ -53,7 +58,7 @@ class PanelProcess:
     def next_time_s(self) -> None:
         """Never: what is due is said."""
 
-    def read(self, now_s: float) -> Sequence[Event]:  # noqa: ARG002
+    def read(self, now_s: float) -> Sequence[Event]:
         """Events of at most one report; see `EventReader.read`.
 
         Raises
@@ -63,6 +68,10 @@ class PanelProcess:
         """
         message = self._worker.receive()
         if message is None:
+            if self.description is UNSEEN and not self.cause:
+                self._silent_s = min(self._silent_s, now_s + HANGS_S)
+                if now_s >= self._silent_s:
+                    self.cause = "what reads it says nothing: its bus hangs"
             return ()
         kind, body = message[0], message[1:]
         if kind == messages.EVENTS:

