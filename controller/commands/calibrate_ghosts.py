@@ -21,6 +21,7 @@ from controller.hardware import open_link, open_panel, open_session
 from controller.playback import Played
 from controller.scene import Scene, load_scene
 from controller.scene_file import find_scene
+from controller.service import enter_realtime
 from controller.touch.board_lines import check_writable, value_line, write_value
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
@@ -61,6 +62,8 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
     with open_bank(options, board, load_scene(scene := find_scene(board, board.scene), board), scene, keep=True) as bank:
         if not simulated:
             print("haptic-panel: hands off the panel for one to three minutes: it plays by itself", file=sys.stderr, flush=True)
+            for warning in enter_realtime(board.realtime):  # a heartbeat that is missed ends it
+                print(f"haptic-panel: {warning}", file=sys.stderr)
         link = open_link(board, clock.now_s)
         try:
             reader = _simulated_panel(board, link) if simulated else open_panel(board)
