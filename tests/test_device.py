@@ -294,6 +294,8 @@ def test_a_panel_that_is_unplugged_is_taken_again_when_it_is_back(service, panel
 def test_a_panel_that_talks_nonsense_or_floods_does_not_stop_the_loop(service, panel):
     with service.client() as client:
         touches = client.touches()
+        panel.touch(995, 2000)
+        assert next(touches).contact, "told once the shadow of the ramp is over"
         panel.send(bytes(range(256)) * 8)
         for k in range(300):  # as fast as the port takes them
             panel.touch(1000 + 5 * k, 2000)
