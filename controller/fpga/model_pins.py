@@ -48,7 +48,7 @@ class Pins:
     def __init__(self, limits: StageLimits, alive_half_ticks: int) -> None:
         self._limits = limits
         self._alive_half_ticks = alive_half_ticks
-        self._on_from: int | None = None  # when the high voltage was enabled, at the end of the last capture
+        self._on_from: int | None = None  # a rise of `hv_alive_o`, the last before the end of the last capture; None: it is low
         self._taken_until = -1
         self._stretches = [Stretch(0, np.zeros(1, np.uint32), WHOLE, 0)]
         self._shown = 1  # words of the first stretch that earlier captures had
@@ -130,6 +130,8 @@ class Pins:
             if level is not None:
                 self._on_from = tick if level else None
         self._taken_until = now
+        if self._on_from is not None:  # what earlier captures had is not counted again
+            self._on_from += max(now - self._on_from, 0) // (2 * self._alive_half_ticks) * 2 * self._alive_half_ticks
         return np.concatenate([np.zeros(0, np.int64), *changes]).astype(np.uint64)
 
 

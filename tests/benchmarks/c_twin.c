@@ -20,6 +20,7 @@ struct config {
     const int8_t *response;
     const int32_t *entry_of;
     const double *scale_of;
+    const uint32_t *crc_of; /* of an entry's drive words */
     uint32_t (*crc32)(uint32_t, const uint8_t *, uint32_t);
     int64_t drive_stride, response_stride;
     int64_t nx, ny, regions, slots;
@@ -45,7 +46,7 @@ static struct { int finger; double x_m, y_m, size_m; } gone[FINGERS];
 static int gones;
 static struct tracked contacts[FINGERS], lost[FINGERS];
 static int contact_count, lost_count;
-static double period_s, last_report_s, due_s;
+static double period_s, last_report_s, known_s, due_s;
 static int has_report;
 static struct state states[FINGERS];
 static int state_count;
@@ -121,10 +122,10 @@ static void motion_report(struct motion *m, double x_m, double y_m, double time_
     double vx = m->fvx, vy = m->fvy;
     double ahead_x = m->fx_m + vx * step_s, ahead_y = m->fy_m + vy * step_s;
     double off_x = x_m - ahead_x, off_y = y_m - ahead_y;
-    m->fx_m = ahead_x + 0.4 * off_x;
-    m->fy_m = ahead_y + 0.4 * off_y;
-    m->fvx = vx = vx + 0.2 / step_s * off_x;
-    m->fvy = vy = vy + 0.2 / step_s * off_y;
+    m->fx_m = ahead_x + 0.7 * off_x;
+    m->fy_m = ahead_y + 0.7 * off_y;
+    m->fvx = vx = vx + 0.4 / step_s * off_x;
+    m->fvy = vy = vy + 0.4 / step_s * off_y;
     double step_x = x_m - m->x_m, step_y = y_m - m->y_m;
     double most = 1.5 * hypot(step_x, step_y) / step_s, speed = hypot(vx, vy);
     if (vx * step_x + vy * step_y <= 0)
@@ -150,16 +151,17 @@ static void motion_report(struct motion *m, double x_m, double y_m, double time_
     }
 }
 
-static void motion_place(const struct motion *m, double at_s, double *x_m, double *y_m)
+/* Silence counts up to `told_s`, however far ahead `at_s` is. */
+static void motion_place(const struct motion *m, double at_s, double told_s, double lag_s, double *x_m, double *y_m)
 {
     if (m->rested >= 8) {
         *x_m = m->ax_m;
         *y_m = m->ay_m;
         return;
     }
-    double age_s = at_s - m->time_s, ahead_s = fmin(fmax(age_s, 0) + c.lag_s, 40e-3);
-    if (age_s > 1.5 * period_s)
-        ahead_s *= fmax(2.5 - age_s / period_s, 0) / (2.5 - 1.5);
+    double ahead_s = fmin(fmax(at_s - m->time_s, 0) + lag_s, 40e-3), silent_s = told_s - m->time_s;
+    if (silent_s > 1.5 * period_s)
+        ahead_s *= fmax(2.5 - silent_s / period_s, 0) / (2.5 - 1.5);
     double ahead_m = hypot(m->vx, m->vy) * ahead_s;
     if (ahead_m > 20e-3)
         ahead_s *= 20e-3 / ahead_m;
@@ -237,6 +239,24 @@ static void touch(int finger, double x_m, double y_m, int contact)
 
 /* ---- one read of the tracker ---- */
 
+/* The lost finger that a new contact is: of those that would be near by now, the nearest; -1: none. */
+static int found_again(const struct sample *sample)
+{
+    int found = -1;
+    double nearest_m = 5e-3;
+    for (int i = 0; i < lost_count; i++) {
+        const struct motion *m = &lost[i].motion;
+        double x_m, y_m;
+        motion_place(m, sample->time_s, m->time_s, 0, &x_m, &y_m);
+        double off_m = hypot(sample->x_m - x_m, sample->y_m - y_m);
+        if (off_m <= nearest_m && sample->time_s <= lost[i].lost_s + 1.5 * period_s) {
+            found = i;
+            nearest_m = off_m;
+        }
+    }
+    return found;
+}
+
 static void track(const struct sample *sample)
 {
     struct tracked *t = contacts, *end = contacts + contact_count;
@@ -259,16 +279,10 @@ static void track(const struct sample *sample)
         if (contact_count == FINGERS)
             return;
         contact_count++;
-        int i = 0;
-        for (; i < lost_count; i++) {
-            struct motion *m = &lost[i].motion;
-            if (!palm && hypot(sample->x_m - m->x_m, sample->y_m - m->y_m) <= 5e-3 &&
-                sample->time_s <= lost[i].lost_s + 1.5 * period_s)
-                break;
-        }
-        if (i < lost_count) {
-            *t = lost[i];
-            memmove(lost + i, lost + i + 1, (lost_count - i - 1) * sizeof *lost);
+        int found = palm ? -1 : found_again(sample);
+        if (found >= 0) {
+            *t = lost[found];
+            memmove(lost + found, lost + found + 1, (lost_count - found - 1) * sizeof *lost);
             lost_count--;
             t->lost_s = INFINITY;
             t->number = sample->finger;
@@ -301,9 +315,9 @@ static void track(const struct sample *sample)
 
 static void tracker_read(const struct sample *samples, int count, int told, double now_s)
 {
+    known_s = count ? samples[0].time_s : now_s; /* more reports may wait behind this one */
     if (!count && !told && now_s < due_s)
         return;
-    double known_s = count ? samples[0].time_s : now_s;
     for (int i = 0; i < count; i++)
         track(samples + i);
     if (told) {
@@ -573,8 +587,8 @@ static uint8_t *seal(uint8_t *start, int size)
     return start + size + 4;
 }
 
-static int frames(const uint8_t *payload, int sequence, int slot, int stop, int shorts, int count, int start, uint32_t period_ticks,
-                  uint64_t when_ticks)
+static int frames(const uint8_t *payload, uint32_t crc, int sequence, int slot, int stop, int shorts, int count, int start,
+                  uint32_t period_ticks, uint64_t when_ticks)
 {
     uint8_t *at = sent;
     for (int k = 0; k < CHUNKS; k++) {
@@ -583,7 +597,7 @@ static int frames(const uint8_t *payload, int sequence, int slot, int stop, int 
     }
     uint8_t *p = frame(at, 4, sequence++, 24, slot);
     put32(p, SAMPLES);
-    put32(p + 4, c.crc32(0, payload, 4 * SAMPLES));
+    put32(p + 4, crc);
     at = seal(at, 32);
     if (stop) {
         put32(frame(at, 2, sequence++, 24, 8), stop); /* register CONTROL */
@@ -641,6 +655,7 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
     double points[POINTS][2];
     const uint8_t *payload = (const uint8_t *)words;
     struct key key = {0};
+    uint32_t crc = 0;
     if (take_due(fingers, count)) return -1;
     for (int i = 0; i < count; i++) {
         struct tracked *t = finger_of(fingers[i]);
@@ -649,7 +664,7 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
             points[i][0] = t->motion.x_m;
             points[i][1] = t->motion.y_m;
         } else
-            motion_place(&t->motion, focus_s, &points[i][0], &points[i][1]);
+            motion_place(&t->motion, focus_s, known_s, c.lag_s, &points[i][0], &points[i][1]);
         points[i][0] = fmin(fmax(points[i][0], 0), c.length_m);
         points[i][1] = fmin(fmax(points[i][1], 0), c.width_m);
     }
@@ -664,6 +679,7 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
             key.x_m = c.x0_m + ix * c.pitch_m;
             key.y_m = c.y0_m + iy * c.pitch_m;
             payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
+            crc = c.crc_of[c.entry_of[key.cell]];
         } else {
             key.x_m = rint(x_m / c.lattice_m) * c.lattice_m;
             key.y_m = rint(y_m / c.lattice_m) * c.lattice_m;
@@ -689,7 +705,8 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
         compose((const double(*)[2])points, count);
     }
     resident[slot] = key;
-    frames(payload, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
+    if (payload == (const uint8_t *)words) crc = c.crc32(0, payload, 4 * SAMPLES); /* a cell's is that of the bank's table */
+    frames(payload, crc, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
     return now_ns() - began_ns;
 }
 

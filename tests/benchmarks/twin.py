@@ -29,7 +29,7 @@ REGIONS = 16
 
 class Config(ctypes.Structure):
     _fields_ = (
-        *((name, ctypes.c_void_p) for name in ("drive", "response", "entry_of", "scale_of", "crc32")),
+        *((name, ctypes.c_void_p) for name in ("drive", "response", "entry_of", "scale_of", "crc_of", "crc32")),
         *((name, ctypes.c_int64) for name in ("drive_stride", "response_stride", "nx", "ny", "regions", "slots")),
         *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m", "snap_m", "near_m", "lattice_m")),
         *((name, ctypes.c_double) for name in ("length_m", "width_m", "lag_s", "max_size_m")),
@@ -203,13 +203,15 @@ class Twin:
         crc32 = ctypes.CDLL("libz.so.1").crc32
         drive, response = (np.frombuffer(view, np.uint8) for view in (bank._drive, bank._response))
         entry_of, scale_of = np.array(bank._entry_of, np.int32), np.array(bank._scale_of)
-        self._kept = [crc32, drive, response, entry_of, scale_of]
+        crc_of = np.array([drive_crc for drive_crc, _ in bank.checksums], np.uint32)
+        self._kept = [crc32, drive, response, entry_of, scale_of, crc_of]
         grid, config = bank.grid, Config()
         values = {
             "drive": drive.ctypes.data,
             "response": response.ctypes.data,
             "entry_of": entry_of.ctypes.data,
             "scale_of": scale_of.ctypes.data,
+            "crc_of": crc_of.ctypes.data,
             "crc32": ctypes.cast(crc32, ctypes.c_void_p).value,
             "drive_stride": bank._drive_stride,
             "response_stride": bank._response_stride,

@@ -24,6 +24,8 @@ QUIET_NS = 400_000  # three answers
 class Port:
     """What SerialLink asks of serial.Serial, at a wire; `damage` may change what is written."""
 
+    is_open = True
+
     def __init__(self, wire):
         self.wire = wire
         self.damage = lambda data: data
