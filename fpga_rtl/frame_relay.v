@@ -40,13 +40,14 @@ module frame_relay (
     reg        full_q;                   // one waits for its turn, or has it
     reg        turn_q;
     reg [7:0]  step_q;                   // clocks since begin_o
+    reg        due_q;                    // they are as many as it takes
     reg        landing_busy_q, landing_live_q;
     reg [31:0] words [0:127];
     reg [31:0] word_q;
 
     wire       start = full_q && !turn_q && !busy_i;
     wire       run   = turn_q && !busy_i;
-    wire       last  = run && step_q == {1'b0, payload_words_i} + 8'd40;
+    wire       last  = run && due_q;
 
     always @(posedge clk_i) begin
         if (word_valid_i && !word_number_i[7]) words[word_number_i[6:0]] <= word_i;
@@ -62,6 +63,7 @@ module frame_relay (
         else if (last) full_q <= 1'b0;
         turn_q <= start || (run && !last);
         step_q <= start || (run && !last) ? step_q + 8'd1 : 8'd0;
+        due_q  <= run && step_q == {1'b0, payload_words_i} + 8'd39;
         if (start) begin
             landing_busy_q <= landing_busy_i;
             landing_live_q <= landing_live_i;
@@ -73,6 +75,7 @@ module frame_relay (
             full_q         <= 1'b0;
             turn_q         <= 1'b0;
             step_q         <= 8'd0;
+            due_q          <= 1'b0;
             landing_busy_q <= 1'b0;
             landing_live_q <= 1'b0;
         end

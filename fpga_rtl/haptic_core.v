@@ -149,16 +149,39 @@ module haptic_core #(
         .word_o(relay_word), .accept_o(relay_accept), .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live)
     );
 
+    // What the frame asks rests long before it is accepted: chosen a clock early, it begins no long path
+    reg  [7:0]   kind, sequence_number;
+    reg  [15:0]  argument;
+    reg  [191:0] words;
+    reg  [6:0]   payload_words;
+    always @(posedge clk_i) begin
+        if (relay_begin || from_uart) begin
+            kind            <= uart_kind;
+            sequence_number <= uart_sequence;
+            argument        <= uart_argument;
+            words           <= uart_words;
+            payload_words   <= uart_payload_words;
+        end else begin
+            kind            <= spi_kind;
+            sequence_number <= spi_sequence;
+            argument        <= spi_argument;
+            words           <= spi_words;
+            payload_words   <= spi_payload_words;
+        end
+        if (rst_i) begin
+            kind            <= `TYPE_NOP;
+            sequence_number <= 8'd0;
+            argument        <= 16'd0;
+            words           <= 192'd0;
+            payload_words   <= 7'd0;
+        end
+    end
+
     wire         select            = spi_select || relay_begin;
     wire         accept            = spi_accept || relay_accept;
     wire         word_valid        = spi_word_valid || relay_word_valid;
-    wire [7:0]   kind              = from_uart ? uart_kind : spi_kind;
-    wire [7:0]   sequence_number   = from_uart ? uart_sequence : spi_sequence;
-    wire [15:0]  argument          = from_uart ? uart_argument : spi_argument;
-    wire [191:0] words             = from_uart ? uart_words : spi_words;
     wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
     wire [31:0]  word              = from_uart ? relay_word : spi_word;
-    wire [6:0]   payload_words     = from_uart ? uart_payload_words : spi_payload_words;
     wire         landing_was_busy  = from_uart ? uart_landing_busy : spi_landing_busy;
     wire         landing_was_live  = from_uart ? uart_landing_live : spi_landing_live;
     wire         load_word         = spi_load_word || (relay_word_valid && uart_kind == `TYPE_LOAD && uart_argument < {12'd0, `CHUNKS});
@@ -170,7 +193,8 @@ module haptic_core #(
     reg  [7:0] spi_result_q, spi_sequence_q, uart_result_q, uart_sequence_q;
     reg        fast_q;                     // of the last LOAD; never of one by the UART
     wire       play_accept = accept && kind == `TYPE_PLAY;
-    wire       push = play_accept && play_result == `RESULT_OK;
+    wire       play_good;
+    wire       push = play_accept && play_good;
 
     wire [31:0] register_data, memory_data, crc_data, queue_data;
     reg  [31:0] read_data, spi_data_q, uart_data_q;
@@ -307,7 +331,7 @@ module haptic_core #(
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),
         .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast_q),
         .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queued), .full_i(queue_full),
-        .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
+        .good_o(play_good), .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
     );
 
     play_queue #(.BUFFER_BITS(BUFFER_BITS)) play_queue (

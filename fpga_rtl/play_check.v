@@ -34,12 +34,14 @@ module play_check #(
     input  wire                   faulted_i,
     input  wire [3:0]             queued_i,
     input  wire                   full_i,
+    output wire                   good_o,           // result_o is OK
     output wire [7:0]             result_o,
     output wire                   live_o,
     output wire [BUFFER_BITS-1:0] buffer_o,
     output wire [9:0]             length_o
 );
-    wire        live   = argument_i == `PLAY_LANDING;
+    wire        scheduled = start_i == {6'd0, `START_TIME};
+    wire        live      = argument_i == `PLAY_LANDING;
     wire [9:0]  held   = live ? 10'd1000 : slot_words_i;
     wire [9:0]  length = asked_i == 16'd0 ? held - first_i[9:0] : asked_i[9:0];
     wire        range_good = first_i < {6'd0, held} && {1'b0, first_i} + {1'b0, asked_i} <= {7'd0, held}
@@ -51,7 +53,8 @@ module play_check #(
     reg [47:0] product_q;
     reg [31:0] sounding_q;           // ticks from the first word to the end of the last
     reg [48:0] span_q;               // ticks from the first word of all to where another play may begin
-    reg        range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
+    reg [9:0]  length_q;
+    reg        live_q, unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
     reg [63:0] lead_q, free_q;       // earliest time that can still be met, that is not taken
     reg        late_q, overlap_q;
 
@@ -78,6 +81,10 @@ module play_check #(
             product_q <= doubled + (bits_q[15] ? {16'd0, second ? period_i : bit_period_i} : 48'd0);
         end
 
+        length_q       <= length;
+        live_q         <= live;
+        unnamed_q      <= !live && !slot_good_i;
+        empty_q        <= !live && slot_words_i == 10'd0;
         range_good_q   <= range_good;
         start_good_q   <= start_i <= {6'd0, `START_TIME} && polarity_i <= 8'd1;
         long_q         <= sounding_q > emission_ticks_i;
@@ -87,7 +94,7 @@ module play_check #(
         late_q         <= when_i < lead_q;
         overlap_q      <= when_i < free_q;
 
-        if (accept_i && result_o == `RESULT_OK && start_i == {6'd0, `START_TIME}) free_q <= when_i + {15'd0, span_q};
+        if (accept_i && good_o && scheduled) free_q <= when_i + {15'd0, span_q};
         if (forget_i) free_q <= 64'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
@@ -95,6 +102,10 @@ module play_check #(
             product_q      <= 48'd0;
             sounding_q     <= 32'd0;
             span_q         <= 49'd0;
+            length_q       <= 10'd0;
+            live_q         <= 1'b0;
+            unnamed_q      <= 1'b0;
+            empty_q        <= 1'b0;
             range_good_q   <= 1'b0;
             start_good_q   <= 1'b0;
             long_q         <= 1'b0;
@@ -107,31 +118,42 @@ module play_check #(
         end
     end
 
+    // All that speaks against it, the first to be named highest: only its name takes long to find out
+    wire [15:0] against = {
+        unnamed_q, faulted_i, !armed_i, empty_q, !live_q && slot_checking_i, !live_q && !slot_intact_i,
+        live_q && !arriving_i, live_q && !fast_i, live_q && queued_i != 4'd0,
+        !range_good_q, !start_good_q, long_q, count_i != 16'd1 && !back_to_back_q && !roomy_q,
+        full_i, scheduled && late_q, scheduled && overlap_q
+    };
+    assign good_o = against == 16'd0;
+
     reg [7:0] result;
     always @* begin
-        if (!live && !slot_good_i)                           result = `RESULT_BAD_SLOT;
-        else if (faulted_i)                                  result = `RESULT_FAULTED;
-        else if (!armed_i)                                   result = `RESULT_NOT_ARMED;
-        else if (!live && slot_words_i == 10'd0)             result = `RESULT_EMPTY_SLOT;
-        else if (!live && slot_checking_i)                   result = `RESULT_BUSY;
-        else if (!live && !slot_intact_i)                    result = `RESULT_SLOT_DAMAGED;
-        else if (live && !arriving_i)                       result = `RESULT_INCOMPLETE;
-        else if (live && !fast_i)                            result = `RESULT_LINK_SLOW;
-        else if (live && queued_i != 4'd0)                   result = `RESULT_BUSY;
-        else if (!range_good_q)                              result = `RESULT_BAD_RANGE;
-        else if (!start_good_q)                              result = `RESULT_BAD_VALUE;
-        else if (long_q)                                     result = `RESULT_TOO_LONG;
-        else if (count_i != 16'd1 && !back_to_back_q && !roomy_q) result = `RESULT_BAD_PERIOD;
-        else if (full_i)                                     result = `RESULT_QUEUE_FULL;
-        else if (start_i == {6'd0, `START_TIME} && late_q)             result = `RESULT_TOO_LATE;
-        else if (start_i == {6'd0, `START_TIME} && overlap_q)          result = `RESULT_OVERLAP;
-        else                                                 result = `RESULT_OK;
+        casez (against)
+            16'b1???_????_????_????: result = `RESULT_BAD_SLOT;
+            16'b01??_????_????_????: result = `RESULT_FAULTED;
+            16'b001?_????_????_????: result = `RESULT_NOT_ARMED;
+            16'b0001_????_????_????: result = `RESULT_EMPTY_SLOT;
+            16'b0000_1???_????_????: result = `RESULT_BUSY;
+            16'b0000_01??_????_????: result = `RESULT_SLOT_DAMAGED;
+            16'b0000_001?_????_????: result = `RESULT_INCOMPLETE;
+            16'b0000_0001_????_????: result = `RESULT_LINK_SLOW;
+            16'b0000_0000_1???_????: result = `RESULT_BUSY;
+            16'b0000_0000_01??_????: result = `RESULT_BAD_RANGE;
+            16'b0000_0000_001?_????: result = `RESULT_BAD_VALUE;
+            16'b0000_0000_0001_????: result = `RESULT_TOO_LONG;
+            16'b0000_0000_0000_1???: result = `RESULT_BAD_PERIOD;
+            16'b0000_0000_0000_01??: result = `RESULT_QUEUE_FULL;
+            16'b0000_0000_0000_001?: result = `RESULT_TOO_LATE;
+            16'b0000_0000_0000_0001: result = `RESULT_OVERLAP;
+            default:                 result = `RESULT_OK;
+        endcase
     end
 
     assign result_o = result;
-    assign live_o   = live;
-    assign buffer_o = live ? landing_i : slot_buffer_i;
-    assign length_o = length;
+    assign live_o   = live_q;
+    assign buffer_o = live_q ? landing_i : slot_buffer_i;
+    assign length_o = length_q;
 endmodule
 
 `default_nettype wire

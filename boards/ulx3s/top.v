@@ -60,7 +60,7 @@ module top #(
 
     wire [31:0] channel;
     wire        configured = released_q[15];        // falls with the lock, without a clock
-    wire        hv_enable, hv_alive, focus, waiting, fault;
+    wire        spi_miso, hv_enable, hv_alive, focus, waiting, fault;
 
     haptic_core #(
         .BOARD("ULX3"), .BAUD(1_000_000),
@@ -71,7 +71,7 @@ module top #(
         .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
     ) core (
         .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
-        .spi_sck_i(gp[8]), .spi_cs_n_i(gn[8]), .spi_mosi_i(gp[9]), .spi_miso_o(gn[9]),
+        .spi_sck_i(gp[8]), .spi_cs_n_i(gn[8]), .spi_mosi_i(gp[9]), .spi_miso_o(spi_miso),
         .uart_rx_i(ftdi_txd), .uart_tx_o(ftdi_rxd),
         .trigger_i(gp[10]), .run_permit_i(gp[26]), .temperature_ok_i(gn[26]),
         .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
@@ -80,22 +80,24 @@ module top #(
 
     // J1: channels 0 to 15 on GP0, GN0 ... GP7, GN7; link on the six pins after them. GP/GN 11 to 13 belong to the ESP32.
     // J2: channels 16 to 31 on GP18, GN18 ... GP25, GN25; safety on the four pins after them. GP/GN 14 to 17 are also ADC inputs.
+    // Each by an output buffer: assigned to a pin of an inout bus, what the core reads of its outputs came back from the pad.
     genvar pair;
     generate
         for (pair = 0; pair < 8; pair = pair + 1) begin : channels
-            assign gp[pair]      = channel[2*pair];
-            assign gn[pair]      = channel[2*pair + 1];
-            assign gp[pair + 18] = channel[2*pair + 16];
-            assign gn[pair + 18] = channel[2*pair + 17];
+            OB low_p  (.I(channel[2*pair]),      .O(gp[pair]));
+            OB low_n  (.I(channel[2*pair + 1]),  .O(gn[pair]));
+            OB high_p (.I(channel[2*pair + 16]), .O(gp[pair + 18]));
+            OB high_n (.I(channel[2*pair + 17]), .O(gn[pair + 18]));
         end
     endgenerate
 
-    assign gn[10] = configured;
-    assign gp[27] = hv_enable;
-    assign gn[27] = hv_alive;
-    assign gp[17] = focus;
-    assign gn[17] = fault;
-    assign gp[16] = waiting;
+    OB spi_miso_pad   (.I(spi_miso),   .O(gn[9]));
+    OB configured_pad (.I(configured), .O(gn[10]));
+    OB hv_enable_pad  (.I(hv_enable),  .O(gp[27]));
+    OB hv_alive_pad   (.I(hv_alive),   .O(gn[27]));
+    OB focus_pad      (.I(focus),      .O(gp[17]));
+    OB fault_pad      (.I(fault),      .O(gn[17]));
+    OB waiting_pad    (.I(waiting),    .O(gp[16]));
 
     assign wifi_gpio0 = 1'b1;                       // low would take the board back to its loader
     assign led = {fault, hv_enable, hv_alive, focus, waiting, gn[26], gp[26], configured};

@@ -21,7 +21,7 @@ HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"
 TOP = Design(
     "top",
-    (BOARD / "top.v", HERE / "EHXPLLL.v"),
+    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v"),
     HERE / "ulx3s.cpp",
     ("--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )

@@ -5,6 +5,7 @@ from a state the proof allows, and not a run from reset.
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -23,7 +24,7 @@ BREAKS = {
     "the answer into the register in use": ("take_next_q && odd_q", "take_next_q && !odd_q", "answer_is_still"),
 }
 GATE_BREAKS = {
-    "causes that count only in a state": ("on || on_later_q != 3'd0 || hv_enable_q", "on", "stop_is_kept"),
+    "causes that count only in a state": ("on || on_later_q != 3'd0 || hv_enable_q", "on", "(stopped|hot|silent|beyond)_is_off"),
     "any other code for a state": ("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
     "outputs that wait for the clock": ("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
     "channels with the supply": ("open && moves_later_q[2] &&", "open &&", "supply_has_settled"),
@@ -63,7 +64,7 @@ def test_the_proof_of_the_gate_fails_with(tmp_path, what):
     old, new, promise = GATE_BREAKS[what]
     code, log = prove(tmp_path, GATE, old, new)
     assert code != 0
-    assert f"failed assertion output_gate.{promise}" in log, log
+    assert re.search(rf"failed assertion output_gate\.{promise}", log), log
 
 
 @pytest.mark.parametrize("what", BREAKS)
