@@ -199,20 +199,6 @@ def test_an_fpga_that_was_without_supply_is_brought_up_again():
     assert main_pid() == pid
 
 
-def test_an_fpga_that_is_gone_at_the_start_is_told_and_waited_for():
-    run("systemctl", "stop", UNIT)
-    bench().far_end.close()
-    try:
-        pid = fresh_start()
-        assert shown("StatusText").startswith("waiting for FPGA: ")
-        assert "our own bytes came back" in journal("-p", "warning")
-    finally:
-        bench().far_end = FarEnd(load_board(panel_board.BOARD), LINES)
-    bench().outputs_are(1)
-    bench().finger_is_felt()
-    assert main_pid() == pid
-
-
 def test_killed_it_leaves_the_outputs_off_until_it_is_back():
     pid = bench().started()
     os.kill(pid, signal.SIGKILL)
