@@ -128,12 +128,14 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
     try:
         scene.write_text(good.replace('name = "arrow"', 'name = "spear"'))
         run("systemctl", "reload", UNIT)
-        assert (figure("scenes_loaded"), shown("ActiveState")) == (1, "active")
+        wait_for("the scene", lambda: figure("scenes_loaded") == 1)
+        assert shown("ActiveState") == "active"
         scene.write_text(good.replace('name = "arrow"', "name = 7"))
         refused = subprocess.run(["systemctl", "reload", UNIT], check=False, capture_output=True, text=True)
         assert refused.returncode == 1
         assert f"Job for {UNIT}.service failed" in refused.stderr
-        assert (figure("scenes_refused"), shown("ActiveState")) == (1, "active")
+        wait_for("the refusal", lambda: figure("scenes_refused") == 1)  # figures are made at most once a second
+        assert shown("ActiveState") == "active"
         assert "the scene stays as it was: " in said()
         assert "scene.toml" in shown("StatusText")
         assert figure("scenes_loaded") == 1
@@ -143,7 +145,7 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
         assert not [line for line in warnings if "the outputs are on" in line]
         scene.write_text(good)
         run("systemctl", "reload", UNIT)
-        assert figure("scenes_loaded") == 2
+        wait_for("the scene", lambda: figure("scenes_loaded") == 2)
     finally:
         scene.write_text(good)
 
