@@ -148,6 +148,21 @@ def test_a_host_that_is_no_slower_than_the_handover_allows_for_has_each_beat_sta
     assert done.counters.skipped.refused == 0
 
 
+@pytest.mark.parametrize("late_s", [0.0, 1e-3])
+def test_how_long_a_report_waited_to_be_read_is_told(run, late_s):
+    """Of those of which an emission came in the same turn."""
+
+    class Late(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            self._now_s += late_s
+
+    report_latency = run(TAPS, region("all", PLATE, 'effect = "click"'), Late()).counters.report_latency
+    assert 0 < report_latency.count <= 5
+    assert report_latency.percentile_ns(0.01) == pytest.approx(late_s * 1e9, rel=0.01, abs=10)
+    assert report_latency.worst_ns == pytest.approx(late_s * 1e9, abs=10)
+
+
 def test_a_beat_that_comes_too_late_for_its_time_is_played_at_once_and_counted(run):
     done = run(TAPS, train(50, 80.0), slow_s=1.5 * HANDOVER_S)
     assert done.counters.late == 5, "the first of each touch, which is wanted as soon as can be"
