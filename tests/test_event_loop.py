@@ -559,6 +559,22 @@ def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, b
     assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
 
 
+def test_touches_while_the_outputs_are_off_are_counted_one_by_one(board, bank_file, tmp_path, cell, evemu_text):
+    class PermitLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                link.gateware.permit(max(round(self._now_s * board.link.clock_hz), link.gateware.now), False)
+
+    taps = [report for k in range(3) for report in ((0.3 + 0.1 * k, {0: cell[1]}), (0.35 + 0.1 * k, {0: None}))]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, PermitLost(), [(0.0, {}), *taps, (0.8, {})], evemu_text, CLICK)
+        loop.run()
+        link.close()
+    assert (counters.due, counters.foci) == (3, 0)
+    assert counters.skipped.outputs_off == counters.skipped.emissions == 3
+
+
 def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
     """A spot whose shadows touch: a contact beside it is a suspect; one that comes while the outputs are off is not."""
 

@@ -112,6 +112,21 @@ def test_a_train_keeps_its_distance_to_when_its_first_beat_really_began(performa
     assert performance.next_s() == pytest.approx(0.0131)
 
 
+def test_of_several_trains_the_next_beat_is_the_earliest(performance):
+    for ticket, now_s in ((1, 0.004), (2, 0.0), (3, 0.007)):
+        command(performance, ticket, x_m=0.05 * ticket, effect="roll", now_s=now_s)
+    assert performance.next_s() == pytest.approx(0.01)
+    performance.advance(0.0105)
+    assert performance.next_s() == pytest.approx(0.014)
+
+
+def test_what_is_due_more_than_an_emission_later_goes_on_waiting(performance):
+    command(performance, 1, x_m=0.05, now_s=0.0)
+    command(performance, 2, x_m=0.15, now_s=T_S + 0.001)
+    assert [emission.ticket for emission in performance.take(T_S, 0.004)] == [1]
+    assert [emission.ticket for emission in performance.take(T_S, 0.004)] == [2]
+
+
 def test_an_unknown_effect_or_finger_is_refused_and_nothing_waits(performance, told):
     with pytest.raises(ConfigError, match="no effect 'boom'"):
         command(performance, 1, effect="boom")
