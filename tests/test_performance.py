@@ -174,11 +174,11 @@ def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, t
 
 def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp_path, told):
     performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
-    command(performance, 1)
+    command(performance, 1, now_s=0.25)
     file = tmp_path / "other.toml"
     file.write_text('[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n')
     performance.swap(load_scene(file, board), 1.0)
-    assert told == [(1, Outcome.SKIPPED, pytest.approx(1.0))]
+    assert told == [(1, Outcome.SKIPPED, pytest.approx(0.75))]
     performance.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
     assert performance.due
 
@@ -220,3 +220,23 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
     emissions = performance.with_spots(performance.take(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
     assert performance.next_spot_s() == 1.05
+
+
+def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
+    (tmp_path / "spot.toml").write_text(
+        '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+    )
+    scene = load_scene(tmp_path / "spot.toml", board)
+    performance = performing(scene, told)
+    assert performance.next_spot_s() == 0.0
+    performance.swap(scene, 5.0)
+    assert performance.next_spot_s() == 5.0
+
+
+def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_do_not(performance):
+    performance.touch(TouchSample(3, 0.05, 0.05, 0.0, True))
+    command(performance, 1, effect="roll")
+    performance.interrupted(0.005)
+    assert performance.next_s() > 1e6
+    command(performance, 2, finger=3)
+    assert performance.due

@@ -202,6 +202,7 @@ def test_arming_with_a_damaged_frame_arms_all_the_same(board, clock, link, frame
     link.noise = {link.frames + frame: (direction, 9)}
     clock._now_s = session.arm()
     session.require_armed()
+    assert session.exchange.read(Register.FRAME_ERRORS) == (direction == "to the FPGA"), "no other frame was damaged"
 
 
 def test_arming_over_a_link_that_damages_everything_is_given_up_with_outputs_off(board, clock, link):
