@@ -19,7 +19,7 @@ import pytest
 from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
-from controller.clocks import MonotonicClock, VirtualClock
+from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
@@ -597,6 +597,86 @@ def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board
         link.close()
     assert counters.outages == 1
     assert loop._source.tracking.held_back == 0
+
+
+class At(VirtualClock):
+    """Virtual time at some times of which something is done, once."""
+
+    def __init__(self, *what):
+        super().__init__()
+        self.what = list(what)
+
+    def wait(self, selector, until_s):
+        super().wait(selector, min(until_s, self.what[0][0]) if self.what else until_s)
+        while self.what and self._now_s >= self.what[0][0]:
+            self.what.pop(0)[1]()
+
+
+@pytest.mark.parametrize("ticket", [0, 7], ids=["SIGHUP", "a command"])
+def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, tmp_path, cell, evemu_text, ticket):
+    told = []
+    commands = SimpleNamespace(
+        fileno=lambda: None, next_time_s=lambda: NEVER, serve=lambda *_: None, touches=lambda _: None,
+        loaded=lambda *what: told.append(what),
+    )  # fmt: skip
+    clock, taps = At(), [(0.2 * k + more_s, {0: at}) for k in range(2) for more_s, at in ((0.0, cell[1]), (0.1, None))]
+    with Bank.open(bank_file, board) as bank:
+        change = Change(clock, Prepared(ticket, None, None, "bad.toml"))
+        link, counters, loop = loop_of(
+            board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change, commands=commands if ticket else None
+        )
+        clock.what.append((0.9, loop.stop))
+        loop.run()
+        link.close()
+    assert (counters.scenes_loaded, counters.scenes_refused, counters.scene_refused) == (0, 1, "bad.toml")
+    assert (counters.reloads, counters.reload_refused, counters.foci) == ((0, "", 2) if ticket else (1, "bad.toml", 2))
+    assert told == ([(7, "bad.toml")] if ticket else [])
+
+
+def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text):
+    clock = At((0.3, lambda: loop.stop()))  # noqa: PLW0108 — there is no loop yet
+    reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, CLICK)
+        loop.run()
+        link.close()
+    assert counters.emissions == 1
+    assert not link.take_capture().hv[-1]
+
+
+def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again(board, bank_file, tmp_path, evemu_text):
+    clock = At((0.4, lambda: loop.switch(False)), (0.7, lambda: loop.switch(True)))
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, clock, [(0.0, {}), (1.4, {})], evemu_text, SPOT)
+        loop.run()
+        link.close()
+    seconds = link.take_capture().focus_ticks / board.link.clock_hz
+    assert not ((seconds > 0.45) & (seconds < 0.7)).any()
+    assert (seconds > 0.75).sum() >= 13, "20 Hz until 1.5 s"
+
+
+def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
+    """Not from when the loop came to read it, a millisecond later."""
+
+    class Late(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            self._now_s += 1e-3
+
+    reports = [(0.01 * k, {0: (30.0 + k, 54.0)}) for k in range(60)]
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, Late(), [*reports, (0.7, {0: None})], evemu_text, TEXTURE)
+        expected, asked_s = loop._performance.expected, []
+
+        def asking(finger, place, now_s, *more):
+            asked_s.append(now_s)
+            return expected(finger, place, now_s, *more)
+
+        loop._performance.expected = asking
+        loop.run()
+        link.close()
+    assert len(asked_s) > 20
+    assert [at_s * 100 for at_s in asked_s] == pytest.approx([round(at_s * 100) for at_s in asked_s], abs=1e-3)
 
 
 def test_spots_of_the_scene_before_make_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):

@@ -75,6 +75,7 @@ def test_a_newer_command_for_the_same_place_takes_the_olders(performance, told):
     command(performance, 1)
     command(performance, 2, x_m=0.1004, now_s=0.001)
     assert told == [(1, Outcome.MERGED, pytest.approx(0.001))]
+    assert performance._counters.skipped.merged == 1
     assert len(played(performance, 0.002)) == 1
     assert told[1][:2] == (2, Outcome.PLAYED)
 

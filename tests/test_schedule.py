@@ -318,3 +318,26 @@ def test_what_was_sent_ahead_and_is_found_damaged_in_its_slot_is_sent_anew(by_ha
     assert sent, "what it was sent for came true twice"
     assert (by_hand.counters.uploads, by_hand.counters.resident) == (3, 0)
     assert by_hand.counters.prefetch_wasted == 1
+
+
+def test_nothing_is_sent_ahead_while_what_is_expected_does_not_come_true(by_hand):
+    for _ in range(5):
+        by_hand.playback.prefetch(0, 0.05, 0.05, 1.0)
+        by_hand.clock._now_s += 0.03
+        by_hand.playback.prepare(focus(0.15, finger=0), 0)
+    assert by_hand.counters.prefetched == 0
+
+
+def test_after_what_the_fpga_started_by_itself_the_plate_is_as_busy(by_hand):
+    by_hand.playback.prepare(focus(0.05), 0, at_s=0.0)
+    by_hand.playback.prepare(focus(0.1), 0)
+    (first,) = by_hand.played
+    assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
+
+
+def test_a_waveform_that_serves_for_a_place_near_by_is_counted(by_hand):
+    for x_m in (0.0550, 0.0553, 0.0553, 0.0650):
+        by_hand.playback.prepare(focus(x_m), 0)
+        by_hand.clock._now_s += 0.03
+        by_hand.playback.trigger()
+    assert (by_hand.counters.uploads, by_hand.counters.resident, by_hand.counters.near) == (2, 2, 2)

@@ -240,6 +240,8 @@ def test_pauses_between_touches_are_not_in_the_rate():
     played(t)
     assert t.rate.median_s == pytest.approx(10e-3, abs=0.13e-3)
     assert t.rate.jitter_s == 0
+    assert t.figures()["report_period_ms"] == pytest.approx(10, abs=0.13)
+    assert t.figures()["report_jitter_ms"] == 0
 
 
 def test_a_panel_never_touched_has_no_rate():
