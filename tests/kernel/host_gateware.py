@@ -136,7 +136,7 @@ def main():
     with (
         multiprocessing.connection.Listener(sys.argv[1], "AF_UNIX") as listener,
         listener.accept() as guest,
-        contextlib.suppress(EOFError, ConnectionError),  # the guest is gone
+        contextlib.suppress(EOFError, OSError),  # the guest is gone
     ):
         guest.poll(None)  # QEMU listens by now
         serve(guest, Monitor(sys.argv[2]))
