@@ -644,6 +644,18 @@ def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text
     assert not link.take_capture().hv[-1]
 
 
+def test_the_scene_is_read_again_once_each_time_it_is_asked_for(board, bank_file, tmp_path, cell, evemu_text):
+    asked = []
+    change = SimpleNamespace(fileno=lambda: None, take=lambda: None, begin=lambda *what: asked.append((clock.now_s(), *what)))
+    clock = At((0.3, lambda: loop.reload()), (0.4, lambda: loop.reload()))  # noqa: PLW0108
+    with Bank.open(bank_file, board) as bank:
+        reports = [(0.0, {0: cell[1]}), (0.6, {0: None})]
+        link, _, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, CLICK, change=change)
+        loop.run()
+        link.close()
+    assert asked == [(pytest.approx(0.3, abs=1e-3), None, 0), (pytest.approx(0.4, abs=1e-3), None, 0)]
+
+
 def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again(board, bank_file, tmp_path, evemu_text):
     clock = At((0.4, lambda: loop.switch(False)), (0.7, lambda: loop.switch(True)))
     with Bank.open(bank_file, board) as bank:

@@ -241,3 +241,16 @@ def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_d
     assert performance.next_s() > 1e6
     command(performance, 2, finger=3)
     assert performance.due
+
+
+@pytest.mark.parametrize(("step_mm", "foreseen"), [(0.09, False), (0.11, True)])
+def test_a_finger_that_hardly_moves_is_at_rest_and_nothing_is_foreseen_for_it(board, tmp_path, told, step_mm, foreseen):
+    (tmp_path / "fine.toml").write_text(
+        '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 0.5 }]\n'
+    )
+    performance = performing(load_scene(tmp_path / "fine.toml", board), told)
+    speed_m_s = step_mm * 1e-3 / 0.01
+    for k in range(3):
+        performance.touch(TouchSample(0, 0.05 + speed_m_s * 0.01 * k, 0.05, 0.01 * k, True))
+    wanted = performance.expected(0, lambda _, at_s: (0.05 + speed_m_s * at_s, 0.05), 0.02, 0.01, 2e-3)
+    assert (wanted is not None) == foreseen

@@ -67,6 +67,13 @@ def test_a_spot_stays_resident_whatever_fingers_play(perform):
     assert run.counters.uploads == len(places) + 1, "each place once, and the spot once"
 
 
+def test_a_spot_stays_resident_though_more_is_played_between_its_beats_than_there_are_slots(perform):
+    places = [(30.0 + 13.0 * k, 110.0) for k in range(10)]
+    taps = [report for k, place in enumerate(places) for report in ((0.6 + 0.04 * k, {0: place}), (0.62 + 0.04 * k, {0: None}))]
+    run = perform([(0.0, {}), *taps, (2.2, {})], SPOT.replace("rate_hz = 20.0", "rate_hz = 2.0") + CLICK)
+    assert run.counters.uploads == len(places) + 1
+
+
 def rubbing(seed, duration_s):
     """Reports of a finger that goes to and fro, each stroke at another speed."""
     rng = random.Random(seed)
