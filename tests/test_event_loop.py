@@ -21,11 +21,13 @@ from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
+from controller.event_loop import PREFETCH_AFTER_S
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
 from controller.hardware import open_session, open_simulated, tracked
 from controller.offline import simulated_run
 from controller.offline.simulated_run import foci_meant
+from controller.playback import _Repetition
 from controller.scene import load_scene
 from controller.scene_source import Prepared
 from controller.touch.recording import Recording
@@ -665,6 +667,53 @@ def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again
     seconds = link.take_capture().focus_ticks / board.link.clock_hz
     assert not ((seconds > 0.45) & (seconds < 0.7)).any()
     assert (seconds > 0.75).sum() >= 13, "20 Hz until 1.5 s"
+
+
+def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, tmp_path, evemu_text):
+    """A finger on a train, and one that moves on a texture."""
+    halves = [
+        region(name, f'shape = "rectangle"\nx_mm = {x_mm}\ny_mm = 5.0\nwidth_mm = 100.0\nheight_mm = 138.0', effect)
+        for name, x_mm, effect in (
+            ("left", 5.0, 'effect = "texture", spacing_mm = 5.0'),
+            ("right", 105.0, 'effect = "train", rate_hz = 90.0, duration_ms = 900.0'),
+        )
+    ]
+    reports = [(0.007 * k, {0: (10.0 + 0.25 * k, 54.0), 1: (150.0, 94.0)}) for k in range(140)]
+    with Bank.open(bank_file, board) as bank:
+        clock = VirtualClock()
+        reports.append((1.0, {0: None, 1: None}))
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, "".join(halves), slots=16)
+        prefetch, expected, ahead_s, wanted = loop._playback.prefetch, loop._performance.expected, [], []
+
+        def noting(*how):
+            wanted.append(expected(*how))
+            return wanted[-1]
+
+        def sending(*what):
+            ahead_s.append(loop._time_base.host_s(loop._performance.next_s()) - clock.now_s())
+            return prefetch(*what)
+
+        loop._playback.prefetch, loop._performance.expected = sending, noting
+        loop.run()
+        link.close()
+    assert counters.emissions > 80
+    during = [at_s for at_s in ahead_s if at_s < 1.0]  # the train goes on
+    assert len(during) > 5
+    assert min(during) > loop._lead_s + PREFETCH_AFTER_S
+    assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
+
+
+def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to_begin(board, bank_file, tmp_path, evemu_text):
+    """Only what has begun can be stopped."""
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {}), (1.0, {})], evemu_text, CLICK)
+        loop._outputs = SimpleNamespace(on=True, wanted=True, next_s=lambda: 10.5)
+        loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
+        loop._quiet_until_s = 10.2
+        assert loop._next_s(9.9985) == 10.2
+        loop._playback.begins_s, loop._playback._running = 10.1, _Repetition(loop._time_base.fpga_s(10.1), 0.025)
+        assert loop._next_s(9.9985) == pytest.approx(10.1)
+        link.close()
 
 
 def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):

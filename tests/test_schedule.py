@@ -196,6 +196,29 @@ def test_trains_of_two_fingers_each_keep_their_own_spacing(run):
         assert np.unique(np.diff(own)).tolist() == [TICKS // 50]
 
 
+def test_beats_that_are_played_together_begin_with_the_earliest(run):
+    """None is late: of 50 and 49.9 beats a second some are so near each other that a loop which wakes up late finds both."""
+    upper = 'shape = "rectangle"\nx_mm = 0.0\ny_mm = 75.0\nwidth_mm = 210.0\nheight_mm = 73.0'
+    trains = [
+        region(name, shape, f'effect = "train", rate_hz = {rate}, duration_ms = 900.0')
+        for name, shape, rate in (("lower", LOWER, 50.0), ("upper", upper, 49.9))
+    ]
+    done = run(
+        [(0.0, {0: (60.0, 40.0), 1: (120.0, 110.0)}), (1.0, {0: None, 1: None})],
+        "".join(trains),
+        LateClock(0.95 * (BEAT_LEAD_S - HANDOVER_S)),
+    )
+    due_s = [[e.time_s for e in played.emissions if e.beat] for played in done.played]
+    apart = [
+        (played, times_s)
+        for played, times_s in zip(done.played, due_s, strict=True)
+        if max(times_s, default=0) > min(times_s, default=0)
+    ]
+    assert apart
+    for played, times_s in apart:
+        assert played.at_ticks / TICKS == pytest.approx(min(times_s), abs=1e-6)
+
+
 def test_an_emission_that_no_gap_of_a_fast_train_has_room_for_is_felt_all_the_same(run):
     """Too near the train's finger to be played together with it."""
     scene = region("left", 'shape = "rectangle"\nx_mm = 0.0\ny_mm = 0.0\nwidth_mm = 105.0\nheight_mm = 148.0',
