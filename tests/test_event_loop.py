@@ -19,13 +19,14 @@ from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.clocks import MonotonicClock, VirtualClock
-from controller.errors import FaultError, TouchError
+from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
 from controller.hardware import open_session, open_simulated, tracked
 from controller.offline import simulated_run
 from controller.offline.simulated_run import foci_meant
 from controller.scene import load_scene
+from controller.scene_source import Prepared
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -424,6 +425,47 @@ def test_a_refused_upload_is_counted_and_costs_no_waveform_that_is_there(board, 
         link.close()
     assert (counters.skipped.refused, counters.uploads, counters.resident) == (2, 4, 1)
     assert link.take_capture().focus_ticks.size == 5
+
+
+def test_an_emission_at_which_the_link_fails_is_counted_and_the_loop_goes_on(board, bank_file, tmp_path, cell, evemu_text):
+    reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, VirtualClock(), reports, evemu_text, CLICK)
+        upload = loop._session.upload_and_play
+
+        def failing(*how, **more):
+            loop._session.upload_and_play = upload
+            raise LinkError("unplugged")
+
+        loop._session.upload_and_play = failing
+        loop.run()
+        link.close()
+    assert (counters.outages, counters.due, counters.foci) == (1, 2, 1)
+    assert counters.skipped.outputs_off == counters.skipped.emissions == 1
+
+
+def test_another_bank_is_played_from_with_nothing_of_the_one_before(board, bank_file, tmp_path, cell, evemu_text):
+    """The same place three times; between the first and the second the bank is changed."""
+
+    class Change:
+        fileno = begin = staticmethod(lambda *_: None)
+
+        def __init__(self, prepared):
+            self._prepared = [prepared]
+
+        def take(self):
+            return self._prepared.pop() if self._prepared and clock.now_s() > 0.25 else None
+
+    clock, taps = VirtualClock(), [(0.2 * k + more_s, {0: at}) for k in range(3) for more_s, at in ((0.0, cell[1]), (0.1, None))]
+    with Bank.open(bank_file, board) as bank, Bank.open(shutil.copy(bank_file, tmp_path / "other.bank"), board) as other:
+        another = Selection(other, board.bank.snap_mm * 1e-3, board.idle_word)
+        (tmp_path / "same.toml").write_text(CLICK)
+        change = Change(Prepared(0, load_scene(tmp_path / "same.toml", board), another))
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change)
+        loop.run()
+        link.close()
+        assert loop._playback._selection is another
+    assert (counters.uploads, counters.resident) == (2, 1)
 
 
 def test_a_ramp_longer_than_the_heartbeat_timeout_is_lived_through(perform, board, cell):

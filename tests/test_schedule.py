@@ -11,12 +11,15 @@ import pytest
 
 from controller.assembly import assemble
 from controller.bank.reader import Bank
+from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
 from controller.event_loop import BEAT_LEAD_S
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.fpga.time_base import TimeBase
 from controller.hardware import open_session, open_simulated, tracked
-from controller.playback import HANDOVER_S
-from controller.scene import load_scene
+from controller.latency import Counters
+from controller.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
+from controller.scene import Emission, load_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -145,6 +148,21 @@ def test_a_host_that_is_no_slower_than_the_handover_allows_for_has_each_beat_sta
     assert done.counters.skipped.refused == 0
 
 
+@pytest.mark.parametrize("late_s", [0.0, 1e-3])
+def test_how_long_a_report_waited_to_be_read_is_told(run, late_s):
+    """Of those of which an emission came in the same turn."""
+
+    class Late(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            self._now_s += late_s
+
+    report_latency = run(TAPS, region("all", PLATE, 'effect = "click"'), Late()).counters.report_latency
+    assert 0 < report_latency.count <= 5
+    assert report_latency.percentile_ns(0.01) == pytest.approx(late_s * 1e9, rel=0.01, abs=10)
+    assert report_latency.worst_ns == pytest.approx(late_s * 1e9, abs=10)
+
+
 def test_a_beat_that_comes_too_late_for_its_time_is_played_at_once_and_counted(run):
     done = run(TAPS, train(50, 80.0), slow_s=1.5 * HANDOVER_S)
     assert done.counters.late == 5, "the first of each touch, which is wanted as soon as can be"
@@ -205,3 +223,27 @@ def test_uploads_reach_nine_tenths_of_what_wire_and_plate_allow(run, board, fing
     plate_hz = 1 / board.waveform.duration_s
     uploads_hz = rate_hz(done.starts) * done.counters.uploads / done.counters.emissions
     assert uploads_hz >= 0.9 * min(wire_hz, plate_hz)
+
+
+@pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
+def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_finger_there(board, bank_file, at_s):
+    """The finger is asked for at T after the start that the repetition leaves, not at T after the command's arrival."""
+    clock, asked_s, played = VirtualClock(), [], []
+    link = open_simulated(board, clock.now_s)
+    session = open_session(link, board, clock.now_s)
+    session.arm()
+    clock._now_s += 0.02
+    time_base = TimeBase(link.clock_hz)
+    duration_s, duty = board.waveform.duration_s, 0.1
+    with Bank.open(bank_file, board) as bank:
+        playback = Playback(
+            session, Selection(bank, 1e-3, board.idle_word), time_base, lambda _, at_s: asked_s.append(at_s), slots=4,
+            duration_s=duration_s, max_duty=duty, upload_s=1.4e-3, command_s=23e-6, counters=Counters(), played=played.append,
+        )  # fmt: skip
+        playback.prepare([Emission(0.0, 0.05, 0.05, None, "")], 0, count=ENDLESS, period_s=0.025)
+        clock._now_s += 0.053  # its third emission sounds
+        third_s = playback.next_repetition_s(clock.now_s()) - 0.025
+        playback.prepare([Emission(0.0, 0.1, 0.05, 0, "")], 0, at_s=at_s)
+        begins_s = playback.begins_s if playback.trigger_at_s is None else playback.trigger_at_s
+    assert begins_s == pytest.approx(third_s + duration_s / duty, abs=2 * MARGIN_S)
+    assert asked_s[-1] == pytest.approx(begins_s + duration_s, abs=2 * MARGIN_S)

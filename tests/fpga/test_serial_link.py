@@ -3,6 +3,7 @@
 import contextlib
 import itertools
 import threading
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -39,11 +40,15 @@ class Line:
         self.panel = panel
         self.to_panel = self.to_host = lambda data: data
         self.heard = bytearray()  # by the panel
+        self.taken_bytes = 0
 
     def answer(self, data):
+        size = len(data)
         data = self.to_panel(data)
         self.heard += data
-        return self.to_host(self.panel.receive(data))
+        answer = self.to_host(self.panel.receive(data))
+        self.taken_bytes += size
+        return answer
 
     def frames(self):
         """Frames that the panel has heard so far."""
@@ -68,6 +73,41 @@ def flipped(byte):
     return bytes([byte ^ 0x10])
 
 
+class TimeToAnswer:
+    """A clock for the link that stands still while its peer, a thread of this process, has not had its turn."""
+
+    perf_counter_ns = staticmethod(time.perf_counter_ns)
+
+    def __init__(self, line):
+        self._line = line
+        self._now_s, self._last_s = 0.0, time.monotonic()
+        self._waited = True  # for the link, not for the peer
+        self.links = []
+
+    def monotonic(self):
+        last_s, self._last_s = self._last_s, time.monotonic()
+        waited, self._waited = self._waited, self._line.taken_bytes >= sum(link.written_bytes for link in self.links)
+        if waited and self._waited:
+            self._now_s += self._last_s - last_s
+        return self._now_s
+
+
+class CountingLink(SerialLink):
+    """Knows what it has handed to the terminal."""
+
+    def _opened(self):
+        port = super()._opened()
+        self.written_bytes = 0
+        write = port.write
+
+        def counted(data):
+            self.written_bytes += len(data)
+            return write(data)
+
+        port.write = counted
+        return port
+
+
 def model(board):
     return GatewareModel(Parameters.of(board, BUILD))
 
@@ -83,13 +123,15 @@ def line(board, clock):
 
 
 @pytest.fixture
-def open_link(clock, line):
+def open_link(clock, line, monkeypatch):
     """Opens the one link of a test to the terminal at which the line ends."""
+    link_time = TimeToAnswer(line)
+    monkeypatch.setattr(serial_link, "time", link_time)
     with PseudoTerminal(line.answer) as terminal:
-        opened = []
+        opened = link_time.links
 
         def to_terminal(latency_s=PATIENT_S):
-            opened.append(SerialLink(terminal.device, BAUD, clock.now_s, latency_s))
+            opened.append(CountingLink(terminal.device, BAUD, clock.now_s, latency_s))
             opened[-1]._unsure = False  # a terminal just made holds nothing: no need to wait until it is quiet
             line.panel.receive(b"\0")
             return opened[-1]
@@ -115,7 +157,7 @@ def nops(link, count, sequence=10):
 
 def recovered(link):
     """After an error the next message is whole, as soon as answers under way have been waited for."""
-    for latency_s in (BRIEF_S, 10 * BRIEF_S, 100 * BRIEF_S):  # the first will do unless the machine is very busy
+    for latency_s in (BRIEF_S, 10 * BRIEF_S, 100 * BRIEF_S, PATIENT_S):  # the first will do unless the machine is very busy
         wait_at_most(link, latency_s)
         with contextlib.suppress(LinkError):
             if [status.sequence for status in nops(link, 3, 77)[1:]] == [77, 78]:

@@ -277,6 +277,22 @@ def test_a_play_at_once_and_one_at_a_time_need_no_trigger(board, clock, link, ar
         armed.play(1, 1, 0.0, stop=False, start=Start.TIME, when_ticks=at)
 
 
+def test_over_a_good_link_the_fpga_finds_no_gap_in_the_numbers_of_the_frames(clock, link, armed):
+    """Whatever the host does: else the count that tells of lost frames would tell of the host's own."""
+    first = armed.exchange.read(Register.SEQUENCE_GAPS)  # the number after that of another host, or of a reset
+    armed.set_bit_period(0.99)
+    armed.upload(1, WORDS)
+    for stop in (False, True):
+        armed.upload_and_play(0, WORDS, 0, 25e-3, stop=stop)
+        armed.play(1, 1, 0.0, stop=True)
+        armed.stop()
+    armed.clear_faults()
+    clock._now_s = armed.disarm()
+    armed.bring_up()
+    clock._now_s = armed.arm()
+    assert armed.exchange.read(Register.SEQUENCE_GAPS) == first
+
+
 def test_an_upload_whose_slot_is_still_checked_is_waited_for_at_any_sck(board, clock):
     for sck_hz in (40_000_000, 80_000_000 // 3, 25_000_000, 13_000_000, 4_000_000):
         settings = msgspec.structs.replace(board.link, sck_hz=sck_hz)

@@ -17,7 +17,6 @@ import numpy as np
 
 from controller.board import data_folder
 from controller.fpga.build_hash import build_hash
-from controller.fpga.capture import Capture
 from controller.fpga.gateware import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, Parameters, Permit, frame_ticks
 from controller.fpga.model import GatewareModel
 from controller.fpga.restarting import RestartingGateware
@@ -85,7 +84,7 @@ def _chips():
 class _Gateware:
     """The gateware, its pins driven as time goes on."""
 
-    def __init__(self, parameters, factory, roles, slowness):
+    def __init__(self, parameters, factory, roles, slowness, words, word_ticks):
         self._gateware = RestartingGateware(factory, parameters)
         self._clock_hz = parameters.clock_hz / slowness
         self._bits_hz = parameters.clock_hz
@@ -95,7 +94,10 @@ class _Gateware:
         self._hv = 0
         self._word = 0
         self._focus = 0
-        self._captures = []
+        self._recent = np.zeros(0, np.int64), np.zeros(0, np.uint32)  # ticks and channel pins of the last changes
+        self._emissions = []
+        self._words = words
+        self._word_ticks = word_ticks
         self._damaged = 0
         self.wire = "good"
         self.modes = set()
@@ -147,25 +149,32 @@ class _Gateware:
         """The FPGA loses its supply now, and is configured again so much of its time later."""
         self._gateware.restart(self._now(), round(dark_s * self._bits_hz))
 
+    def note(self):
+        """Note what the pins did since this was last done: a little after each transfer, as all at once would hold one up."""
+        capture = self._gateware.take_capture()
+        ticks = np.concatenate([self._recent[0], capture.ticks.astype(np.int64)])
+        levels = np.concatenate([self._recent[1], capture.words])
+        if capture.ticks.size:
+            self._hv, self._word = int(capture.hv[-1]), int(capture.words[-1])
+        foci = capture.focus_ticks.astype(np.int64)
+        self._focus += foci.size
+        sampled = np.arange(-self._words, 0) * self._word_ticks
+        for focus in foci:
+            self._emissions.append(levels[np.searchsorted(ticks, focus + sampled, side="right") - 1].astype("<u4").tobytes())
+        begun = slice(-self._words - 1, None)  # an emission that has not ended, and what was before it
+        self._recent = ticks[begun], levels[begun]
+
     def pins(self):
         """What the pins have come to, and the emissions that ran to their end so far."""
         self._gateware.advance(self._now())
-        capture = self._gateware.take_capture()
-        self._captures.append(capture)
-        if capture.ticks.size:
-            self._hv, self._word = int(capture.hv[-1]), int(capture.words[-1])
-        self._focus += capture.focus_ticks.size
+        self.note()
         return {"hv": self._hv, "word": self._word, "focus": self._focus, "modes": self.modes}
 
-    def emissions(self, words, word_ticks):
+    def emissions(self):
         """Drive words on the channel pins in each emission that ended since this was last asked for, as bytes."""
         self.pins()
-        ticks = np.concatenate([capture.ticks for capture in self._captures]).astype(np.int64)
-        levels = np.concatenate([capture.words for capture in self._captures])
-        foci = np.concatenate([capture.focus_ticks for capture in self._captures]).astype(np.int64)
-        before = np.arange(-words, 0) * word_ticks
-        self._captures = [Capture(ticks[-words:], levels[-words:], levels[-words:], foci[:0])]
-        return [levels[np.searchsorted(ticks, focus + before, side="right") - 1].astype("<u4").tobytes() for focus in foci]
+        emissions, self._emissions = self._emissions, []
+        return emissions
 
 
 class FarEnd:
@@ -209,9 +218,9 @@ class FarEnd:
         """Levels and emissions so far: hv, word, focus."""
         return self.ask("pins")
 
-    def emissions(self, board):
+    def emissions(self):
         """Drive words of each emission that ended since the last call, as they were on the channel pins."""
-        return self.ask("emissions", board.waveform.samples, board.bit_ticks)
+        return self.ask("emissions")
 
     def close(self):
         """Nobody is at the far end any more: MISO is MOSI."""
@@ -225,7 +234,8 @@ class FarEnd:
         roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
         roles.pop("", None)
         trace = GpioTrace(settings.gpio_chip, self._names)
-        gateware = _Gateware(parameters, self._factory, roles, self._slowness)
+        waveform = (self.board.waveform.samples, self.board.bit_ticks)
+        gateware = _Gateware(parameters, self._factory, roles, self._slowness, *waveform)
         wires = os.open("/dev/labspi", os.O_RDWR)
         with selectors.DefaultSelector() as selector:
             for file in (wires, trace.fd, pipe):
@@ -241,6 +251,7 @@ class FarEnd:
                     if answer is not None:
                         with contextlib.suppress(BrokenPipeError):  # the controller has given the transfer up
                             os.write(wires, answer)
+                    gateware.note()
                 if pipe in ready:
                     what, arguments = pipe.recv()
                     if what == "close":

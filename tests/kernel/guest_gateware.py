@@ -103,7 +103,7 @@ def test_what_the_channel_pins_play_behind_the_trigger_line_is_the_banks_entry_b
         played.append(entries[slot])
         while session.heartbeat().emissions < len(played):
             pass
-    assert panel().far_end.emissions(BOARD) == played
+    assert panel().far_end.emissions() == played
 
 
 def test_a_damaged_frame_is_refused_and_the_next_one_taken():

@@ -1,10 +1,16 @@
 """The compiled Verilog, or a whole board, computed here for a guest, 25 times slower there: a virtual serial port between them.
 
-usage: host_gateware.py SOCKET     serves whoever is at the far end of QEMU's virtio-serial, until that is gone
+The guest's clock stands still meanwhile: for it the answer takes no time, however busy this machine is.
+
+usage: host_gateware.py SOCKET MONITOR     serves whoever is at the far end of QEMU's virtio-serial, until that is gone;
+                                           MONITOR is QEMU's socket for its machine protocol (QMP)
 """
 
+import contextlib
+import json
 import multiprocessing.connection
 import os
+import socket
 import sys
 from functools import cache
 from pathlib import Path
@@ -89,19 +95,51 @@ class Served:
         return getattr(self._gateware, name)
 
 
-def main():
+class Monitor:
+    """QEMU's machine protocol: a JSON object a line."""
+
+    def __init__(self, path):
+        wire = socket.socket(socket.AF_UNIX)
+        wire.connect(path)
+        self._wire = wire.makefile("rw")
+        self._wire.readline()  # its greeting
+        self.execute("qmp_capabilities")
+
+    def execute(self, command):
+        """Have it done, whatever else is told meanwhile."""
+        self._wire.write(json.dumps({"execute": command}))
+        self._wire.flush()
+        while "return" not in (said := json.loads(self._wire.readline())):
+            assert "error" not in said, said
+
+    @contextlib.contextmanager
+    def time_stands_still(self):
+        """Of the guest."""
+        self.execute("stop")
+        yield
+        self.execute("cont")
+
+
+def serve(guest, monitor):
     served = Served()
-    with multiprocessing.connection.Listener(sys.argv[1], "AF_UNIX") as listener, listener.accept() as guest:
-        while True:
-            try:
-                what, arguments = guest.recv()
-            except EOFError:
-                return
+    while True:
+        what, arguments = guest.recv()
+        with monitor.time_stands_still():
             try:
                 answer = getattr(served, what)(*arguments)
             except Exception as error:
                 answer = error
             guest.send(answer)
+
+
+def main():
+    with (
+        multiprocessing.connection.Listener(sys.argv[1], "AF_UNIX") as listener,
+        listener.accept() as guest,
+        contextlib.suppress(EOFError, OSError),  # the guest is gone
+    ):
+        guest.poll(None)  # QEMU listens by now
+        serve(guest, Monitor(sys.argv[2]))
 
 
 if __name__ == "__main__":

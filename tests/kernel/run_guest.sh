@@ -16,7 +16,7 @@ run=$(mktemp -d)
 machine= gateware=
 trap 'kill $machine $gateware 2>/dev/null || true; rm -rf "$run"' EXIT
 trap 'exit 99' HUP INT TERM
-PYTHONPATH=$(realpath "$here/../..") setpriv --pdeathsig TERM "$python" "$here/host_gateware.py" "$run/gateware" &
+PYTHONPATH=$(realpath "$here/../..") setpriv --pdeathsig TERM "$python" "$here/host_gateware.py" "$run/gateware" "$run/monitor" &
 gateware=$!
 {
   echo '#!/bin/sh'
@@ -57,6 +57,7 @@ setpriv --pdeathsig TERM qemu-system-x86_64 -M q35 -accel tcg -icount shift=1 -r
   -display none -serial stdio -no-reboot -kernel "$guest/vmlinuz" -initrd "$guest/initrd" \
   -virtfs local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap \
   -device virtio-serial -chardev socket,id=gateware,path="$run/gateware" -device virtserialport,chardev=gateware,name=gateware \
+  -qmp unix:"$run/monitor",server=on,wait=off \
   -append "console=ttyS0 quiet panic=-1 mitigations=off nokaslr tsc=reliable no_timer_check labdev.bus_num=0 \
     systemd.show_status=false guest_init=$run/init" \
   </dev/null >&3 2>&1 3>&- &

@@ -14,7 +14,7 @@ import far_end_spi
 import panel_board
 from gpio_lines import GpioLines
 from host_gateware import HostGateware
-from the_service import cell, fresh_start, install, main_pid, said, wait_for, wait_for_emission
+from the_service import cell, fresh_start, install, journal, main_pid, said, wait_for, wait_for_emission
 
 from controller.board import load_board
 from controller.client import PanelClient
@@ -96,8 +96,8 @@ def test_damaged_frames_change_nothing():
     pid = main_pid()
     bench().fpga.ask("damage", 3)
     bench().finger_is_felt()
-    assert main_pid() == pid
-    assert "outputs off" not in said()
+    assert main_pid() == pid, journal()
+    assert "outputs off" not in said(), said()
 
 
 def heartbeats():
@@ -116,7 +116,7 @@ def test_a_touch_bus_that_hangs_for_seconds_costs_no_heartbeat():
     wait_for("heartbeats", lambda: heartbeats() >= before + 12)  # a second, at a timeout of 250 ms
     assert bench().fpga.pins()["hv"] == 1
     bench().finger_is_felt()
-    assert main_pid() == pid
+    assert main_pid() == pid, journal()
 
 
 def test_stopped_for_a_while_it_goes_on_after_the_fpga_has_switched_off():
@@ -126,4 +126,4 @@ def test_stopped_for_a_while_it_goes_on_after_the_fpga_has_switched_off():
     os.kill(pid, signal.SIGCONT)
     bench().outputs_are(1)
     bench().finger_is_felt()
-    assert main_pid() == pid
+    assert main_pid() == pid, journal()

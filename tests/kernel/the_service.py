@@ -84,11 +84,10 @@ def cell(number):
 
 def wait_for_emission(far_end, words, tap):
     """Tap until just these drive words were on the channel pins of the FPGA."""
-    board = load_board(panel_board.BOARD)
-    far_end.emissions(board)
+    far_end.emissions()
 
     def played():
         tap()
-        return words in far_end.emissions(board)
+        return words in far_end.emissions()
 
     wait_for("the bank's entry on the pins", played)

@@ -182,10 +182,20 @@ def test_the_place_of_a_lost_finger_is_the_last_one_and_that_of_a_released_one_i
     assert not t.confirmed(7)
 
 
-def test_predicted_places_are_held_to_the_plate():
-    t = tracker(*reports(190, 195, 200, 205, 209), lag_ms=30.0)
+@pytest.mark.parametrize(
+    ("from_mm", "step_mm", "held_m"),
+    [
+        ((190, 50), (5, 0), (0.210, 0.05)),
+        ((20, 50), (-5, 0), (0.0, 0.05)),
+        ((100, 128), (0, 5), (0.1, 0.148)),
+        ((100, 20), (0, -5), (0.1, 0.0)),
+    ],
+)
+def test_predicted_places_are_held_to_the_plate(from_mm, step_mm, held_m):
+    places = [[start + k * step for start, step in zip(from_mm, step_mm, strict=True)] for k in range(5)]
+    t = tracker(*[(1.0 + k * PERIOD_S, [touch(0, *place)]) for k, place in enumerate(places)], lag_ms=30.0)
     played(t)
-    assert t.place(0, 1.05) == (0.210, 0.05)
+    assert t.place(0, 1.05) == pytest.approx(held_m)
 
 
 def test_the_lag_of_the_panel_is_made_up_for():
