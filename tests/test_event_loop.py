@@ -6,6 +6,7 @@ every run gives the same ticks.
 
 import gc
 import itertools
+import os
 import selectors
 import shutil
 import signal
@@ -18,7 +19,7 @@ import pytest
 from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
-from controller.clocks import MonotonicClock, VirtualClock
+from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
@@ -444,28 +445,31 @@ def test_an_emission_at_which_the_link_fails_is_counted_and_the_loop_goes_on(boa
     assert counters.skipped.outputs_off == counters.skipped.emissions == 1
 
 
+class Change:
+    """A scene that is prepared at 0.25 s."""
+
+    fileno = begin = staticmethod(lambda *_: None)
+
+    def __init__(self, clock, prepared):
+        self._clock, self._prepared = clock, [prepared]
+
+    def take(self):
+        return self._prepared.pop() if self._prepared and self._clock.now_s() > 0.25 else None
+
+
 def test_another_bank_is_played_from_with_nothing_of_the_one_before(board, bank_file, tmp_path, cell, evemu_text):
     """The same place three times; between the first and the second the bank is changed."""
-
-    class Change:
-        fileno = begin = staticmethod(lambda *_: None)
-
-        def __init__(self, prepared):
-            self._prepared = [prepared]
-
-        def take(self):
-            return self._prepared.pop() if self._prepared and clock.now_s() > 0.25 else None
-
     clock, taps = VirtualClock(), [(0.2 * k + more_s, {0: at}) for k in range(3) for more_s, at in ((0.0, cell[1]), (0.1, None))]
     with Bank.open(bank_file, board) as bank, Bank.open(shutil.copy(bank_file, tmp_path / "other.bank"), board) as other:
         another = Selection(other, board.bank.snap_mm * 1e-3, board.idle_word)
         (tmp_path / "same.toml").write_text(CLICK)
-        change = Change(Prepared(0, load_scene(tmp_path / "same.toml", board), another))
+        change = Change(clock, Prepared(0, load_scene(tmp_path / "same.toml", board), another))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change)
         loop.run()
         link.close()
         assert loop._playback._selection is another
     assert (counters.uploads, counters.resident) == (2, 1)
+    assert (counters.scenes_loaded, counters.scenes_refused, counters.reloads) == (1, 0, 1)
 
 
 def test_a_ramp_longer_than_the_heartbeat_timeout_is_lived_through(perform, board, cell):
@@ -559,6 +563,22 @@ def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, b
     assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
 
 
+def test_touches_while_the_outputs_are_off_are_counted_one_by_one(board, bank_file, tmp_path, cell, evemu_text):
+    class PermitLost(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            if self._now_s > 0.2:
+                link.gateware.permit(max(round(self._now_s * board.link.clock_hz), link.gateware.now), False)
+
+    taps = [report for k in range(3) for report in ((0.3 + 0.1 * k, {0: cell[1]}), (0.35 + 0.1 * k, {0: None}))]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, PermitLost(), [(0.0, {}), *taps, (0.8, {})], evemu_text, CLICK)
+        loop.run()
+        link.close()
+    assert (counters.due, counters.foci) == (3, 0)
+    assert counters.skipped.outputs_off == counters.skipped.emissions == 3
+
+
 def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
     """A spot whose shadows touch: a contact beside it is a suspect; one that comes while the outputs are off is not."""
 
@@ -577,6 +597,134 @@ def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board
         link.close()
     assert counters.outages == 1
     assert loop._source.tracking.held_back == 0
+
+
+class At(VirtualClock):
+    """Virtual time at some times of which something is done, once."""
+
+    def __init__(self, *what):
+        super().__init__()
+        self.what = list(what)
+
+    def wait(self, selector, until_s):
+        super().wait(selector, min(until_s, self.what[0][0]) if self.what else until_s)
+        while self.what and self._now_s >= self.what[0][0]:
+            self.what.pop(0)[1]()
+
+
+@pytest.mark.parametrize("ticket", [0, 7], ids=["SIGHUP", "a command"])
+def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, tmp_path, cell, evemu_text, ticket):
+    told = []
+    commands = SimpleNamespace(
+        fileno=lambda: None, next_time_s=lambda: NEVER, serve=lambda *_: None, touches=lambda _: None,
+        loaded=lambda *what: told.append(what),
+    )  # fmt: skip
+    clock, taps = At(), [(0.2 * k + more_s, {0: at}) for k in range(2) for more_s, at in ((0.0, cell[1]), (0.1, None))]
+    with Bank.open(bank_file, board) as bank:
+        change = Change(clock, Prepared(ticket, None, None, "bad.toml"))
+        link, counters, loop = loop_of(
+            board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change, commands=commands if ticket else None
+        )
+        clock.what.append((0.9, loop.stop))
+        loop.run()
+        link.close()
+    assert (counters.scenes_loaded, counters.scenes_refused, counters.scene_refused) == (0, 1, "bad.toml")
+    assert (counters.reloads, counters.reload_refused, counters.foci) == ((0, "", 2) if ticket else (1, "bad.toml", 2))
+    assert told == ([(7, "bad.toml")] if ticket else [])
+
+
+def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text):
+    clock = At((0.3, lambda: loop.stop()))  # noqa: PLW0108 — there is no loop yet
+    reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
+    with Bank.open(bank_file, board) as bank:
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, CLICK)
+        loop.run()
+        link.close()
+    assert counters.emissions == 1
+    assert not link.take_capture().hv[-1]
+
+
+def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again(board, bank_file, tmp_path, evemu_text):
+    clock = At((0.4, lambda: loop.switch(False)), (0.7, lambda: loop.switch(True)))
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, clock, [(0.0, {}), (1.4, {})], evemu_text, SPOT)
+        loop.run()
+        link.close()
+    seconds = link.take_capture().focus_ticks / board.link.clock_hz
+    assert not ((seconds > 0.45) & (seconds < 0.7)).any()
+    assert (seconds > 0.75).sum() >= 13, "20 Hz until 1.5 s"
+
+
+def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
+    """Not from when the loop came to read it, a millisecond later."""
+
+    class Late(VirtualClock):
+        def wait(self, selector, until_s):
+            super().wait(selector, until_s)
+            self._now_s += 1e-3
+
+    reports = [(0.01 * k, {0: (30.0 + k, 54.0)}) for k in range(60)]
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, Late(), [*reports, (0.7, {0: None})], evemu_text, TEXTURE)
+        expected, asked_s = loop._performance.expected, []
+
+        def asking(finger, place, now_s, *more):
+            asked_s.append(now_s)
+            return expected(finger, place, now_s, *more)
+
+        loop._performance.expected = asking
+        loop.run()
+        link.close()
+    assert len(asked_s) > 20
+    assert [at_s * 100 for at_s in asked_s] == pytest.approx([round(at_s * 100) for at_s in asked_s], abs=1e-3)
+
+
+def test_spots_of_the_scene_before_make_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
+    """Their shadows touch, as above; a contact that comes after the scene was changed is no suspect."""
+    haunted, clock = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=30.0)), VirtualClock()
+    (tmp_path / "other.toml").write_text(CLICK)
+    change = Change(clock, Prepared(0, load_scene(tmp_path / "other.toml", haunted)))
+    reports = [(0.0, {}), (0.4, {0: cell[1]}), (0.5, {0: None}), (0.6, {})]
+    with Bank.open(bank_file, haunted) as bank:
+        scene_text = SPOT.replace("20.0", "40.0")
+        link, counters, loop = loop_of(haunted, bank, tmp_path, clock, reports, evemu_text, scene_text, change=change)
+        loop.run()
+        link.close()
+    assert (counters.scenes_loaded, counters.foci) == (1, 2)
+    assert loop._source.tracking.held_back == 0
+
+
+def test_the_panel_is_told_when_each_emission_sounds(board, bank_file, tmp_path, cell, evemu_text):
+    played, told = [], []
+    taps = [(0.2, {0: cell[1]}), (0.3, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), taps, evemu_text, SPOT + CLICK, played=played.append)
+        emitted = loop._source.emitted
+
+        def telling(start_s, end_s, period_s=0.0):
+            told.append((start_s, end_s, period_s))
+            emitted(start_s, end_s, period_s)
+
+        loop._source.emitted = telling
+        loop.run()
+        link.close()
+    assert {p.count for p in played} == {0, 1}
+    sounding = [emission for emission in told if emission[0] >= played[0].trigger_s - 1e-6 and emission[0] < emission[1]]
+    for (start_s, end_s, period_s), p in zip(sounding, played, strict=True):
+        assert (start_s, end_s, period_s) == pytest.approx((p.trigger_s, p.trigger_s + T_S, p.period_s), abs=1e-6)
+
+
+def test_files_that_come_change_and_go_are_waited_for(board, bank_file, tmp_path, cell, evemu_text):
+    with Bank.open(bank_file, board) as bank, selectors.DefaultSelector() as selector:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
+        pipes = [os.pipe() for _ in range(2)]
+        for fileno in (None, pipes[0][0], pipes[0][0], pipes[1][0], None):
+            loop._source.fileno = lambda fileno=fileno: fileno
+            loop._watch(selector)
+            assert list(selector.get_map()) == ([] if fileno is None else [fileno])
+        for end in itertools.chain(*pipes):
+            os.close(end)
+        link.close()
 
 
 def test_spots_of_different_rates_each_keep_their_own_beat(perform):

@@ -75,6 +75,7 @@ def test_a_newer_command_for_the_same_place_takes_the_olders(performance, told):
     command(performance, 1)
     command(performance, 2, x_m=0.1004, now_s=0.001)
     assert told == [(1, Outcome.MERGED, pytest.approx(0.001))]
+    assert performance._counters.skipped.merged == 1
     assert len(played(performance, 0.002)) == 1
     assert told[1][:2] == (2, Outcome.PLAYED)
 
@@ -110,6 +111,21 @@ def test_a_train_keeps_its_distance_to_when_its_first_beat_really_began(performa
     command(performance, 1, effect="roll")
     played(performance, 0.0031)
     assert performance.next_s() == pytest.approx(0.0131)
+
+
+def test_of_several_trains_the_next_beat_is_the_earliest(performance):
+    for ticket, now_s in ((1, 0.004), (2, 0.0), (3, 0.007)):
+        command(performance, ticket, x_m=0.05 * ticket, effect="roll", now_s=now_s)
+    assert performance.next_s() == pytest.approx(0.01)
+    performance.advance(0.0105)
+    assert performance.next_s() == pytest.approx(0.014)
+
+
+def test_what_is_due_more_than_an_emission_later_goes_on_waiting(performance):
+    command(performance, 1, x_m=0.05, now_s=0.0)
+    command(performance, 2, x_m=0.15, now_s=T_S + 0.001)
+    assert [emission.ticket for emission in performance.take(T_S, 0.004)] == [1]
+    assert [emission.ticket for emission in performance.take(T_S, 0.004)] == [2]
 
 
 def test_an_unknown_effect_or_finger_is_refused_and_nothing_waits(performance, told):
@@ -159,11 +175,11 @@ def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, t
 
 def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp_path, told):
     performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
-    command(performance, 1)
+    command(performance, 1, now_s=0.25)
     file = tmp_path / "other.toml"
     file.write_text('[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n')
     performance.swap(load_scene(file, board), 1.0)
-    assert told == [(1, Outcome.SKIPPED, pytest.approx(1.0))]
+    assert told == [(1, Outcome.SKIPPED, pytest.approx(0.75))]
     performance.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
     assert performance.due
 
@@ -205,3 +221,23 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
     emissions = performance.with_spots(performance.take(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
     assert performance.next_spot_s() == 1.05
+
+
+def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
+    (tmp_path / "spot.toml").write_text(
+        '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+    )
+    scene = load_scene(tmp_path / "spot.toml", board)
+    performance = performing(scene, told)
+    assert performance.next_spot_s() == 0.0
+    performance.swap(scene, 5.0)
+    assert performance.next_spot_s() == 5.0
+
+
+def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_do_not(performance):
+    performance.touch(TouchSample(3, 0.05, 0.05, 0.0, True))
+    command(performance, 1, effect="roll")
+    performance.interrupted(0.005)
+    assert performance.next_s() > 1e6
+    command(performance, 2, finger=3)
+    assert performance.due

@@ -4,6 +4,7 @@ The loop is the product's own on virtual time, the FPGA its gateware model. Spac
 """
 
 import random
+from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -13,6 +14,7 @@ from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
+from controller.errors import BankError
 from controller.event_loop import BEAT_LEAD_S
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.time_base import TimeBase
@@ -225,25 +227,117 @@ def test_uploads_reach_nine_tenths_of_what_wire_and_plate_allow(run, board, fing
     assert uploads_hz >= 0.9 * min(wire_hz, plate_hz)
 
 
-@pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
-def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_finger_there(board, bank_file, at_s):
-    """The finger is asked for at T after the start that the repetition leaves, not at T after the command's arrival."""
-    clock, asked_s, played = VirtualClock(), [], []
+T_S, DUTY = 2e-3, 0.1
+
+
+@pytest.fixture
+def by_hand(board, bank_file):
+    """A playback with its clock; the emissions that it starts, and the times at which it asks for a finger, are told."""
+    clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
     session.arm()
     clock._now_s += 0.02
-    time_base = TimeBase(link.clock_hz)
-    duration_s, duty = board.waveform.duration_s, 0.1
+    done = SimpleNamespace(clock=clock, session=session, played=[], asked_s=[], place=None, counters=Counters())
+
+    def where(_, at_s):
+        done.asked_s.append(at_s)
+        return done.place
+
     with Bank.open(bank_file, board) as bank:
-        playback = Playback(
-            session, Selection(bank, 1e-3, board.idle_word), time_base, lambda _, at_s: asked_s.append(at_s), slots=4,
-            duration_s=duration_s, max_duty=duty, upload_s=1.4e-3, command_s=23e-6, counters=Counters(), played=played.append,
+        done.playback = Playback(
+            session, Selection(bank, 1e-3, board.idle_word), TimeBase(link.clock_hz), where, slots=4, duration_s=T_S,
+            max_duty=DUTY, upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
         )  # fmt: skip
-        playback.prepare([Emission(0.0, 0.05, 0.05, None, "")], 0, count=ENDLESS, period_s=0.025)
-        clock._now_s += 0.053  # its third emission sounds
-        third_s = playback.next_repetition_s(clock.now_s()) - 0.025
-        playback.prepare([Emission(0.0, 0.1, 0.05, 0, "")], 0, at_s=at_s)
-        begins_s = playback.begins_s if playback.trigger_at_s is None else playback.trigger_at_s
-    assert begins_s == pytest.approx(third_s + duration_s / duty, abs=2 * MARGIN_S)
-    assert asked_s[-1] == pytest.approx(begins_s + duration_s, abs=2 * MARGIN_S)
+        yield done
+
+
+def focus(x_m, finger=None):
+    return [Emission(0.0, x_m, 0.05, finger, "")]
+
+
+@pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
+def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_finger_there(by_hand, at_s):
+    """The finger is asked for at T after the start that the repetition leaves, not at T after the command's arrival."""
+    playback, clock = by_hand.playback, by_hand.clock
+    playback.prepare(focus(0.05), 0, count=ENDLESS, period_s=0.025)
+    clock._now_s += 0.053  # its third emission sounds
+    third_s = playback.next_repetition_s(clock.now_s()) - 0.025
+    playback.prepare(focus(0.1, finger=0), 0, at_s=at_s)
+    begins_s = playback.begins_s if playback.trigger_at_s is None else playback.trigger_at_s
+    assert begins_s == pytest.approx(third_s + T_S / DUTY, abs=2 * MARGIN_S)
+    assert by_hand.asked_s[-1] == pytest.approx(begins_s + T_S, abs=2 * MARGIN_S)
+    assert not playback.repeating
+
+
+def test_of_a_beat_it_is_foreseen_what_an_emission_before_it_takes(by_hand):
+    """That emission waits for the plate and for its upload; the plate is busy for longer than an upload takes."""
+    playback, clock = by_hand.playback, by_hand.clock
+    assert playback.clear_s(clock.now_s()) == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
+    playback.prepare(focus(0.05), 0)
+    (first,) = by_hand.played
+    assert playback.clear_s(clock.now_s()) == pytest.approx(first.trigger_s + 2 * T_S / DUTY + 3 * MARGIN_S)
+
+
+@pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
+def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s):
+    """Nor for a time of the FPGA that it may never reach: a reset has set its clock to 0."""
+    playback, clock = by_hand.playback, by_hand.clock
+    playback.prepare(focus(0.05), 0)
+    playback.forget()
+    asked_s = clock.now_s()
+    playback.prepare(focus(0.1), 0, at_s=at_s)
+    assert playback.trigger_at_s is None
+    assert asked_s + 1.4e-3 <= playback.begins_s < asked_s + 3e-3
+
+
+def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(by_hand, monkeypatch):
+    by_hand.place = (0.15, 0.05)
+    words = Selection.words
+
+    def damaged(selection, key):
+        if key == selection.key(((*by_hand.place, 1.0),)):
+            raise BankError("damaged")
+        return words(selection, key)
+
+    monkeypatch.setattr(Selection, "words", damaged)
+    assert by_hand.playback.prepare(focus(0.05, finger=0), 0) is not None
+    assert [emission.x_m for played in by_hand.played for emission in played.emissions] == [0.05]
+    assert by_hand.counters.skipped.bad_entries == 0
+
+
+def test_what_was_sent_ahead_and_is_found_damaged_in_its_slot_is_sent_anew(by_hand, monkeypatch):
+    playback, clock, places_m = by_hand.playback, by_hand.clock, (0.05, 0.08, 0.11)
+    for place_m in places_m:
+        if place_m == places_m[-1]:
+            monkeypatch.setattr(Selection, "crc", lambda *_: 1)
+        sent = playback.prefetch(0, place_m, 0.05, 1.0)
+        monkeypatch.undo()
+        clock._now_s += 0.03
+        assert playback.prepare(focus(place_m, finger=0), 0) is not None
+    assert sent, "what it was sent for came true twice"
+    assert (by_hand.counters.uploads, by_hand.counters.resident) == (3, 0)
+    assert by_hand.counters.prefetch_wasted == 1
+
+
+def test_nothing_is_sent_ahead_while_what_is_expected_does_not_come_true(by_hand):
+    for _ in range(5):
+        by_hand.playback.prefetch(0, 0.05, 0.05, 1.0)
+        by_hand.clock._now_s += 0.03
+        by_hand.playback.prepare(focus(0.15, finger=0), 0)
+    assert by_hand.counters.prefetched == 0
+
+
+def test_after_what_the_fpga_started_by_itself_the_plate_is_as_busy(by_hand):
+    by_hand.playback.prepare(focus(0.05), 0, at_s=0.0)
+    by_hand.playback.prepare(focus(0.1), 0)
+    (first,) = by_hand.played
+    assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
+
+
+def test_a_waveform_that_serves_for_a_place_near_by_is_counted(by_hand):
+    for x_m in (0.0550, 0.0553, 0.0553, 0.0650):
+        by_hand.playback.prepare(focus(x_m), 0)
+        by_hand.clock._now_s += 0.03
+        by_hand.playback.trigger()
+    assert (by_hand.counters.uploads, by_hand.counters.resident, by_hand.counters.near) == (2, 2, 2)

@@ -1,6 +1,7 @@
 """An FPGA that is reset, browns out, hears and says garbage, or loses a permit: outputs off on the way, work again afterwards."""
 
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
 from controller.fpga.gateware import Parameters, Permit
 from controller.fpga.model import GatewareModel
-from controller.fpga.recovery import Action, action_for, permitted
+from controller.fpga.recovery import Action, Recovery, action_for, permitted, state_after
 from controller.fpga.registers import Fault, Register, Result, State
 from controller.fpga.restarting import RestartingGateware
 from controller.fpga.session import Session
@@ -333,6 +334,35 @@ def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, besi
 )
 def test_the_rule(error, action):
     assert action_for(error) is action
+
+
+@pytest.mark.parametrize(
+    ("error", "state"),
+    [
+        (FaultError("", Fault.NO_PERMIT), PanelState.NO_PERMIT),
+        (FaultError("", Fault.OVER_TEMPERATURE), PanelState.FAULTED),
+        (Refused(Result.NO_PERMIT), PanelState.NO_PERMIT),
+        (Refused(Result.NOT_ARMED), PanelState.WAITING_FOR_FPGA),
+        (LinkError(""), PanelState.WAITING_FOR_FPGA),
+    ],
+)
+def test_how_the_panel_is_called_after_an_error(error, state):
+    assert state_after(error) is state
+
+
+def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_after_the_next_loss():
+    def unplugged():
+        raise LinkError("unplugged")
+
+    recovery = Recovery(SimpleNamespace(off=lambda: None, bring_up=unplugged), BOARD)
+    safe_s = TIMEOUT_S + BOARD.limits.ramp_ms * 1e-3
+    for lost_s in (10.0, 100.0):
+        recovery.begin(LinkError("unplugged"), lost_s)
+        tried_s = [lost_s]
+        for _ in range(8):
+            tried_s.append(recovery.next_s)
+            assert not recovery.step(recovery.next_s)
+        assert np.diff(tried_s) == pytest.approx([min(safe_s * 2**k, 2.0) for k in range(8)])
 
 
 def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():

@@ -195,6 +195,12 @@ def test_a_missing_permit_is_told_when_arming(board, clock, link):
     assert caught.value.result is Result.NO_PERMIT
 
 
+def test_three_heartbeats_go_into_a_timeout(board, clock, link, armed):
+    wait(clock, link, 0.0)
+    armed.heartbeat()
+    assert armed.heartbeat_due_s - clock.now_s() == pytest.approx(board.limits.heartbeat_timeout_ms * 1e-3 / 3)
+
+
 @pytest.mark.parametrize("direction", ["to the FPGA", "to the host"])
 @pytest.mark.parametrize("frame", range(4))  # NOP, UNLOCK, ARM, NOP
 def test_arming_with_a_damaged_frame_arms_all_the_same(board, clock, link, frame, direction):
@@ -202,6 +208,7 @@ def test_arming_with_a_damaged_frame_arms_all_the_same(board, clock, link, frame
     link.noise = {link.frames + frame: (direction, 9)}
     clock._now_s = session.arm()
     session.require_armed()
+    assert session.exchange.read(Register.FRAME_ERRORS) == (direction == "to the FPGA"), "no other frame was damaged"
 
 
 def test_arming_over_a_link_that_damages_everything_is_given_up_with_outputs_off(board, clock, link):

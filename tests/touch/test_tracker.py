@@ -150,6 +150,12 @@ def test_reports_of_another_finger_count_for_one_that_keeps_still():
     assert sorted(in_short(t.read(1.01))) == [(0, 100, 1.01, True), (1, 21, 1.01, True)]
 
 
+def test_each_report_of_another_finger_counts_once():
+    still = touch(0, 100)
+    t = tracker(*[(1 + k * PERIOD_S, [still, touch(1, 20 + k)]) for k in range(4)], confirm_reports=4)
+    assert [len(t.read(1 + k * PERIOD_S)) for k in range(4)] == [0, 0, 0, 2]
+
+
 def test_a_palm_is_never_given_and_a_finger_that_becomes_one_is_released_for_good():
     t = tracker(
         (1.0, [touch(0, 100, size_mm=30.1), touch(1, 50, size_mm=30.0)]),
@@ -236,6 +242,8 @@ def test_pauses_between_touches_are_not_in_the_rate():
     played(t)
     assert t.rate.median_s == pytest.approx(10e-3, abs=0.13e-3)
     assert t.rate.jitter_s == 0
+    assert t.figures()["report_period_ms"] == pytest.approx(10, abs=0.13)
+    assert t.figures()["report_jitter_ms"] == 0
 
 
 def test_a_panel_never_touched_has_no_rate():
