@@ -1,5 +1,7 @@
 """What the tests share: the simulated board, and one small bank of it."""
 
+import os
+
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -14,17 +16,30 @@ from controller.touch.recording import Recording
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
 
-# What takes long goes on in processes of its own: it begins first, and is asked for at the end.
-FIRST = {"test_the_benches_begin", "test_the_commands_of_the_readmes_begin"}
-LAST = ("test_rtl.py", "test_every_command_of_every_readme_works")  # in this order
+# Files that take longest begin first, so that both processes end at about the same time.
+LONGEST = ["test_rtl.py", "test_project.py", "test_cli.py"]
+COVERAGE: pytest.StashKey[list[str]] = pytest.StashKey()  # what a process tells of the coverage of the Verilog
+
+
+def pytest_xdist_auto_num_workers(config):
+    """All tests run in two processes; what is chosen on the command line, or to be seen as it runs, in this one."""
+    everything = config.args_source is config.ArgsSource.TESTPATHS and "not slow" in config.option.markexpr
+    return 2 if everything and config.option.capture != "no" else 0
 
 
 def pytest_collection_modifyitems(items):
-    def place(item):
-        names = (item.name.partition("[")[0], item.path.name)
-        return -1 if names[0] in FIRST else next((place for place, name in enumerate(LAST, 1) if name in names), 0)
+    items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
 
-    items.sort(key=place)
+
+def pytest_testnodedown(node):
+    """The process with the benches of tests/rtl has ended."""
+    lines = getattr(node, "workeroutput", {}).get("verilog_coverage", [])
+    node.config.stash.setdefault(COVERAGE, []).extend(lines)
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    for line in config.stash.get(COVERAGE, []):
+        terminalreporter.write_line(line)
 
 
 PITCH_M = 10e-3  # 20 x 13 cells: built in a second
@@ -40,6 +55,17 @@ def bank_file(board, tmp_path_factory):
     path = tmp_path_factory.mktemp("bank") / "simulated.bank"
     build_bank(board, path, PITCH_M, measure_sgemm=False)
     return path
+
+
+@pytest.fixture(scope="session")
+def state_folder(tmp_path_factory):
+    """A cache apart from the user's: banks of this process, compiled gateware of all processes, each library built once."""
+    base = tmp_path_factory.getbasetemp()
+    folder, shared = base / "state", (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "gateware"
+    folder.mkdir()
+    shared.mkdir(exist_ok=True)
+    (folder / "gateware").symlink_to(shared)
+    return folder
 
 
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate

@@ -30,12 +30,10 @@ DEMO = find_board("simulated") / "demo.evemu"
 
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory, monkeypatch):
+def own_cache(state_folder, monkeypatch):
     """Banks of these tests lie apart from the user's; one folder for all, so that the board's bank is built once."""
-    folder = tmp_path_factory.getbasetemp() / "state"
-    folder.mkdir(exist_ok=True)
-    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
-    return folder
+    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
+    return state_folder
 
 
 SPOT = (

@@ -16,18 +16,6 @@ TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "t
 TOOLS = Path(sys.executable).parent
 
 
-@pytest.fixture(scope="session")
-def readme_commands(tmp_path_factory):
-    """`readme_commands.py`, begun."""
-    folder = tmp_path_factory.mktemp("readme")
-    with (folder / "said.log").open("w") as said:
-        command = [sys.executable, str(Path(__file__).parent / "readme_commands.py"), str(folder)]
-        process = subprocess.Popen(command, stdout=said, stderr=subprocess.STDOUT)
-    yield process, folder / "said.log"
-    process.kill()
-    process.wait()
-
-
 def tracked():
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
     return [Path(line) for line in listed.stdout.splitlines()]
@@ -113,17 +101,13 @@ def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
     assert not any(name.startswith("tests/") for name in names)
 
 
-def test_the_commands_of_the_readmes_begin(readme_commands):
-    """They run in a process of their own while the other tests go on; pytest is told to begin with this."""
-    process, said = readme_commands
-    assert process.poll() in (None, 0), said.read_text()
-
-
-def test_every_command_of_every_readme_works(readme_commands):
-    process, said = readme_commands
-    process.wait()
-    assert process.returncode == 0, said.read_text()[-4000:]
-    assert "$ .venv/bin/haptic-panel run" in said.read_text()
+def test_every_command_of_every_readme_works(tmp_path, state_folder):
+    """In a process of its own: it changes folder and cache."""
+    (tmp_path / "gateware").symlink_to(state_folder / "gateware")
+    command = [sys.executable, Path(__file__).parent / "readme_commands.py", tmp_path]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    assert done.returncode == 0, done.stdout[-4000:]
+    assert "$ .venv/bin/haptic-panel run" in done.stdout
 
 
 def test_the_three_lines_of_the_readme_are_whole():

@@ -5,6 +5,7 @@ import tracemalloc
 import msgspec
 import numpy as np
 import pytest
+from alone import alone
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -517,16 +518,17 @@ def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
                 states[sample.finger] = state
         return emissions
 
-    assert play() > 500
-    tracemalloc.start()
-    try:
+    def traced():
+        tracemalloc.start()
         before, _ = tracemalloc.get_traced_memory()
         play()
         after, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert after - before < 512
-    assert peak - before < 8192
+        return after - before, peak - before
+
+    assert play() > 500
+    kept_bytes, most_bytes = alone(traced)
+    assert kept_bytes < 512
+    assert most_bytes < 8192
 
 
 @given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))

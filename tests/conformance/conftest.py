@@ -20,11 +20,9 @@ def pytest_report_header() -> str:
 
 
 @pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory, monkeypatch):
+def own_cache(state_folder, monkeypatch):
     """One folder for this run of the tests, shared with those of the command line, which want the same library."""
-    folder = tmp_path_factory.getbasetemp() / "state"
-    folder.mkdir(exist_ok=True)
-    monkeypatch.setenv("STATE_DIRECTORY", str(folder))
+    monkeypatch.setenv("STATE_DIRECTORY", str(state_folder))
 
 
 @pytest.fixture(params=BACK_ENDS)

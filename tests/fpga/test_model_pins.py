@@ -3,6 +3,7 @@
 import tracemalloc
 
 import numpy as np
+from alone import alone
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -59,10 +60,12 @@ def test_a_capture_costs_what_happened_since_the_last_one_however_long_the_outpu
     pins.put_word(1, 0, hv=1)
     for second in range(1, 60):
         pins.take(second * 1_000_000)
-    tracemalloc.start()
-    taken = pins.take(59_000_000 + 10 * HALF_TICKS).alive_ticks
-    peak_bytes = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
+
+    def take():
+        tracemalloc.start()
+        return pins.take(59_000_000 + 10 * HALF_TICKS).alive_ticks, tracemalloc.get_traced_memory()[1]
+
+    taken, peak_bytes = alone(take)
     assert taken.size == 10
     assert np.all(np.diff(taken) == HALF_TICKS)
     assert peak_bytes < 100_000

@@ -70,16 +70,27 @@ def verilog_coverage(request):
     return request.config.stash.setdefault(COVERAGE, {})
 
 
-def pytest_terminal_summary(terminalreporter, config):
+def coverage_lines(config):
+    """What the benches of this process covered."""
     from verilog_coverage import MODULES, line_counts, load_waivers, readable, table, together, uncovered, waive
 
     runs = config.stash.get(COVERAGE, {})
-    if runs:
-        hits = together(runs.values())
-        counts, _ = waive(line_counts(hits), load_waivers())
-        terminalreporter.section(f"coverage of the Verilog by {len(runs)} benches")
-        for line in (*readable(table(hits, counts, MODULES)), *uncovered(counts)[:20]):
-            terminalreporter.write_line(line)
+    if not runs:
+        return []
+    hits = together(runs.values())
+    counts, _ = waive(line_counts(hits), load_waivers())
+    title = f"coverage of the Verilog by {len(runs)} benches"
+    return [title, *readable(table(hits, counts, MODULES)), *uncovered(counts)[:20]]
+
+
+def pytest_sessionfinish(session):
+    if hasattr(session.config, "workeroutput"):  # tests/conftest.py shows it, in the process that began this one
+        session.config.workeroutput["verilog_coverage"] = coverage_lines(session.config)
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    for line in coverage_lines(config):
+        terminalreporter.write_line(line)
 
 
 def pytest_report_header() -> str:

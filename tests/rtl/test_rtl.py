@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -27,34 +26,14 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-@pytest.fixture(scope="session")
-def runs(request, simulator, one_entry_bank, tmp_path_factory):
-    """Folder of each bench of this session, once it is through; they run beside the tests, on all cores but one."""
-    wanted = {item.callspec.params["run"] for item in request.session.items if item.name.startswith("test_bench[")}
-    environment = os.environ | {"HAPTIC_PANEL_TEST_BANK": str(one_entry_bank), "PYTHONPATH": os.pathsep.join(sys.path)}
-    pool = ThreadPoolExecutor(max((os.cpu_count() or 1) - 1, 1))
-
-    def perform(run):
-        folder = tmp_path_factory.mktemp(run)
-        command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, folder]
-        done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        return folder, done
-
-    yield {run: pool.submit(perform, run) for run in RUNS if run in wanted}  # the longest, haptic_core, first
-    pool.shutdown(cancel_futures=True)
-
-
-def test_the_benches_begin(runs):
-    """First of all tests, by conftest.py: the others go on meanwhile."""
-    assert set(runs) <= set(RUNS)
-
-
 @pytest.mark.parametrize("run", RUNS)
-def test_bench(run, runs, simulator, verilog_coverage):
-    folder, done = runs[run].result()
+def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
+    environment = os.environ | {"HAPTIC_PANEL_TEST_BANK": str(one_entry_bank), "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, tmp_path]
+    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     assert done.returncode == 0, done.stdout[-10_000:]
     if simulator == "verilator" and run in BENCHES:
-        verilog_coverage[run] = read(folder / "coverage.dat")
+        verilog_coverage[run] = read(tmp_path / "coverage.dat")
 
 
 @pytest.fixture
