@@ -13,8 +13,8 @@ from collections.abc import Callable, Sequence
 from controller import __version__
 from controller.commands import bank, calibrate_touch, doctor, focus, gateware, record, reload, run
 from controller.errors import ConfigError, ControllerError
-from controller.installation import missing_package
 from controller.log import Priority, line
+from controller.service.installation import missing_package
 
 COMMANDS = (run, doctor, gateware, bank, focus, record, calibrate_touch, reload)  # in the order of --help
 

@@ -5,7 +5,7 @@
 `include "registers.vh"
 
 module haptic_core #(
-    // of the board: controller/fpga/gateware.py makes them from its board.toml; without them nothing is built
+    // of the board: controller/fpga/build_parameters.py makes them from its board.toml; without them nothing is built
     parameter [31:0] CLOCK_HZ            = 32'd0,
     parameter [31:0] SLOTS               = 32'd0,          // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,

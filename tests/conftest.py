@@ -6,10 +6,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from controller.bank.reader import Bank
-from controller.board import find_board, load_board
-from controller.offline.bank_builder import build_bank
-from controller.offline.simulated_run import play
-from controller.scene import load_scene
+from controller.bank_builder.build import build_bank
+from controller.board.board import find_board, load_board
+from controller.scene.scene import load_scene
+from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording
 
 # How long an example takes says how busy the machine is, not whether the code is right.

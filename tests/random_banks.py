@@ -8,7 +8,7 @@ from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, drive_words, quantise
 from controller.bank.writer import BankWriter
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
 
 IDLE_WORD = 0x69969669
 MakeBank = Callable[..., dict[int, np.ndarray]]

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from controller.cli import main
-from controller.offline.rtl_build import verilator_root
+from controller.simulation.rtl_build import verilator_root
 
 ROOT = Path(__file__).parent.parent
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.latency import P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
-from controller.tables import service_table
+from controller.commands.tables import service_table
+from controller.metrics import P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 

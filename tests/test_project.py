@@ -97,7 +97,7 @@ def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
     ):
         assert f"{data}/{wanted}" in names
     assert any(name.startswith(f"{data}/systemd/") for name in names)
-    assert {"controller/cli.py", "controller/effects.toml"} <= set(names)
+    assert {"controller/cli.py", "controller/scene/effects.toml"} <= set(names)
     assert not any(name.startswith("tests/") for name in names)
 
 

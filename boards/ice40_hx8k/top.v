@@ -3,7 +3,7 @@
 `default_nettype none
 
 module top #(
-    // From board.toml by the Makefile (controller/fpga/gateware.py); without them nothing is built
+    // From board.toml by the Makefile (controller/fpga/build_parameters.py); without them nothing is built
     parameter [31:0] CLOCK_HZ            = 32'd0,
     parameter [31:0] SLOTS               = 32'd0,
     parameter [31:0] BUILD_HASH          = 32'd0,

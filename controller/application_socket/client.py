@@ -6,7 +6,7 @@
 ...         if touch.contact and touch.x_mm > 105:
 ...             panel.play("click", finger=touch.finger)
 
-The same from a shell: `python -m controller.client --socket S play click --at 100 70`.
+The same from a shell: `python -m controller.application_socket.client --socket S play click --at 100 70`.
 """
 
 from __future__ import annotations
@@ -333,7 +333,9 @@ def _show(what: Any) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="python -m controller.client", description="Drive a running haptic panel.")
+    parser = argparse.ArgumentParser(
+        prog="python -m controller.application_socket.client", description="Drive a running haptic panel."
+    )
     parser.add_argument("--socket", default=DEFAULT_PATH, metavar="S", help=f"the panel's socket (default: {DEFAULT_PATH})")
     commands = parser.add_subparsers(dest="command", title="commands", metavar="COMMAND", required=True)
     play = commands.add_parser("play", help="play an effect at a point or for a finger")

@@ -27,13 +27,13 @@ from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, 
 from controller.application_socket.peers import Peer, Right, Rights, peer_of
 from controller.application_socket.socket_file import SocketFile
 from controller.application_socket.tickets import FULL, Tickets, Waiting
-from controller.board import Board
-from controller.command_source import Outcome, PanelControl
-from controller.device_settings import ApplicationSocket
+from controller.board.board import Board
+from controller.board.devices import ApplicationSocket
+from controller.board.panel_state import Condition
 from controller.errors import ControllerError
 from controller.log import Priority, tell
-from controller.panel_state import Condition
-from controller.performance import MOST_WAITING
+from controller.loop.commands import Outcome, PanelControl
+from controller.loop.scheduler import MOST_WAITING
 from controller.touch.samples import TouchSample
 
 NOW = -math.inf

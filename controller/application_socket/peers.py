@@ -16,7 +16,7 @@ import struct
 from dataclasses import dataclass
 from typing import Literal
 
-from controller.device_settings import ApplicationSocket
+from controller.board.devices import ApplicationSocket
 from controller.errors import ConfigError
 
 Right = Literal["play", "operate"]

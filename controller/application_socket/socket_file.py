@@ -12,7 +12,7 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 
-from controller.device_settings import ApplicationSocket
+from controller.board.devices import ApplicationSocket
 from controller.errors import ConfigError, ControllerError
 
 BACKLOG = 16  # clients that the kernel keeps waiting between two turns of the loop

@@ -31,11 +31,11 @@ MODELLED = "modelled"  # build parameter `responses`: what they come from
 # nx, ny, samples, channels, entries, parameters bytes, sections, zero
 FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
 MODEL_CODE = (
-    "offline/plate.py",
-    "offline/driver.py",
-    "offline/step_response.py",
-    "offline/impulse_response.py",
-    "offline/row_responses.py",
+    "physics/plate.py",
+    "physics/driver.py",
+    "physics/step_response.py",
+    "physics/impulse_response.py",
+    "physics/row_responses.py",
     "bank/packing.py",
     "bank/grid.py",
 )

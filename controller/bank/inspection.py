@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from controller.bank.file_format import Section, creator
 from controller.bank.grid import Grid
-from controller.bank.location import is_there
 from controller.bank.reader import Bank
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.paths import is_there
 from controller.errors import BankError
 
 

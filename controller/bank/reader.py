@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.bank.file_format import Header, Section, begins_as_bank, header_length, parse
-from controller.bank.location import build_line
 from controller.bank.packing import CHANNELS
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.paths import build_line
 from controller.errors import BankError
 
 Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry

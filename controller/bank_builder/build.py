@@ -16,12 +16,12 @@ from tqdm import tqdm
 
 from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
-from controller.bank.location import make_folder
 from controller.bank.packing import CHANNELS, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.paths import make_folder
 from controller.errors import ConfigError
-from controller.offline.impulse_response import ResponseModel
+from controller.physics.impulse_response import ResponseModel
 
 HIGHEST_HZ = 100e3
 CELLS_PER_BLOCK = 512  # some rows of the grid; 66 MB of responses at 1000 samples

@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from controller.bank.composition import Composer
 from controller.bank.grid import Grid
 from controller.bank.packing import WORD, edges
 from controller.bank.reader import Bank
-from controller.bank.selection import NEAR_M
-from controller.board import Board
-from controller.offline.bank_builder import build_bank
-from controller.offline.plate_twin import PlateTwin
-from controller.offline.work_precision import emit, random_points, spread
+from controller.bank_builder.build import build_bank
+from controller.benchmark.work_precision import emit, random_points, spread
+from controller.board.board import Board
+from controller.physics.plate_twin import PlateTwin
+from controller.waveforms.composition import Composer
+from controller.waveforms.selection import NEAR_M
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.board import Board
-from controller.fpga.model_pins import ramp_bits
-from controller.offline.audible import surface_energy
-from controller.offline.focusing import focus
-from controller.offline.impulse_response import ResponseModel
-from controller.offline.plate_twin import PlateTwin
-from controller.offline.work_precision import emit, idling_low, random_points, spread
+from controller.benchmark.work_precision import emit, idling_low, random_points, spread
+from controller.board.board import Board
+from controller.gateware_model.pins import ramp_bits
+from controller.physics.audible import surface_energy
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate_twin import PlateTwin
 
 Bits = NDArray[np.bool_]
 Words = NDArray[np.uint32]

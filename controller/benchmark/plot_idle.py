@@ -9,15 +9,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from controller.board import Board
+from controller.benchmark.idle import NOTHING, RAMPS_MS, first_order_bits, ramp_samples, ramp_words
+from controller.benchmark.work_precision import emit, idling_low, random_points
+from controller.board.board import Board
 from controller.errors import ConfigError
-from controller.fpga.model_pins import ramp_bits
-from controller.offline.audible import AUDIBLE_HZ, surface_spectrum
-from controller.offline.focusing import focus
-from controller.offline.idle_figures import NOTHING, RAMPS_MS, first_order_bits, ramp_samples, ramp_words
-from controller.offline.impulse_response import ResponseModel
-from controller.offline.plate_twin import PlateTwin
-from controller.offline.work_precision import emit, idling_low, random_points
+from controller.gateware_model.pins import ramp_bits
+from controller.physics.audible import AUDIBLE_HZ, surface_spectrum
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate_twin import PlateTwin
 
 MAP_STEP_M = 0.5e-3
 BAND_HZ = 500.0  # over which the spectra are averaged

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from controller.bank.packing import CHANNELS, WORD, channel_bits
 from controller.bank.reader import Bank
-from controller.board import Board, Driver
-from controller.offline.driver import DriverResponse
+from controller.board.board import Board, Driver
+from controller.physics.driver import DriverResponse
 
 Floats = NDArray[np.float64]
 ENTRIES_PER_BLOCK = 256  # one sample of them stays in the cache

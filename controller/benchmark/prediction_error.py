@@ -1,6 +1,6 @@
 """How far beside the finger a prediction is: measured on recordings, for several ways to predict.
 
-`python -m controller.offline.prediction_error FILE...` replays recordings through the board's tracker. After every report it asks
+`python -m controller.benchmark.prediction_error FILE...` replays recordings through the board's tracker. After every report it asks
 where each finger will be, by the call and with the arguments of the loop (`Tracker.place`), and compares with the recorded
 track at that time. What no recording shows, stops and turns at a known instant and noise at rest, is made here.
 """
@@ -20,10 +20,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
 from controller.errors import ControllerError
-from controller.hardware import tracked
-from controller.offline.plot import check_picture
+from controller.physics.plot import check_picture
+from controller.service.drivers import tracked
 from controller.touch.prediction import PAUSE_S, SHORTEST_STEP_S, Motion
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -203,7 +203,7 @@ def plot(path: Path, figures: dict[str, Any]) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure the recordings named on the command line."""
-    parser = argparse.ArgumentParser(prog="python -m controller.offline.prediction_error", description="Errors of prediction.")
+    parser = argparse.ArgumentParser(prog="python -m controller.benchmark.prediction_error", description="Errors of prediction.")
     parser.add_argument("files", nargs="+", metavar="FILE", type=Path, help="evemu recordings")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the errors (.png, .svg, .pdf)")

@@ -1,6 +1,6 @@
 """Hours of recordings through the whole loop, in virtual time: what grows, and what gets slower.
 
-`python -m controller.offline.soak --hours 10 RECORDING...` plays the recordings one behind the other, again and
+`python -m controller.benchmark.soak --hours 10 RECORDING...` plays the recordings one behind the other, again and
 again, through tracker, scene, playback, session and the gateware's model, as one run of one loop that never ends
 in between. After each hour of recorded time it notes memory and the latencies of that hour alone.
 """
@@ -17,16 +17,16 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from controller.assembly import assemble
-from controller.bank.location import bank_path
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
+from controller.board.paths import bank_path
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError
-from controller.hardware import open_session, open_simulated, tracked
-from controller.latency import Counters, Stages
-from controller.scene import Scene, load_scene
-from controller.scene_file import find_scene
+from controller.loop.wiring import assemble
+from controller.metrics import Counters, Stages
+from controller.scene.scene import Scene, load_scene
+from controller.scene.scene_file import find_scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.panel import Counts
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
@@ -166,7 +166,7 @@ def _rss_bytes() -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line; exit code 1 if memory has grown by more than 1 MB."""
-    parser = argparse.ArgumentParser(prog="python -m controller.offline.soak", description=(__doc__ or "").splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python -m controller.benchmark.soak", description=(__doc__ or "").splitlines()[0])
     parser.add_argument("recordings", nargs="+", metavar="RECORDING", help="evemu files")
     parser.add_argument("--board", default="simulated", metavar="B")
     parser.add_argument("--scene", metavar="S", help="default: the board's own")

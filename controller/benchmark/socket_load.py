@@ -1,6 +1,6 @@
 """Load on the application socket: many commands a second for a minute, each answered once, and what it cost.
 
-    python -m controller.offline.socket_load --seconds 60 --rate 2000 [--clients 2] [--places 24] [--json]
+    python -m controller.benchmark.socket_load --seconds 60 --rate 2000 [--clients 2] [--places 24] [--json]
 
 The simulated panel (`served_panel`) runs in a process of its own. Each client keeps its own account of every
 command; at the end the sums are compared with the service's. One command in eight is for a finger that is
@@ -27,9 +27,9 @@ from typing import Any
 import msgspec
 
 from controller.application_socket import messages
-from controller.client import PanelClient
+from controller.application_socket.client import PanelClient
 from controller.errors import ControllerError, LinkError
-from controller.latency import LatencyHistogram
+from controller.metrics import LatencyHistogram
 
 START_S = 60.0  # for the panel to build its bank
 REST_S = 5.0  # for the last answers
@@ -205,7 +205,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
     """Start the panel, load it, end it."""
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")
-        command = [sys.executable, "-m", "controller.offline.served_panel", path, "--commands-per-s", "10000"]
+        command = [sys.executable, "-m", "controller.simulation.served_panel", path, "--commands-per-s", "10000"]
         with subprocess.Popen([*command, "--touched-s", str(options.seconds + REST_S)]) as panel:
             try:
                 _wait_for(path, panel)
@@ -235,7 +235,9 @@ def _wait_for(path: str, panel: subprocess.Popen[bytes]) -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Command line."""
-    parser = argparse.ArgumentParser(prog="python -m controller.offline.socket_load", description="Load on the application socket.")
+    parser = argparse.ArgumentParser(
+        prog="python -m controller.benchmark.socket_load", description="Load on the application socket."
+    )
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--rate", type=float, default=2000.0, metavar="N", help="commands a second, all clients together (2000)")
     parser.add_argument("--clients", type=int, default=2, metavar="N")

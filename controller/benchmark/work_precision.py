@@ -15,12 +15,12 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from controller.bank.packing import channel_bits, drive_words
-from controller.board import Board
-from controller.offline.audible import surface_energy
-from controller.offline.field import Field
-from controller.offline.focusing import focus
-from controller.offline.impulse_response import ResponseModel
-from controller.offline.plate_twin import PlateTwin, capture_of_words
+from controller.board.board import Board
+from controller.physics.audible import surface_energy
+from controller.physics.field import Field
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]

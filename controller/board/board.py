@@ -16,9 +16,9 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.device_settings import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
+from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
+from controller.board.records import NotNegative, Positive, Record, Share, load_toml
 from controller.errors import ConfigError
-from controller.records import NotNegative, Positive, Record, Share, load_toml
 
 CHANNELS = 32
 LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
@@ -308,7 +308,7 @@ def board_places() -> list[Path]:
 
 def data_folder(room: str) -> Path:
     """Where `boards`, `fpga_rtl` or `systemd` lie: in the source tree, else under the installation's prefix."""
-    beside = Path(__file__).resolve().parent.parent / room
+    beside = Path(__file__).resolve().parent.parent.parent / room
     if beside.is_dir() and (beside.parent / "pyproject.toml").is_file():
         return beside
     for prefix in (sysconfig.get_path("data"), sys.prefix, "/usr"):

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from controller.records import Positive, Record
+from controller.board.records import Positive, Record
 
 SERIAL_BITS_PER_BYTE = 10  # 8N1
 FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import platformdirs
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import BankError
 
 SERVICE = "haptic-panel"  # the service's user, and its group

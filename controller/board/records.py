@@ -11,8 +11,8 @@ from typing import Annotated, Any, TypeVar
 import msgspec
 from msgspec import Meta
 
+from controller.board.validation import dotted, in_words
 from controller.errors import ConfigError
-from controller.validation import dotted, in_words
 
 T = TypeVar("T")
 

@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, fit, verify_bank, wrong_pitch
-from controller.bank.location import bank_path, build_line, is_there
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
+from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
+from controller.commands.tables import plain_table, power_table
 from controller.errors import BankError, ConfigError
-from controller.installation import missing_package
-from controller.scene import Scene, load_scene, reach
-from controller.scene_file import find_scene
-from controller.tables import plain_table, power_table
+from controller.scene.scene import Scene, load_scene, reach
+from controller.scene.scene_file import find_scene
+from controller.service.installation import missing_package
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from controller.bank_builder.build import BuildReport
     from controller.commands.output import Subparsers
-    from controller.offline.bank_builder import BuildReport
 
 SMALLEST_PITCH_MM = 0.5
 MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; farther, where it was
@@ -72,7 +72,7 @@ def bank_build(options: argparse.Namespace) -> int:
 def bank_tell(options: argparse.Namespace) -> int:
     """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
     if options.power:
-        from controller.offline.power import power_report
+        from controller.benchmark.power import power_report
 
         board = load_board(find_board(options.board))
         with Bank.open(_bank_file(options), board) as bank:
@@ -148,7 +148,7 @@ def _build(
     board: Board, path: Path, pitch_m: float, cells: NDArray[np.bool_] | None, scene: str | None, *, measure: bool
 ) -> BuildReport:
     try:
-        from controller.offline.bank_builder import build_bank
+        from controller.bank_builder.build import build_bank
     except ModuleNotFoundError as error:
         missing = missing_package(error.name)
         if missing is None:

@@ -7,28 +7,28 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
+from controller.board.devices import RecordingTouch
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.bank import open_bank
 from controller.commands.output import progress_bar, show
-from controller.device_settings import RecordingTouch
 from controller.errors import ConfigError
 from controller.fpga.link import Link
-from controller.ghost_survey import KNOCK, Knocks, Overheard
-from controller.hardware import open_link, open_panel, open_session
-from controller.playback import Played
-from controller.scene import Scene, load_scene
-from controller.scene_file import find_scene
-from controller.service import enter_realtime
+from controller.loop.playback import Played
+from controller.loop.wiring import assemble
+from controller.scene.scene import Scene, load_scene
+from controller.scene.scene_file import find_scene
+from controller.scene.trains import Train
+from controller.service.drivers import open_link, open_panel, open_session
+from controller.service.ghost_survey import KNOCK, Knocks, Overheard
+from controller.service.systemd import enter_realtime
 from controller.touch.board_lines import check_writable, value_line, write_value
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
 from controller.touch.kept_events import KeptEvents, emission_event, recording_text, store
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
-from controller.trains import Train
 
 SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what the simulated board's panel does
 
@@ -99,8 +99,8 @@ def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: KeptEvents) 
 
 
 def _simulated_panel(board: Board, link: Link) -> EventReader:
-    from controller.fpga.simulated_link import SimulatedLink
-    from controller.offline.ghostly_panel import GhostlyPanel, pins_of
+    from controller.gateware_model.simulated_link import SimulatedLink
+    from controller.simulation.ghostly_panel import GhostlyPanel, pins_of
 
     assert isinstance(link, SimulatedLink)
     print("haptic-panel: a simulated panel: what it does is made up", file=sys.stderr)

@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
+from controller.board.devices import RecordingTouch
 from controller.clocks import MonotonicClock
 from controller.commands.output import show
-from controller.device_settings import RecordingTouch
 from controller.errors import ConfigError
-from controller.hardware import open_panel
+from controller.service.drivers import open_panel
 from controller.touch.board_lines import check_writable, value_line, write_value
 from controller.touch.event_reader import Event
 from controller.touch.kept_events import KeptEvents, recording_text, store
@@ -54,7 +54,7 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
             raise ConfigError(
                 "--lag needs --reference DEVICE: a mouse held to the finger, such as /dev/input/by-id/...-event-mouse"
             )
-        from controller.offline.simulated_strokes import simulated_strokes
+        from controller.simulation.simulated_strokes import simulated_strokes
 
         print(f"haptic-panel: a simulated panel: its lag is {SIMULATED_LAG_S * 1e3:g} ms", file=sys.stderr)
         return simulated_strokes(board, lag_s=SIMULATED_LAG_S)

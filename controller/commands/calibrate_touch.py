@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.errors import CalibrationError, UsageError
-from controller.hardware import open_touch
+from controller.service.drivers import open_touch
 from controller.touch.board_lines import board_lines, check_writable, write_calibration
 from controller.touch.calibration import MOST, Calibration, Point, calibrate, check_targets, default_targets
 from controller.touch.held_touches import HELD_S, HeldTouches

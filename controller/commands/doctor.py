@@ -6,12 +6,12 @@ import argparse
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
-from controller.doctor import Finding, LinkExamined, examine_link, look
 from controller.errors import ControllerError
-from controller.hardware import open_link, open_session
+from controller.service.doctor import Finding, LinkExamined, examine_link, look
+from controller.service.drivers import open_link, open_session
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers

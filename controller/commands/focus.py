@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.commands.output import picture_path, show
+from controller.commands.tables import amplitude_table, plain_table
 from controller.errors import ConfigError
-from controller.tables import amplitude_table, plain_table
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
@@ -40,7 +40,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and say how good the focus is; or measure the figures of the README."""
-    from controller.offline.work_precision import figures, focus_on
+    from controller.benchmark.work_precision import figures, focus_on
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
@@ -48,22 +48,22 @@ def focus(options: argparse.Namespace) -> int:
         show(options, figures(board, options.seed), plain_table)
         return 0
     if options.idle_figures:
-        from controller.offline.idle_figures import idle_figures
+        from controller.benchmark.idle import idle_figures
 
         found = idle_figures(board, options.seed)
         if picture:
-            from controller.offline.plot_idle import plot_idle
+            from controller.benchmark.plot_idle import plot_idle
 
             plot_idle(picture, board, found)
         show(options, found, plain_table)
         return 0
     if options.amplitude_figures:
-        from controller.offline.amplitude_figures import amplitude_figures
+        from controller.benchmark.amplitude import amplitude_figures
 
         pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
         found = amplitude_figures(board, options.seed, pitch_m=pitch_mm * 1e-3)
         if picture:
-            from controller.offline.plot_amplitude import plot_amplitude
+            from controller.benchmark.plot_amplitude import plot_amplitude
 
             plot_amplitude(picture, found)
         show(options, found, amplitude_table)
@@ -73,7 +73,7 @@ def focus(options: argparse.Namespace) -> int:
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
     field, rows = focus_on(board, points_m)
     if picture:
-        from controller.offline.plot import plot_focus
+        from controller.physics.plot import plot_focus
 
         plot_focus(picture, board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
     show(options, {"board": board.name, "foci": rows}, lambda shown: "\n\n".join(map(plain_table, shown["foci"])))

@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
+from controller.commands.tables import check_table
 from controller.errors import ConfigError
 from controller.fpga import configuration
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import GatewareFactory
 from controller.fpga.link import Link
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import IDENTITY_MAGIC, PROTOCOL_VERSION, Register
-from controller.hardware import gateware_hash, open_link, open_session, open_simulated
-from controller.tables import check_table
+from controller.gateware_model.gateware import GatewareFactory
+from controller.gateware_model.model import GatewareModel
+from controller.service.drivers import gateware_hash, open_link, open_session, open_simulated
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
@@ -107,7 +107,7 @@ def gateware_factory(options: argparse.Namespace) -> tuple[GatewareFactory, bool
     """What computes the gateware's pins, and whether in real time."""
     if options.link != "rtl":
         return GatewareModel, getattr(options, "speed", "max") != "max"
-    from controller.offline.rtl_gateware import RtlGateware
+    from controller.simulation.rtl_gateware import RtlGateware
 
     if getattr(options, "speed", "max") == "1":
         raise ConfigError("--link rtl is slower than real time, and the FPGA would call the host silent: use --speed max")

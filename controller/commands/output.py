@@ -42,7 +42,7 @@ def picture_path(options: argparse.Namespace) -> Path | None:
     """File asked for with --plot, refused before any work if it could not be written."""
     if not options.plot:
         return None
-    from controller.offline.plot import check_picture
+    from controller.physics.plot import check_picture
 
     check_picture(Path(options.plot))
     return Path(options.plot)

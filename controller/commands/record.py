@@ -8,10 +8,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.commands.output import show
-from controller.hardware import open_input, open_panel
-from controller.tables import plain_table
+from controller.commands.tables import plain_table
+from controller.service.drivers import open_input, open_panel
 from controller.touch.recorder import open_recording, record
 
 if TYPE_CHECKING:

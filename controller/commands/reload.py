@@ -7,7 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from controller.errors import ConfigError
-from controller.reloading import reload
+from controller.service.reloading import reload
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers

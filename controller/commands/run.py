@@ -7,22 +7,22 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board import Board, find_board, load_board, simulated
+from controller.board.board import Board, find_board, load_board, simulated
+from controller.board.devices import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.gateware import gateware_factory
 from controller.commands.output import picture_path, progress_bar, show
-from controller.device_settings import RecordingTouch
+from controller.commands.tables import run_table, service_table
 from controller.errors import ConfigError
-from controller.hardware import recording_path
 from controller.log import Priority, line
-from controller.scene import edge_warnings, load_scene
-from controller.scene_file import find_scene
-from controller.tables import run_table, service_table
+from controller.scene.scene import edge_warnings, load_scene
+from controller.scene.scene_file import find_scene
+from controller.service.drivers import recording_path
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
-    from controller.offline.simulated_run import Judged
+    from controller.simulation.simulated_run import Judged
 
 
 def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Play on the board's own devices."""
-    from controller.device import serve
+    from controller.service.run import serve
 
     if options.plot or options.speed == "max":
         raise ConfigError("--plot and --speed max are for simulated panels: add --link model to simulate this board")
@@ -85,7 +85,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     """Replay a recording on the simulated panel and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
-    from controller.offline import simulated_run
+    from controller.simulation import simulated_run
 
     picture = picture_path(options)
     board = simulated(board)
@@ -121,7 +121,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
-    from controller.offline.plot import plot_focus
+    from controller.physics.plot import plot_focus
 
     if judged.field is None:
         print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)

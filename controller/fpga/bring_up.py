@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.capture import Capture

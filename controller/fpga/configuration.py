@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import LinkError
-from controller.fpga.gateware import Parameters
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register
 
 LIMITS: Final = {  # fixed when the gateware is built, and the key of board.toml that each comes from

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import zlib
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, LOAD_FRAME_BYTES, upload_slices

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import gpiod
 from gpiod.line import Direction, Value
 
-from controller.device_settings import LinkSettings
+from controller.board.devices import LinkSettings
+from controller.board.gpio_chip import request_lines
 from controller.errors import LinkError
-from controller.gpio_chip import request_lines
 
 CONSUMER = "haptic-panel"
 

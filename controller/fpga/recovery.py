@@ -18,13 +18,13 @@ import math
 from enum import Enum
 from typing import Final
 
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.panel_state import PanelState
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Fault, Result, State
 from controller.fpga.session import Session
-from controller.panel_state import PanelState
 
 WAITED_FOR: Final = Fault.NO_PERMIT | Fault.OVER_TEMPERATURE
 PERMITS: Final = State.RUN_PERMIT | State.TEMPERATURE_GOOD

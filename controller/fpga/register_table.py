@@ -1,6 +1,6 @@
 """The register table of fpga_rtl/README.md, from the one description in controller/fpga/registers.py.
 
-    .venv/bin/python -m controller.offline.register_table       # rewrites the table in the README
+    .venv/bin/python -m controller.fpga.register_table       # rewrites the table in the README
 
 What a description says is checked here as well, so that a table that can be printed can be trusted.
 """
@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.fpga.registers import REGISTERS, Register
 
 HEADER = ("address", "name", "access", "bits", "after reset", "what")

@@ -9,7 +9,7 @@ import math
 import zlib
 from collections.abc import Callable
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
 from controller.fpga.clock_relation import ClockRelation

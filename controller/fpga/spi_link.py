@@ -17,7 +17,7 @@ from typing import Final
 
 import spidev
 
-from controller.device_settings import LinkSettings
+from controller.board.devices import LinkSettings
 from controller.errors import LinkError
 from controller.fpga.gpio_lines import GpioLines
 from controller.fpga.spi_messages import Messages

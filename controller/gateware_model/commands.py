@@ -7,12 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from controller.fpga.gateware import Parameters, Permit, Port
-from controller.fpga.model_buffers import Buffers
-from controller.fpga.model_decoder import Frame
-from controller.fpga.model_gate import Gate, OutputGate
-from controller.fpga.model_player import Play, Player, Queue, word_tick
-from controller.fpga.model_registers import RegisterFile
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import (
     CHUNKS,
     IDENTITY_MAGIC,
@@ -30,6 +25,12 @@ from controller.fpga.registers import (
     Result,
     Start,
 )
+from controller.gateware_model.buffers import Buffers
+from controller.gateware_model.decoder import Frame
+from controller.gateware_model.gate import Gate, OutputGate
+from controller.gateware_model.gateware import Permit, Port
+from controller.gateware_model.player import Play, Player, Queue, word_tick
+from controller.gateware_model.registers import RegisterFile
 
 FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago

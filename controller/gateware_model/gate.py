@@ -7,11 +7,11 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.fpga.gateware import Permit
-from controller.fpga.model_limits import StageLimits
-from controller.fpga.model_pins import Pins, Stretch, ramp_bits, turned_ramp_bits
-from controller.fpga.model_registers import RegisterFile
 from controller.fpga.registers import Fault
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.limits import StageLimits
+from controller.gateware_model.pins import Pins, Stretch, ramp_bits, turned_ramp_bits
+from controller.gateware_model.registers import RegisterFile
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
 LIMITS = Fault.SHORT_PULSE | Fault.CHANNEL_EDGES | Fault.TOTAL_EDGES | Fault.LONG_EMISSION | Fault.DUTY

@@ -14,7 +14,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Protocol, Self
 
-from controller.board import Board, load_board
+from controller.board.board import Board, load_board
 from controller.errors import ConfigError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.capture import Capture

@@ -11,16 +11,17 @@ from bisect import insort
 from enum import Enum
 from typing import NamedTuple
 
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER, Status, pack_status
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit, Port, UartTiming, sck_rise_tick
-from controller.fpga.model_commands import Commands
-from controller.fpga.model_decoder import Frame, judge
-from controller.fpga.model_gate import PIN_TICKS, Gate
-from controller.fpga.model_lines import Lines
-from controller.fpga.model_player import DECISION_TICKS, Play
-from controller.fpga.model_uart import BEGIN_TICKS, BYTE_TO_PULSE_TICKS, DELIVER_TICKS, UartSide
 from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
+from controller.gateware_model.commands import Commands
+from controller.gateware_model.decoder import Frame, judge
+from controller.gateware_model.gate import PIN_TICKS, Gate
+from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, Port, UartTiming, sck_rise_tick
+from controller.gateware_model.lines import Lines
+from controller.gateware_model.player import DECISION_TICKS, Play
+from controller.gateware_model.uart import BEGIN_TICKS, BYTE_TO_PULSE_TICKS, DELIVER_TICKS, UartSide
 
 INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
 TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough

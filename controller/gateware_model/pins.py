@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
-from controller.fpga.model_limits import StageLimits
+from controller.gateware_model.limits import StageLimits
 
 Words = NDArray[np.uint32]
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.fpga.model_gate import PIN_TICKS
 from controller.fpga.registers import QUEUE_PLAYS, Start
+from controller.gateware_model.gate import PIN_TICKS
 
 FETCH_TICKS = 9  # from the tick in which a play is accepted, or the one before it is taken, until it is at the head
 DECISION_TICKS = PIN_TICKS + 1  # from the tick in which a play is begun to its first word on the pins

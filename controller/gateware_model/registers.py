@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from controller.fpga.gateware import Parameters
-from controller.fpga.model_limits import LimitSettings
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
@@ -20,6 +19,7 @@ from controller.fpga.registers import (
     Register,
     Result,
 )
+from controller.gateware_model.limits import LimitSettings
 
 _ALL_ONES = 0xFFFFFFFF
 HARD_LIMITS = (

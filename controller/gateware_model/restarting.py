@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import READY_TICKS, TRIGGER_HIGH_TICKS, Gateware, GatewareFactory, Parameters, Permit
+from controller.gateware_model.gateware import READY_TICKS, TRIGGER_HIGH_TICKS, Gateware, GatewareFactory, Permit
 
 OPEN_LINE = 0xFF  # what MISO reads as while nobody drives it
 

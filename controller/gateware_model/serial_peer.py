@@ -1,6 +1,6 @@
 """A simulated panel on a pseudo-terminal: the gateware model behind a UART, for trying out a serial link without a board.
 
-`python -m controller.fpga.serial_peer [board]` names its device and serves until it is interrupted.
+`python -m controller.gateware_model.serial_peer [board]` names its device and serves until it is interrupted.
 """
 
 from __future__ import annotations
@@ -17,12 +17,13 @@ from types import TracebackType
 
 from cobs import cobs
 
-from controller.board import data_folder, find_board, load_board
+from controller.board.board import data_folder, find_board, load_board
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.gateware import Gateware, Parameters, Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.serial_link import ANSWER_BYTES, BITS_PER_BYTE
+from controller.gateware_model.gateware import Gateware, Permit
+from controller.gateware_model.model import GatewareModel
 
 
 class UartPanel:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
-from controller.device_settings import LinkSettings
+from controller.board.devices import LinkSettings
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import READY_TICKS, Gateware, Permit
+from controller.gateware_model.gateware import READY_TICKS, Gateware, Permit
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
 SELECT_PAUSE_TICKS = 10  # and at least so many clocks

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.gateware import UartTiming
-from controller.fpga.model_decoder import Frame, judge
 from controller.fpga.registers import Result
+from controller.gateware_model.decoder import Frame, judge
+from controller.gateware_model.gateware import UartTiming
 
 BYTE_TO_PULSE_TICKS = 1  # from a byte's tick to what the COBS decoder says of it
 ANSWER_TICKS = 40  # from a frame's first byte to the start bit of its answer

@@ -2,7 +2,7 @@
 
 The plate plays one waveform at a time. Foci that are apart share one: their responses are summed, and each gets
 less than it would get alone (of two about 0.72, of four 0.5, of ten 0.35). It depends on how far apart two are, here the
-worse of both (simulated panel, median of 16 random pairs; tests/offline/test_policy.py):
+worse of both (simulated panel, median of 16 random pairs; tests/loop/test_focus_distances.py):
 
     mm      0.5   1.5   2.5   4     5     6     7     8     9     10    12    20
     share   0.99  0.96  0.90  0.76  0.66  0.60  0.57  0.58  0.62  0.67  0.74  0.70
@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from controller.finger_state import Emission, spot_emission
-from controller.scene_map import Spot
+from controller.scene.finger_state import Emission, spot_emission
+from controller.scene.scene import Spot
 
 MOST = 10  # foci of one waveform
 SAME_M = 2.5e-3

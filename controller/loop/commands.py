@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import Any, Protocol
 
-from controller.panel_state import Condition
+from controller.board.panel_state import Condition
 from controller.touch.samples import TouchSample
 
 

@@ -13,22 +13,23 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.clocks import NEVER, Clock
-from controller.collector import collector_off
-from controller.command_source import CommandSource, Outcome
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.outputs import Outputs
-from controller.performance import Performance
-from controller.playback import ENDLESS, Playback
-from controller.scene import ROUNDING_S, Emission
-from controller.scene_source import SceneChange
+from controller.loop.collector import collector_off
+from controller.loop.commands import CommandSource, Outcome
+from controller.loop.outputs import Outputs
+from controller.loop.playback import ENDLESS, Playback
+from controller.loop.scene_source import SceneChange
+from controller.loop.scheduler import Performance
+from controller.loop.signals import Wakeup, signals
+from controller.metrics import Counters
+from controller.scene.finger_state import Emission
+from controller.scene.fingers import ROUNDING_S
 from controller.touch.samples import TouchSample
 from controller.touch.source import TrackedTouch
-from controller.wakeup import Wakeup, signals
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead

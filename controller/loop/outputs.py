@@ -6,15 +6,15 @@ again a few times only: on a machine that is too slow, fingers would feel nothin
 
 from __future__ import annotations
 
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.panel_state import PanelState
 from controller.clocks import Clock
 from controller.errors import ControllerError, FaultError
 from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.panel_state import PanelState
+from controller.metrics import Counters
 
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
 

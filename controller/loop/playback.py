@@ -12,17 +12,17 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from controller.bank.composition import Point
-from controller.bank.selection import Key, Selection
 from controller.clocks import NEVER
 from controller.errors import BankError
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.scene import Emission
-from controller.slot_cache import SlotCache
+from controller.loop.slot_cache import SlotCache
+from controller.metrics import Counters
+from controller.scene.finger_state import Emission
+from controller.waveforms.composition import Point
+from controller.waveforms.selection import Key, Selection
 
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
 HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from controller.bank.selection import Selection
-from controller.scene import Scene
+from controller.scene.scene import Scene
+from controller.waveforms.selection import Selection
 
 
 @dataclass(frozen=True, slots=True)

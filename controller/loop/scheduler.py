@@ -10,26 +10,13 @@ import math
 from collections.abc import Callable
 
 from controller.clocks import NEVER
-from controller.command_source import Outcome
 from controller.errors import ConfigError
-from controller.latency import Counters
-from controller.policy import common_period_s, together
-from controller.scene import (
-    OUTSIDE,
-    ROUNDING_S,
-    Emission,
-    FingerState,
-    Scene,
-    Spot,
-    anchored,
-    ended,
-    on_time,
-    on_touch,
-    spot_emission,
-    start_effect,
-    stopped,
-    taken_over,
-)
+from controller.loop.batching import common_period_s, together
+from controller.loop.commands import Outcome
+from controller.metrics import Counters
+from controller.scene.finger_state import Emission, FingerState, spot_emission
+from controller.scene.fingers import ROUNDING_S, anchored, ended, on_time, on_touch, start_effect, stopped, taken_over
+from controller.scene.scene import OUTSIDE, Scene, Spot
 from controller.touch.samples import TouchSample
 
 MOST_WAITING = 32  # commands; of more the oldest is skipped

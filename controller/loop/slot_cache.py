@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 
-from controller.bank.selection import NEAR_M, Key
+from controller.waveforms.selection import NEAR_M, Key
 
 Lone = tuple[float, float, int]  # x and y in m, amplitude in steps below full
 

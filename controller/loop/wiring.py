@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
-from controller.board import Board
+from controller.board.board import Board
 from controller.clocks import Clock
-from controller.command_source import CommandSource
-from controller.event_loop import EventLoop
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.performance import Performance
-from controller.playback import Playback, Played
-from controller.scene import Scene
-from controller.scene_source import SceneChange
+from controller.loop.commands import CommandSource
+from controller.loop.event_loop import EventLoop
+from controller.loop.playback import Playback, Played
+from controller.loop.scene_source import SceneChange
+from controller.loop.scheduler import Performance
+from controller.metrics import Counters
+from controller.scene.scene import Scene
 from controller.touch.source import TrackedTouch
+from controller.waveforms.selection import Selection
 
 UPLOAD_COMMANDS = 4  # STORE, NOP while the slot is checked, PLAY, NOP
 PLAY_COMMANDS = 2

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.signal import zoom_fft
 
 from controller.bank.packing import channel_bits
-from controller.board import Board
-from controller.offline.driver import DriverResponse
-from controller.offline.plate import PlateModes
-from controller.offline.step_response import StepResponse, channel_forces
+from controller.board.board import Board
+from controller.physics.driver import DriverResponse
+from controller.physics.plate import PlateModes
+from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.offline.plate import PlateModes
-from controller.offline.step_response import StepResponse
+from controller.physics.plate import PlateModes
+from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

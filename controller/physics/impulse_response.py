@@ -21,11 +21,11 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.bank.file_format import REST_SAMPLES
-from controller.board import CHANNELS, Board
-from controller.offline.driver import DriverResponse
-from controller.offline.plate import PlateModes
-from controller.offline.row_responses import in_rows, responses_in_rows
-from controller.offline.step_response import StepResponse, channel_forces
+from controller.board.board import CHANNELS, Board
+from controller.physics.driver import DriverResponse
+from controller.physics.plate import PlateModes
+from controller.physics.row_responses import in_rows, responses_in_rows
+from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
 EDGE_HZ = 8e3

@@ -20,14 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.bank.packing import channel_bits
-from controller.board import CHANNELS, Board
+from controller.board.board import CHANNELS, Board
 from controller.fpga.capture import Capture
-from controller.offline.driver import DriverResponse
-from controller.offline.field import AROUND_S, Field
-from controller.offline.focusing import focus
-from controller.offline.impulse_response import ResponseModel
-from controller.offline.plate import PlateModes
-from controller.offline.step_response import StepResponse, channel_forces
+from controller.physics.driver import DriverResponse
+from controller.physics.field import AROUND_S, Field
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import PlateModes
+from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
 Reals = NDArray[np.floating[Any]]

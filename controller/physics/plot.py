@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import ConfigError
-from controller.offline.field import Field
+from controller.physics.field import Field
 
 KINDS = (".png", ".svg", ".pdf")
 STEP_M = 0.5e-3

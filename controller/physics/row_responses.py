@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import CHANNELS
-from controller.offline.plate import PlateModes
+from controller.board.board import CHANNELS
+from controller.physics.plate import PlateModes
 
 Reals = NDArray[np.floating[Any]]
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import CHANNELS, Board
-from controller.offline.driver import DriverResponse
-from controller.offline.plate import PlateModes
+from controller.board.board import CHANNELS, Board
+from controller.physics.driver import DriverResponse
+from controller.physics.plate import PlateModes
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

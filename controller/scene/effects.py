@@ -15,9 +15,9 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta
 
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.records import NotNegative, Record, as_record, load_toml
 from controller.errors import ConfigError
-from controller.records import NotNegative, Record, as_record, load_toml
 
 LIBRARY = Path(__file__).with_name("effects.toml")
 WEAKEST = 0.25  # amplitude: below it the plate's response is not in proportion any more

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from controller.scene_map import OUTSIDE, Scene, Spot
-from controller.spacings import Lines, Way
-from controller.trains import NO_BEAT, Running
+from controller.scene.scene import OUTSIDE, Scene, Spot
+from controller.scene.spacings import Lines, Way
+from controller.scene.trains import NO_BEAT, Running
 
 NOWHERE = (math.inf, 0.0)
 COMMAND = -1  # whose effect a train is: of no region

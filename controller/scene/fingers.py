@@ -22,11 +22,11 @@ from __future__ import annotations
 import math
 
 from controller.errors import ConfigError
-from controller.finger_state import COMMAND, Emission, FingerState, spot_emission
-from controller.scene_file import find_scene
-from controller.scene_map import OUTSIDE, Area, Meshes, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene.finger_state import COMMAND, Emission, FingerState, spot_emission
+from controller.scene.scene import OUTSIDE, Area, Meshes, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene.scene_file import find_scene
+from controller.scene.trains import Running, Train
 from controller.touch.samples import TouchSample
-from controller.trains import Running, Train
 
 __all__ = [
     "OUTSIDE",

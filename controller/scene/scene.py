@@ -14,15 +14,15 @@ import numpy as np
 from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
-from controller.board import Board
-from controller.effects import EffectTable
-from controller.scene_file import RegionRead, Shape, read_scene, spot_at
-from controller.shapes import Boxes, Place
-from controller.spacings import Spacing, spacing_of
-from controller.trains import Loudness, Train, train_of
+from controller.board.board import Board
+from controller.scene.effects import EffectTable
+from controller.scene.scene_file import RegionRead, Shape, read_scene, spot_at
+from controller.scene.shapes import Boxes, Place
+from controller.scene.spacings import Spacing, spacing_of
+from controller.scene.trains import Loudness, Train, train_of
 
 OUTSIDE = -1
-SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (bank/selection.py)
+SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (waveforms/selection.py)
 LEAST_SIDE_M = 1e-9  # of all meshes together: a region may be so thin that it has no width in floating point
 MESHES = 32  # each way: in each mesh the regions that a finger there can be in
 

@@ -11,8 +11,10 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from controller.board import Board
-from controller.effects import (
+from controller.board.board import Board
+from controller.board.records import Positive, Record, load_toml
+from controller.errors import ConfigError
+from controller.scene.effects import (
     ROUNDING,
     WEAKEST,
     Amplitude,
@@ -23,10 +25,8 @@ from controller.effects import (
     known_effects,
     resolved,
 )
-from controller.errors import ConfigError
-from controller.records import Positive, Record, load_toml
-from controller.shapes import Circle, Point, Polygon, Rectangle
-from controller.trains import silent, train_of
+from controller.scene.shapes import Circle, Point, Polygon, Rectangle
+from controller.scene.trains import silent, train_of
 
 ROUNDING_M = 1e-9
 Shape = Rectangle | Circle | Polygon

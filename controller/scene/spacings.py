@@ -12,9 +12,9 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
-from controller.effects import EffectTable
-from controller.shapes import Circle, Polygon, Rectangle
-from controller.trains import Loudness
+from controller.scene.effects import EffectTable
+from controller.scene.shapes import Circle, Polygon, Rectangle
+from controller.scene.trains import Loudness
 
 ROUNDING_M = 1e-9  # so that a spacing reached exactly is reached
 REST_M = 0.25e-3  # noise of a finger at rest; of finer spacings a quarter

@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
-from controller.effects import WEAKEST, EffectTable
+from controller.scene.effects import WEAKEST, EffectTable
 
 SILENT = WEAKEST / 2  # an envelope below it is nearer to silence than to the weakest emission
 NO_BEAT = -1

@@ -1,4 +1,4 @@
-"""The processes beside the loop: `python -m controller.beside_loop panel|thermometer PRIORITY SETTINGS`, the settings as JSON.
+"""The processes beside the loop: `python -m controller.service.beside_loop panel|thermometer PRIORITY SETTINGS`, the settings as JSON.
 
 Started by the service (`worker`); standard input is the way to it. They end when it does, and by no signal that is
 meant for it: a service manager sends those to all of a service's processes.
@@ -12,9 +12,9 @@ import sys
 
 import msgspec
 
-from controller.device_settings import Ft5x06Touch, Gt911Touch, I2cTouch, Realtime, Temperature
-from controller.service import enter_realtime
-from controller.temperature import sensor_of, serve_sensor
+from controller.board.devices import Ft5x06Touch, Gt911Touch, I2cTouch, Realtime, Temperature
+from controller.service.systemd import enter_realtime
+from controller.service.temperature import sensor_of, serve_sensor
 from controller.touch.event_reader import EventReader
 from controller.touch.panel_process import serve_panel
 

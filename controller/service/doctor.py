@@ -18,11 +18,11 @@ import numpy as np
 
 from controller.bank.file_format import MODELLED
 from controller.bank.inspection import wrong_pitch
-from controller.bank.location import SERVICE, bank_path, service_user
 from controller.bank.reader import Bank
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.devices import LinkSettings, LinuxInputTouch, Realtime, RecordingTouch
+from controller.board.paths import SERVICE, bank_path, service_user
 from controller.clocks import Clock
-from controller.device_settings import LinkSettings, LinuxInputTouch, Realtime, RecordingTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga import bring_up
 from controller.fpga.capture import Capture
@@ -30,12 +30,12 @@ from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
 from controller.fpga.link_check import ClockedLink, counted, error_rate_bound, measured_hz, proposed_hz, sweep
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
-from controller.hardware import open_link, open_panel
-from controller.installation import missing_package
-from controller.prepare_scene import populate
-from controller.scene import load_scene
-from controller.scene_file import find_scene
+from controller.gateware_model.simulated_link import SimulatedLink
+from controller.scene.scene import load_scene
+from controller.scene.scene_file import find_scene
+from controller.service.drivers import open_link, open_panel
+from controller.service.installation import missing_package
+from controller.service.prepare_scene import populate
 from controller.touch.recording import Recording
 
 SWEEP_SHARE = 0.1  # of the bits, at each speed of the sweep
@@ -250,8 +250,8 @@ def _buffer() -> str:
 def _lines(link: LinkSettings) -> str:
     import gpiod
 
+    from controller.board.gpio_chip import find_chip
     from controller.fpga.gpio_lines import CONSUMER
-    from controller.gpio_chip import find_chip
 
     path = find_chip(link.gpio_chip, LinkError)
     wanted = [name for name in (link.trigger_line, link.configured_line, link.permit_line) if name]
@@ -306,7 +306,7 @@ def _responses(board: Board) -> str | Finding:
 
 
 def _temperature(board: Board) -> str:
-    from controller.temperature import Thermometer
+    from controller.service.temperature import Thermometer
 
     assert board.temperature is not None
     thermometer = Thermometer(board.temperature)

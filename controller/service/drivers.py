@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board import Board, data_folder
-from controller.device_settings import Ft5x06Touch, Gt911Touch, I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
+from controller.board.board import Board, data_folder
+from controller.board.devices import Ft5x06Touch, Gt911Touch, I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
+from controller.board.records import Record
+from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
 from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
-from controller.fpga.gateware import GatewareFactory, Parameters
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.link import Link
-from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
-from controller.records import Record
+from controller.gateware_model.gateware import GatewareFactory
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
 from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
@@ -28,10 +30,9 @@ from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
-from controller.worker import Worker
 
 if TYPE_CHECKING:
-    from controller.temperature import Thermometer
+    from controller.service.temperature import Thermometer
 
 NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
@@ -176,7 +177,7 @@ def open_thermometer(board: Board) -> Thermometer | None:
     """Sensor of the plate's temperature, which may come later; None where the board has none."""
     if board.temperature is None:
         return None
-    from controller.temperature import Thermometer
+    from controller.service.temperature import Thermometer
 
     return Thermometer(board.temperature)
 
@@ -185,14 +186,14 @@ def await_thermometer(board: Board) -> Thermometer | None:
     """As `open_thermometer`, by a process of its own. Called before real time begins."""
     if board.temperature is None:
         return None
-    from controller.temperature import SensorProcess, Thermometer
+    from controller.service.temperature import SensorProcess, Thermometer
 
     return Thermometer(board.temperature, SensorProcess(_beside("thermometer", 0, board.temperature)))
 
 
 def _beside(what: str, priority: int, settings: Record) -> Worker:
     """A process of `beside_loop`."""
-    return Worker(["-m", "controller.beside_loop", what, str(priority), msgspec.json.encode(settings).decode()])
+    return Worker(["-m", "controller.service.beside_loop", what, str(priority), msgspec.json.encode(settings).decode()])
 
 
 def recording_path(board: Board, given: str | None) -> Path:

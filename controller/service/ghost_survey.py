@@ -10,10 +10,10 @@ import random
 from collections import Counter
 from collections.abc import Callable, Sequence
 
+from controller.board.panel_state import Condition
 from controller.clocks import NEVER
-from controller.command_source import Outcome, PanelControl
 from controller.errors import ControllerError, FaultError
-from controller.panel_state import Condition
+from controller.loop.commands import Outcome, PanelControl
 from controller.touch.ghost_figures import FEWEST_EMISSIONS, FEWEST_GHOSTS, LONGEST_S
 from controller.touch.panel import Counts
 from controller.touch.samples import TouchSample

@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
-from controller.board import Board
+from controller.board.board import Board
+from controller.board.panel_state import Condition, PanelState
 from controller.fpga.session import Session
-from controller.latency import Counters
 from controller.log import Priority, tell
-from controller.panel_state import Condition, PanelState
-from controller.reloading import ReloadFile
-from controller.service import Notifier, Watchdog
+from controller.metrics import Counters
+from controller.service.reloading import ReloadFile
+from controller.service.systemd import Notifier, Watchdog
 
 PLAYING_S = 1.0  # since the last emission, for which the panel is said to be playing
 FIRST_S = 0.1  # between looks for the first temperature

@@ -8,9 +8,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from controller.bank.reader import Bank
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import BankError
-from controller.scene import Scene, find_scene, load_scene, reach
+from controller.scene.scene import Scene, load_scene, reach
+from controller.scene.scene_file import find_scene
 
 
 def prepare(board: Board, name: str, bank_file: Path) -> Scene:

@@ -6,19 +6,19 @@ from contextlib import ExitStack
 from typing import Any
 
 from controller.application_socket.command_socket import CommandSocket
-from controller.assembly import Assembly, assemble
 from controller.bank.reader import Bank
-from controller.board import Board
+from controller.board.board import Board
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.hardware import await_panel, await_session, await_thermometer, open_touch, tracked
-from controller.housekeeping import Housekeeping
 from controller.log import LOG, Priority, tell
-from controller.prepare_scene import populate
-from controller.reloading import ReloadFile
-from controller.scene import Scene
-from controller.scene_change import SceneChanger
-from controller.service import Notifier, Watchdog, enter_realtime
+from controller.loop.wiring import Assembly, assemble
+from controller.scene.scene import Scene
+from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
+from controller.service.housekeeping import Housekeeping
+from controller.service.prepare_scene import populate
+from controller.service.reloading import ReloadFile
+from controller.service.scene_reload import SceneChanger
+from controller.service.systemd import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.source import TouchSource

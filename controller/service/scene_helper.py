@@ -21,8 +21,8 @@ import time
 from pathlib import Path
 
 from controller.errors import ControllerError
-from controller.prepare_scene import prepare
-from controller.scene_message import HEADER, MOST_BYTES, length, pack_refusal, pack_scene, unpack_request
+from controller.service.prepare_scene import prepare
+from controller.service.scene_message import HEADER, MOST_BYTES, length, pack_refusal, pack_scene, unpack_request
 
 NICE = 5
 MEMORY_BYTES = 256 << 20  # that a preparation may take beside the bank

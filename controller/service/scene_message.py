@@ -16,10 +16,10 @@ import msgspec
 from msgspec import Meta, Struct
 
 from controller import __version__
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import ControllerError
-from controller.scene import Area, Meshes, Scene
-from controller.trains import Train
+from controller.scene.scene import Area, Meshes, Scene
+from controller.scene.trains import Train
 
 VERSION = 1  # of the layout: raise it when a type in a message changes
 MAGIC = b"HPsc"

@@ -18,19 +18,19 @@ from pathlib import Path
 import msgspec
 
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import ConfigError, ControllerError
-from controller.scene import Scene
-from controller.scene_file import find_scene
-from controller.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
-from controller.scene_source import Prepared
+from controller.loop.scene_source import Prepared
+from controller.scene.scene import Scene
+from controller.scene.scene_file import find_scene
+from controller.service.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
+from controller.waveforms.selection import Selection
 
 LIMIT_S = 30.0  # for one preparation; the bank may have to be read from a slow card
 GRACE_S = 5.0  # beyond which the helper itself is taken to hang
 CHUNK_BYTES = 1 << 16  # read in one turn of the loop
 MOST_FILES = 1 << 20  # that may be open at the start, where there is no limit
-PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.scene_helper import main; main()"
+PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.service.scene_helper import main; main()"
 
 
 class SceneChanger:
@@ -127,7 +127,7 @@ class SceneChanger:
     def _start(self) -> None:
         """Another helper. Forking alone does not wait for the new process, as all that starts a program in one call does."""
         ours, theirs = socket.socketpair()
-        folder = str(Path(__file__).resolve().parent.parent)
+        folder = str(Path(__file__).resolve().parent.parent.parent)
         command = [sys.executable, "-I", "-c", PROGRAM.format(folder), repr(self._limit_s)]
         files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
         files = MOST_FILES if files == resource.RLIM_INFINITY else files

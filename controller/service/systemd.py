@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Self
 
-from controller.device_settings import Realtime
+from controller.board.devices import Realtime
 
 PINGS_PER_TIMEOUT = 3  # sd_watchdog_enabled(3) recommends every half of it; one may be late
 MCL_CURRENT, MCL_FUTURE, MCL_ONFAULT = 1, 2, 4  # mman-common.h: of every machine but alpha, powerpc and sparc

@@ -20,8 +20,8 @@ from typing import Final, Protocol
 
 from smbus2 import SMBus
 
-from controller.device_settings import Temperature
-from controller.worker import Worker, WorkerEnded
+from controller.board.devices import Temperature
+from controller.board.worker import Worker, WorkerEnded
 
 HWMON: Final = Path("/sys/class/hwmon")
 HOLD_S: Final = 600.0  # the last good reading is kept so long, then the reference temperature is assumed

@@ -11,8 +11,8 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import count
 
-from controller.board import Board
-from controller.fpga.simulated_link import SimulatedLink
+from controller.board.board import Board
+from controller.gateware_model.simulated_link import SimulatedLink
 from controller.touch import event_codes as ev
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.touch.panel import Protocol

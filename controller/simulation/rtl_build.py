@@ -19,10 +19,10 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from controller.bank.location import state_folder
-from controller.board import data_folder
+from controller.board.board import data_folder
+from controller.board.paths import state_folder
 from controller.errors import LinkError
-from controller.installation import install_line
+from controller.service.installation import install_line
 
 VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]

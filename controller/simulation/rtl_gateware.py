@@ -16,9 +16,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, InputTiming, Parameters, Permit, UartTiming
-from controller.offline.rtl_build import build_library
+from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, UartTiming
+from controller.simulation.rtl_build import build_library
 
 TRIGGER: Final = 0  # pins, as in wrapper.cpp
 PINS: Final = {Permit.RUN: 1, Permit.TEMPERATURE: 2}

@@ -1,6 +1,6 @@
 """A simulated panel in real time with an application socket, to develop a user interface against.
 
-    python -m controller.offline.served_panel /tmp/panel.sock
+    python -m controller.simulation.served_panel /tmp/panel.sock
 
 Everything but the FPGA and the touch panel is what runs on the device: loop, scene, bank, socket, scheduling. The
 FPGA is its model; two fingers go to and fro for ever. It ends with SIGTERM or Ctrl-C. With --background the command
@@ -22,22 +22,22 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from controller.application_socket.command_socket import CommandSocket
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
+from controller.bank_builder.build import build_bank
+from controller.board.board import Board, find_board, load_board
+from controller.board.devices import ApplicationSocket
+from controller.board.records import as_record
 from controller.clocks import MonotonicClock
-from controller.device_settings import ApplicationSocket
 from controller.errors import ControllerError
-from controller.hardware import open_session, open_simulated, tracked
-from controller.housekeeping import Housekeeping
 from controller.log import Priority, tell
-from controller.offline.bank_builder import build_bank
-from controller.prepare_scene import populate
-from controller.records import as_record
-from controller.scene import load_scene
-from controller.scene_change import SceneChanger
-from controller.scene_file import find_scene
-from controller.service import Notifier, Watchdog, enter_realtime
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.scene.scene_file import find_scene
+from controller.service.drivers import open_session, open_simulated, tracked
+from controller.service.housekeeping import Housekeeping
+from controller.service.prepare_scene import populate
+from controller.service.scene_reload import SceneChanger
+from controller.service.systemd import Notifier, Watchdog, enter_realtime
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -108,7 +108,7 @@ def _to_and_fro(seconds: float) -> str:
 
 def main(arguments: list[str] | None = None) -> int:
     """Command line."""
-    parser = argparse.ArgumentParser(prog="python -m controller.offline.served_panel", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m controller.simulation.served_panel", description=__doc__)
     parser.add_argument("socket", metavar="SOCKET", help="where to make the application socket")
     parser.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
     parser.add_argument("--commands-per-s", type=float, default=500.0, metavar="N", help="that one client may send (default: 500)")
@@ -149,7 +149,7 @@ def _in_background(arguments: Sequence[str]) -> int:
     own = [argument for argument in arguments if argument != "--background"]
     told, tells = os.pipe()
     with os.fdopen(told, "rb") as answer:
-        command = [sys.executable, "-m", "controller.offline.served_panel", *own, "--ready-fd", str(tells)]
+        command = [sys.executable, "-m", "controller.simulation.served_panel", *own, "--ready-fd", str(tells)]
         panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(tells,), start_new_session=True)
         os.close(tells)
         playing = answer.read(1)

@@ -17,20 +17,21 @@ from typing import Any
 
 import numpy as np
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.board import Board
+from controller.board.board import Board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.fpga.capture import Capture
-from controller.fpga.gateware import GatewareFactory
-from controller.fpga.model import GatewareModel
-from controller.fpga.simulated_link import SimulatedLink
-from controller.hardware import open_session, open_simulated, tracked
-from controller.latency import STAGES, Counters, LatencyHistogram
-from controller.offline.field import OUTSIDE_M, Field, FocusMetrics
-from controller.offline.plate_twin import PlateTwin
-from controller.playback import Played
-from controller.scene import Emission, Scene
+from controller.gateware_model.gateware import GatewareFactory
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
+from controller.loop.playback import Played
+from controller.loop.wiring import assemble
+from controller.metrics import STAGES, Counters, LatencyHistogram
+from controller.physics.field import OUTSIDE_M, Field, FocusMetrics
+from controller.physics.plate_twin import PlateTwin
+from controller.scene.finger_state import Emission
+from controller.scene.scene import Scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.tracks import Track

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.touch import event_codes as ev
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.touch.kept_events import EV_REL, REL_X, REL_Y, recording_text

@@ -1,6 +1,6 @@
 """Timing diagrams as in a data sheet, one picture for each table of fpga_rtl/timing.
 
-    .venv/bin/python -m controller.offline.timing_diagram       # draws them all again
+    .venv/bin/python -m controller.simulation.timing_diagram       # draws them all again
 
 A picture carries the hash of its table, so that a test tells when it is no longer that of the table. Where nothing
 happens for long, time is cut out and the traces are broken.
@@ -17,11 +17,11 @@ from typing import Any, Final
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.fpga.frames import CRC, HEADER
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, frame_ticks
 from controller.fpga.registers import LOAD_PAYLOAD_MIN_BYTES, SHORT_PAYLOAD_BYTES
-from controller.offline.timing_table import IDLE, INPUTS, Case, Change, drive_words, load_cases
+from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, frame_ticks
+from controller.simulation.timing_table import IDLE, INPUTS, Case, Change, drive_words, load_cases
 
 PINS: Final = {
     "frame": "SPI frame",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from controller.board import Board
+from controller.board.board import Board
 
 
 @dataclass(frozen=True, slots=True)

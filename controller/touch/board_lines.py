@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from controller.board import load_board
+from controller.board.board import load_board
 from controller.errors import CalibrationError
 from controller.touch.calibration import Calibration, Row
 

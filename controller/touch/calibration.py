@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import Plate
+from controller.board.board import Plate
 from controller.errors import CalibrationError
 
 FEWEST, MOST = 3, 5

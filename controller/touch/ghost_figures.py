@@ -14,7 +14,7 @@ from math import ceil, inf
 from statistics import median
 from typing import NamedTuple
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import CalibrationError
 from controller.touch.kept_events import EV_SND, SND_CLICK
 from controller.touch.recording import Recording

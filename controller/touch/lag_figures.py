@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import CalibrationError
 from controller.touch.kept_events import EV_REL, REL_X, REL_Y
 from controller.touch.recording import Recording

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder

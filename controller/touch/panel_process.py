@@ -14,11 +14,11 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Final
 
+from controller.board.worker import Worker
 from controller.errors import TouchError
 from controller.touch import panel_messages as messages
 from controller.touch.awaited_reader import LOST, RETRY_S, UNSEEN
 from controller.touch.event_reader import DeviceDescription, Event, EventReader
-from controller.worker import Worker
 
 HANGS_S: Final = 5.0  # without a first word
 

@@ -1,6 +1,6 @@
 """Where one finger will be: an alpha-beta filter over its reports.
 
-Chosen by measurement (`python -m controller.offline.prediction_error`, README): Kalman and one-euro filters are no better where
+Chosen by measurement (`python -m controller.benchmark.prediction_error`, README): Kalman and one-euro filters are no better where
 fingers move, and need more to stop in time. The filter gives the velocity only: the prediction starts at the last
 report as it is, so that a moving finger is not lagged.
 """

@@ -12,7 +12,7 @@ import stat
 from collections import Counter
 from pathlib import Path
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.errors import ConfigError, TouchError
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange

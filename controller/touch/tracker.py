@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from math import hypot, inf
 from typing import Any
 
-from controller.device_settings import TouchPanel
+from controller.board.devices import TouchPanel
 from controller.touch.ghost_guard import GhostGuard, Listening
 from controller.touch.panel import Counts
 from controller.touch.prediction import Motion

@@ -20,12 +20,12 @@ from operator import mul
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.amplitude import hold_threshold
 from controller.bank.file_format import REST_SAMPLES
-from controller.bank.holding import Holding
-from controller.bank.interpolation import Interpolation, aligned
 from controller.bank.packing import CHANNELS, WORD, WordPacker
 from controller.bank.reader import Bank
+from controller.waveforms.amplitude import hold_threshold
+from controller.waveforms.amplitude_masking import Holding
+from controller.waveforms.interpolation import Interpolation, aligned
 
 MOST_POINTS = 10
 ROUNDS = 5  # at most, of looking what the bits do; most need two or three

@@ -12,9 +12,9 @@ import math
 import zlib
 from collections.abc import Sequence
 
-from controller.bank.amplitude import AMPLITUDES, amplitude_step
-from controller.bank.composition import Composer, Point
 from controller.bank.reader import Bank
+from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
+from controller.waveforms.composition import Composer, Point
 
 LATTICE_M = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
 NEAR_M = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less (README.md)

@@ -16,7 +16,7 @@ import pytest
 
 from controller.application_socket import peers
 from controller.application_socket.command_socket import CommandSocket
-from controller.device_settings import ApplicationSocket
+from controller.board.devices import ApplicationSocket
 from controller.errors import ControllerError
 
 EFFECTS = ("click", "buzz")

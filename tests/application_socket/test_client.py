@@ -9,10 +9,10 @@ from collections import deque
 
 import pytest
 
-from controller.client import PanelClient, main
-from controller.command_source import Outcome
+from controller.application_socket.client import PanelClient, main
+from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError, LinkError
-from controller.panel_state import Condition, PanelState
+from controller.loop.commands import Outcome
 from controller.touch.samples import TouchSample
 
 

@@ -5,8 +5,8 @@ import re
 from pathlib import Path
 
 import controller.application_socket
-from controller.command_source import Outcome
-from controller.panel_state import Condition, PanelState
+from controller.board.panel_state import Condition, PanelState
+from controller.loop.commands import Outcome
 from controller.touch.samples import TouchSample
 
 README = Path(controller.application_socket.__file__).with_name("README.md")

@@ -11,13 +11,13 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
+from controller.application_socket.client import PanelClient
 from controller.application_socket.command_socket import WAITING_PER_CLIENT
 from controller.application_socket.peers import Peer, Rights
-from controller.client import PanelClient
-from controller.command_source import Outcome
+from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError
-from controller.panel_state import Condition, PanelState
-from controller.performance import MOST_WAITING
+from controller.loop.commands import Outcome
+from controller.loop.scheduler import MOST_WAITING
 
 PLAY_GROUP, OPERATE_GROUP = [group for group in grp.getgrall() if group.gr_gid not in (0, os.getegid(), 65534)][:2]
 GROUPS = {"play_group": PLAY_GROUP.gr_name, "operate_group": OPERATE_GROUP.gr_name}

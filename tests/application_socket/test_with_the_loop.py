@@ -11,12 +11,12 @@ from collections import Counter
 import pytest
 
 from controller.application_socket.command_socket import CommandSocket
-from controller.assembly import assemble
 from controller.bank.reader import Bank
+from controller.board.devices import ApplicationSocket
 from controller.clocks import VirtualClock
-from controller.device_settings import ApplicationSocket
-from controller.hardware import open_session, open_simulated, tracked
-from controller.scene import load_scene
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 

@@ -11,10 +11,10 @@ from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
-from controller.board import find_board, load_board
+from controller.bank_builder.build import build_bank
+from controller.board.board import find_board, load_board
 from controller.errors import BankError, ConfigError
-from controller.offline.bank_builder import build_bank
-from controller.offline.impulse_response import ResponseModel
+from controller.physics.impulse_response import ResponseModel
 
 PITCH_M = 35e-3  # 5 x 3 cells
 
@@ -106,8 +106,8 @@ def test_refuses_a_folder_that_cannot_be(board, tmp_path):
 BUILD = """
 import dataclasses, json, sys
 from pathlib import Path
-from controller.board import find_board, load_board
-from controller.offline.bank_builder import build_bank
+from controller.board.board import find_board, load_board
+from controller.bank_builder.build import build_bank
 print(json.dumps(dataclasses.asdict(build_bank(load_board(find_board("simulated")), Path(sys.argv[1]), 5e-3))))
 """
 

@@ -1,6 +1,6 @@
 """Host time of an upload, from the read of a touch report to the trigger call: the loop's beside that of a C twin.
 
-    python -m tests.benchmarks.host_latency [--bank FILE] [--emissions 20000] [--runs 3] [--json] [--plot FILE]
+    python -m tests.benchmark.host_latency [--bank FILE] [--emissions 20000] [--runs 3] [--json] [--plot FILE]
 
 The product's own loop plays recordings round and round on a scene of many emissions, over a link whose far end costs
 nothing (`null_link.py`; time within the link is not the host's). Time is virtual: the loop never sleeps, and both go the
@@ -25,17 +25,17 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
+from controller.board.board import Board, find_board, load_board
 from controller.clocks import VirtualClock
-from controller.hardware import open_session
-from controller.latency import STAGES, Counters
-from controller.scene import load_scene
+from controller.loop.wiring import assemble
+from controller.metrics import STAGES, Counters
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session
 from controller.touch.live_source import LiveSource
-from tests.benchmarks.looped_panel import LoopedPanel
-from tests.benchmarks.null_link import NullLink
-from tests.benchmarks.twin import Twin, Watched
+from tests.benchmark.looped_panel import LoopedPanel
+from tests.benchmark.null_link import NullLink
+from tests.benchmark.twin import Twin, Watched
 
 HERE = Path(__file__).parent
 RECORDINGS = sorted((HERE.parent / "touch/recordings").glob("*.ev*"))
@@ -159,7 +159,7 @@ def plot(figures: dict[str, Any], path: Path) -> None:
 
 def main() -> int:
     """The command."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.host_latency", description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmark.host_latency", description=__doc__.partition("\n")[0])
     parser.add_argument("--bank", type=Path, help="of board 'simulated'; default: one is built as the board says (half a minute)")
     parser.add_argument("--emissions", type=int, default=20_000)
     parser.add_argument("--runs", type=int, default=3)
@@ -169,7 +169,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         bank = options.bank
         if bank is None:
-            from controller.offline.bank_builder import build_bank
+            from controller.bank_builder.build import build_bank
 
             bank = Path(folder) / "simulated.bank"
             board = load_board(find_board("simulated"))

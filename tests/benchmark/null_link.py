@@ -10,10 +10,10 @@ import time
 import zlib
 from collections.abc import Callable, Sequence
 
-from controller.board import Board
+from controller.board.board import Board
 from controller.fpga.frames import CRC, FRAME_BYTES, STATUS
 from controller.fpga.registers import STATUS_SYNC, Result, State
-from controller.hardware import open_simulated
+from controller.service.drivers import open_simulated
 
 PAUSE_S = 0.25e-6  # chip select high between frames
 REST_EVERY_NS, REST_S = 600_000_000, 0.06  # the kernel stops a real-time process that never sleeps for 50 ms in each second

@@ -1,4 +1,4 @@
-"""For how long a change of scene holds up the loop: `python -m tests.benchmarks.scene_change [--busy 6] [--regions 2000]`.
+"""For how long a change of scene holds up the loop: `python -m tests.benchmark.scene_change [--busy 6] [--regions 2000]`.
 
 The calls of the loop are timed, at real-time priority if that is permitted, beside ordinary processes that never rest.
 """
@@ -18,10 +18,10 @@ import time
 from pathlib import Path
 
 from controller.bank.reader import Bank
-from controller.board import Board, find_board, load_board
-from controller.offline.bank_builder import build_bank
-from controller.scene_change import SceneChanger
-from controller.service import enter_realtime
+from controller.bank_builder.build import build_bank
+from controller.board.board import Board, find_board, load_board
+from controller.service.scene_reload import SceneChanger
+from controller.service.systemd import enter_realtime
 
 DEATHS = 5
 TURN_S = 5e-3

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from controller.bank.composition import Composer
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
+from controller.bank_builder.build import build_bank
+from controller.benchmark.amplitude import amplitude_figures
+from controller.benchmark.plot_amplitude import plot_amplitude
+from controller.benchmark.work_precision import emit
+from controller.commands.tables import amplitude_table
 from controller.errors import ConfigError
-from controller.offline.amplitude_figures import amplitude_figures
-from controller.offline.bank_builder import build_bank
-from controller.offline.plate_twin import PlateTwin
-from controller.offline.plot_amplitude import plot_amplitude
-from controller.offline.work_precision import emit
-from controller.tables import amplitude_table
+from controller.physics.plate_twin import PlateTwin
+from controller.waveforms.composition import Composer
 
 PITCH_M = 2.5e-3
 APART_M = 10e-3

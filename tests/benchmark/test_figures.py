@@ -2,8 +2,8 @@
 
 import pytest
 
-from controller.board import find_board, load_board
-from controller.offline.work_precision import MARGIN_M, figures, random_points, spread
+from controller.benchmark.work_precision import MARGIN_M, figures, random_points, spread
+from controller.board.board import find_board, load_board
 
 BOARD = load_board(find_board("simulated"))
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from controller.bank.packing import channel_bits
-from controller.board import find_board, load_board
-from controller.fpga.model_pins import ramp_bits
-from controller.offline.audible import surface_energy
-from controller.offline.idle_figures import first_order_bits, idle_figures, ramp_samples, ramp_words
-from controller.offline.plot_idle import plot_idle
-from controller.offline.work_precision import figures as focus_figures
+from controller.benchmark.idle import first_order_bits, idle_figures, ramp_samples, ramp_words
+from controller.benchmark.plot_idle import plot_idle
+from controller.benchmark.work_precision import figures as focus_figures
+from controller.board.board import find_board, load_board
+from controller.gateware_model.pins import ramp_bits
+from controller.physics.audible import surface_energy
 
 BOARD = load_board(find_board("simulated"))
 IDLE = BOARD.idle_word

@@ -7,9 +7,17 @@ from scipy.linalg import expm
 
 from controller.bank.packing import edges
 from controller.bank.reader import Bank
-from controller.board import Driver
-from controller.fpga.model_pins import ramp_bits
-from controller.offline.power import Resistor, bank_losses, half_charge_j, power_report, resistor_loss_j, stage_limits, worst_edge_j
+from controller.benchmark.power import (
+    Resistor,
+    bank_losses,
+    half_charge_j,
+    power_report,
+    resistor_loss_j,
+    stage_limits,
+    worst_edge_j,
+)
+from controller.board.board import Driver
+from controller.gateware_model.pins import ramp_bits
 
 PAPER = Driver(supply_v=60.0, resistance_ohm=2000.0, inductance_h=6.8e-3, capacitance_f=2e-9, moment_n_per_v=1e-3)
 PERIOD_S = 2e-6

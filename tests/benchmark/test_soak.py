@@ -5,8 +5,8 @@ import json
 import pytest
 
 from controller.bank.reader import Bank
-from controller.offline import soak
-from controller.scene import load_scene
+from controller.benchmark import soak
+from controller.scene.scene import load_scene
 from controller.touch.recording import Recording
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'

@@ -4,7 +4,7 @@ import pytest
 
 from controller.bank.reader import Bank
 from controller.touch import prediction
-from tests.benchmarks.host_latency import play
+from tests.benchmark.host_latency import play
 
 EMISSIONS = 700
 

@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from controller.bank.reader import Bank
-from controller.bank.selection import LATTICE_M, NEAR_M
-from controller.board import Board
+from controller.board.board import Board
 from controller.fpga.frames import FRAME_BYTES, PLAY, UPLOAD_BYTES
 from controller.fpga.registers import Control, FrameType
-from controller.latency import LatencyHistogram
-from controller.scene import Scene
+from controller.metrics import LatencyHistogram
+from controller.scene.scene import Scene
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.event_codes import POSITIONS
 from controller.touch.event_reader import DeviceDescription
 from controller.touch.linux_input import INPUT_EVENT
 from controller.touch.tracker import Tracker
+from controller.waveforms.selection import LATTICE_M, NEAR_M
 
 SOURCE = Path(__file__).with_name("c_twin.c")
 REGIONS = 16

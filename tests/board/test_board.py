@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.errors import ConfigError
-from controller.hardware import recording_path
-from controller.scene_file import find_scene
+from controller.scene.scene_file import find_scene
+from controller.service.drivers import recording_path
 
 SHIPPED = (find_board("simulated") / "board.toml").read_text()
 

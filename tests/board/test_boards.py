@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import data_folder, find_board, load_board
+from controller.board.board import data_folder, find_board, load_board
 from controller.fpga.build_hash import build_hash
-from controller.fpga.gateware import Parameters
-from controller.offline.rtl_build import verilator_root
+from controller.simulation.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")
 RTL = data_folder("fpga_rtl")
@@ -82,7 +82,7 @@ def test_every_board_loads(name):
 
 def made_of(name, *, of="board.toml"):
     """What the Makefile hands to the top, {parameter: value}, from a board.toml."""
-    command = [sys.executable, "-m", "controller.fpga.gateware", of, RTL]
+    command = [sys.executable, "-m", "controller.fpga.build_parameters", of, RTL]
     done = subprocess.run(command, cwd=BOARDS / name, capture_output=True, text=True, check=True)
     return {parameter: int(value) for parameter, value in re.findall(r"(\w+)=32'd(\d+)", done.stdout)}
 

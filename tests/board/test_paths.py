@@ -7,12 +7,12 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller import board as boards
-from controller.bank import location
 from controller.bank.grid import Grid
 from controller.bank.inspection import fit
-from controller.bank.location import bank_path, build_line, make_folder, state_folder
-from controller.board import find_board, load_board
+from controller.board import board as boards
+from controller.board import paths
+from controller.board.board import find_board, load_board
+from controller.board.paths import bank_path, build_line, make_folder, state_folder
 
 ROOT_ONLY = pytest.mark.skipif(os.geteuid() != 0, reason="only root gives files away")
 
@@ -30,7 +30,7 @@ def panel(tmp_path, monkeypatch):
     text = (find_board("ulx3s") / "board.toml").read_text()
     (folder / "board.toml").write_text(text)
     monkeypatch.setattr(boards, "SYSTEM_BOARDS", folder.parent)
-    monkeypatch.setattr(location, "SERVICE_STATE", tmp_path / "var" / "haptic-panel")
+    monkeypatch.setattr(paths, "SERVICE_STATE", tmp_path / "var" / "haptic-panel")
     return load_board(find_board("panel"))
 
 
@@ -65,7 +65,7 @@ def test_the_line_that_builds_a_bank_builds_that_bank(board, tmp_path):
 
 @ROOT_ONLY
 def test_folders_that_root_makes_for_the_service_are_the_services(panel, tmp_path, monkeypatch):
-    monkeypatch.setattr(location, "service_user", lambda: pwd.getpwnam("nobody"))
+    monkeypatch.setattr(paths, "service_user", lambda: pwd.getpwnam("nobody"))
     (tmp_path / "var").mkdir()
     folder = bank_path(panel).parent
     make_folder(folder)
@@ -93,21 +93,21 @@ def test_a_bank_that_root_builds_belongs_to_whom_its_folder_does(tmp_path, make_
 
 
 def test_a_folder_that_cannot_be_made_is_one_line_with_what_to_do(panel, monkeypatch):
-    monkeypatch.setattr(location, "SERVICE_STATE", location.Path("/proc/nothing"))
+    monkeypatch.setattr(paths, "SERVICE_STATE", paths.Path("/proc/nothing"))
     with pytest.raises(
-        location.BankError, match=r"/proc/nothing.*cannot be made .*root and the user haptic-panel may; else give --out"
+        paths.BankError, match=r"/proc/nothing.*cannot be made .*root and the user haptic-panel may; else give --out"
     ):
         make_folder(bank_path(panel).parent)
 
 
 def test_the_board_of_a_folder_without_a_name_is_called_by_its_own(board):
-    assert msgspec.structs.replace(board, folder=location.Path("/")).key == "simulated"
+    assert msgspec.structs.replace(board, folder=paths.Path("/")).key == "simulated"
 
 
 @ROOT_ONLY
 def test_a_bank_that_this_user_may_not_read_is_told_and_not_built_again(panel, tmp_path, make_bank):
     for place in (tmp_path, *tmp_path.parents):
-        if place != location.Path("/"):
+        if place != paths.Path("/"):
             place.chmod(place.stat().st_mode | 0o11)
     path = bank_path(panel)
     path.parent.mkdir(parents=True)
@@ -115,7 +115,7 @@ def test_a_bank_that_this_user_may_not_read_is_told_and_not_built_again(panel, t
     path.chmod(0o600)
     os.seteuid(pwd.getpwnam("nobody").pw_uid)
     try:
-        with pytest.raises(location.BankError, match=r"panel\.bank: cannot be read \(Permission denied\)$"):
+        with pytest.raises(paths.BankError, match=r"panel\.bank: cannot be read \(Permission denied\)$"):
             fit(path, panel, np.ones(Grid.of(panel.plate, panel.bank.pitch_mm * 1e-3).cells, bool))
     finally:
         os.seteuid(0)

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board import Board, find_board
+from controller.board.board import Board, find_board
+from controller.board.records import as_record
+from controller.board.validation import in_words
 from controller.errors import ConfigError
-from controller.records import as_record
-from controller.scene_file import SceneTable
-from controller.validation import in_words
+from controller.scene.scene_file import SceneTable
 
 BOARD = tomllib.loads((find_board("ulx3s") / "board.toml").read_text())
 SCENE = tomllib.loads((find_board("simulated") / "scene.toml").read_text())

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from controller.board import data_folder
-from controller.offline.rtl_build import Design, build_library
+from controller.board.board import data_folder
+from controller.simulation.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"

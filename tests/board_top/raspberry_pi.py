@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from compiled_top import CompiledTop, signal_pins, wires
 from gpiod.line import Direction, Value
 
-from controller import gpio_chip
+from controller.board import gpio_chip
 from controller.fpga import spi_link
 from controller.fpga.spi_messages import TRANSFER, message_request
 

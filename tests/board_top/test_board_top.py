@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.capture import Capture
@@ -24,7 +25,6 @@ from controller.fpga.frames import (
     pack_unlock,
     parse_status,
 )
-from controller.fpga.gateware import Parameters
 from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink

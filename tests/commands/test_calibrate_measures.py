@@ -5,14 +5,14 @@ import shutil
 
 import pytest
 
-from controller.board import load_board
+from controller.board.board import load_board
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.commands import calibrate_ghosts
 from controller.errors import CalibrationError, FaultError
-from controller.fpga.gateware import Permit
-from controller.hardware import open_simulated
-from controller.offline.ghostly_panel import GhostlyPanel, pins_of
+from controller.gateware_model.gateware import Permit
+from controller.service.drivers import open_simulated
+from controller.simulation.ghostly_panel import GhostlyPanel, pins_of
 from controller.touch.board_lines import with_value
 from controller.touch.kept_events import KeptEvents
 

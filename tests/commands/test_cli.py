@@ -12,20 +12,20 @@ import pytest
 from patience import communicate
 
 from controller.bank.inspection import bank_info
-from controller.bank.location import bank_path
 from controller.bank.reader import Bank
-from controller.board import find_board, load_board
+from controller.bank_builder.build import build_bank
+from controller.board.board import find_board, load_board
+from controller.board.paths import bank_path
 from controller.cli import main
 from controller.fpga import bring_up
-from controller.latency import Counters
-from controller.offline import simulated_run
-from controller.offline.bank_builder import build_bank
-from controller.offline.rtl_build import verilator_root
-from controller.offline.simulated_run import judge, report, spoiled
+from controller.metrics import Counters
+from controller.simulation import simulated_run
+from controller.simulation.rtl_build import verilator_root
+from controller.simulation.simulated_run import judge, report, spoiled
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
-RECORDINGS = Path(__file__).parent / "touch" / "recordings"
+RECORDINGS = Path(__file__).parent.parent / "touch" / "recordings"
 DEMO = find_board("simulated") / "demo.evemu"
 
 

@@ -10,24 +10,24 @@ from functools import partial
 
 import numpy as np
 from cobs import cobs
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.frames import parse_status
-from controller.fpga.gateware import (
+from controller.fpga.registers import Control, Register
+from controller.gateware_model.gateware import (
     READY_TICKS,
     SELECT_HIGH_TICKS,
     SELECT_TO_SCK_TICKS,
     TRIGGER_HIGH_TICKS,
     TRIGGER_PERIOD_TICKS,
-    Parameters,
     Permit,
     UartTiming,
     frame_ticks,
 )
-from controller.fpga.model import GatewareModel
-from controller.fpga.registers import Control, Register
+from controller.gateware_model.model import GatewareModel
 
 # A slow clock, so that words of 6 ticks are within the fastest bit clock, yet a waveform can play while it arrives
 CLOCK_HZ = 12_000_000

@@ -6,8 +6,8 @@ import numpy as np
 from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, IDLE_WORD, JUDGED_TICKS, SLOTS, Script
 
 from controller.fpga import frames
-from controller.fpga.gateware import Permit
 from controller.fpga.registers import PLAY_LANDING, READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, Register, Start
+from controller.gateware_model.gateware import Permit
 
 LENGTHS = (1, 2, 3, 5, 8, 30)
 BIT_PERIODS = (BIT_TICKS << 16, BIT_TICKS << 16, 7 << 16, 11 << 16, (6 << 16) + 21845, (7 << 16) + 65535)

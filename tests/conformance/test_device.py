@@ -9,16 +9,16 @@ import time
 
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Parameters
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, REGISTERS, Control, FrameType, Register, Start, State
 from controller.fpga.serial_link import SerialLink
-from controller.fpga.serial_peer import PseudoTerminal, UartPanel
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
 
 BUILD = build_hash(data_folder("fpga_rtl"))
 BAUD = int(os.environ.get("HAPTIC_PANEL_BAUD", "1000000"))

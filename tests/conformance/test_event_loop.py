@@ -5,8 +5,8 @@ import pytest
 from pin_script import MODEL, assert_same_capture, open_gateware
 
 from controller.bank.reader import Bank
-from controller.offline.simulated_run import judge, play, report
-from controller.scene import load_scene
+from controller.scene.scene import load_scene
+from controller.simulation.simulated_run import judge, play, report
 from controller.touch.recording import Recording
 
 SCENE = """

@@ -21,8 +21,8 @@ from pin_script import (
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import frame_ticks
 from controller.fpga.registers import Control, Register, Result, Start, State
+from controller.gateware_model.gateware import frame_ticks
 
 HEARTBEAT_TICKS = 20_000
 PAUSE_TICKS = 60  # in which a short frame of the UART has room

@@ -11,8 +11,8 @@ from random_script import random_script
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Permit
 from controller.fpga.registers import Fault, Result, State
+from controller.gateware_model.gateware import Permit
 
 SCRIPTS = 72
 SLOW_FRAMES = 100_000

@@ -19,8 +19,8 @@ from pin_script import (
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Permit
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, Control, Fault, Register, Start, State
+from controller.gateware_model.gateware import Permit
 
 WORDS = [0x1111 * number for number in range(1, 9)]
 LONG = bytes(range(250)) * 16  # of 1000 words, whose check lasts longer than a frame

@@ -7,11 +7,11 @@ import pytest
 from pin_script import BIT_TICKS, FRAME_TICKS, JUDGED_TICKS, Script, open_gateware
 from timing_case import expected, script_of, seen
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control
-from controller.offline.timing_diagram import picture_digest
-from controller.offline.timing_table import Change, load_cases
+from controller.simulation.timing_diagram import picture_digest
+from controller.simulation.timing_table import Change, load_cases
 
 FOLDER = data_folder("fpga_rtl") / "timing"
 CASES = {case.name: case for case in load_cases(FOLDER)}
@@ -46,7 +46,7 @@ def test_one_tick_of_any_output_or_of_some_input_is_seen(back_end, name):
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_picture_is_that_of_the_table(name):
-    """`.venv/bin/python -m controller.offline.timing_diagram` draws them."""
+    """`.venv/bin/python -m controller.simulation.timing_diagram` draws them."""
     assert picture_digest(FOLDER / f"{name}.svg") == CASES[name].digest
 
 

@@ -6,9 +6,9 @@ import numpy as np
 from pin_script import IDLE_WORD, Script
 
 from controller.fpga import frames
-from controller.fpga.gateware import TRIGGER_HIGH_TICKS, Permit
 from controller.fpga.registers import Control, Register, Start
-from controller.offline.timing_table import IDLE, drive_words
+from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, Permit
+from controller.simulation.timing_table import IDLE, drive_words
 
 SETTLED_TICKS = 20  # between the set-up and the first thing that a table does
 AFTER_TICKS = 100  # for which nothing else may happen

@@ -6,8 +6,9 @@ import json
 import msgspec
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import data_folder
+from controller.board.board import data_folder
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
@@ -16,12 +17,12 @@ from controller.fpga.build_hash import build_hash
 from controller.fpga.clock_relation import ClockRelation
 from controller.fpga.cut_through import keep, play_arriving, slowest_sck_hz
 from controller.fpga.exchange import Refused
-from controller.fpga.gateware import Parameters, Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Register, Result, Start
-from controller.fpga.serial_peer import PseudoTerminal, UartPanel
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
+from controller.gateware_model.simulated_link import SimulatedLink
 
 BUILD = build_hash(data_folder("fpga_rtl"))
 BITS = 3e4

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status, parse_status, upload_slices
-from controller.fpga.model_decoder import judge
 from controller.fpga.registers import (
     CRC_RESIDUE,
     IDENTITY_MAGIC,
@@ -21,6 +20,7 @@ from controller.fpga.registers import (
     Start,
     State,
 )
+from controller.gateware_model.decoder import judge
 
 u8, u16, u32 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32))
 bytes_of_words = st.integers(1, 125).flatmap(lambda words: st.binary(min_size=4 * words, max_size=4 * words))

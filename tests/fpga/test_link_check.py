@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import chi2
@@ -11,12 +12,11 @@ from scipy.stats import chi2
 from controller.clocks import VirtualClock
 from controller.fpga.bring_up import BitErrors, bit_errors
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.gateware import Parameters
 from controller.fpga.link_check import MARGIN, SWEEP_STEPS, Speed, counted, error_rate_bound, measured_hz, proposed_hz, sweep
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
 
 BUILD = 7
 

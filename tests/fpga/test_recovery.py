@@ -5,25 +5,26 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
+from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
-from controller.fpga.gateware import Parameters, Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.recovery import Action, Recovery, action_for, permitted, state_after
 from controller.fpga.registers import Fault, Register, Result, State
-from controller.fpga.restarting import RestartingGateware
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.outputs import Outputs
-from controller.panel_state import PanelState
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.restarting import RestartingGateware
+from controller.gateware_model.simulated_link import SimulatedLink
+from controller.loop.outputs import Outputs
+from controller.metrics import Counters
 
 BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")

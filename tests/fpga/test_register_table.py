@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import pytest
 
-from controller.offline.register_table import insert, main, reset_value, table, used_bits
+from controller.fpga.register_table import insert, main, reset_value, table, used_bits
 
 
 class Toy(IntEnum):
@@ -76,7 +76,7 @@ def test_the_table_replaces_the_one_that_is_there():
 
 
 def test_a_readme_is_rewritten(tmp_path, monkeypatch):
-    monkeypatch.setattr("controller.offline.register_table.REGISTERS", TOYS)
+    monkeypatch.setattr("controller.fpga.register_table.REGISTERS", TOYS)
     readme = tmp_path / "README.md"
     readme.write_text("| address | name |\n|---|---|\n")
     main(readme)

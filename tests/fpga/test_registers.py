@@ -2,10 +2,10 @@ import re
 
 import pytest
 
-from controller.board import FEWEST_BIT_TICKS, data_folder
+from controller.board.board import FEWEST_BIT_TICKS, data_folder
 from controller.fpga import registers
+from controller.fpga.register_table import ACCESS, insert, table
 from controller.fpga.registers import REGISTERS, Control, Fault, FrameType, Register, Result, Start, State
-from controller.offline.register_table import ACCESS, insert, table
 
 README = data_folder("fpga_rtl") / "README.md"
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
@@ -46,7 +46,7 @@ def test_every_register_is_described_once():
 
 
 def test_the_readme_has_the_table_of_the_code():
-    """`.venv/bin/python -m controller.offline.register_table` writes it."""
+    """`.venv/bin/python -m controller.fpga.register_table` writes it."""
     readme = README.read_text()
     assert insert(readme, table(REGISTERS)) == readme
     text = REGISTERS[Register.IDENTITY].text

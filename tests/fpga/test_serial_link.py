@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 import serial
 from cobs import cobs
+from controller.fpga.build_parameters import Parameters
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Parameters
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
-from controller.fpga.serial_peer import PseudoTerminal, UartPanel, decoded
 from controller.fpga.session import Session
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel, decoded
 
 BUILD = 0x1234ABCD
 BOARD = load_board(find_board("simulated"))

@@ -7,19 +7,20 @@ from dataclasses import replace
 import msgspec
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.gateware import Parameters, Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import READ_SLOT_CRC, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
 
 BUILD = 0x1234ABCD
 WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8)).cast("B")

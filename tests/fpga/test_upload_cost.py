@@ -10,17 +10,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.bank import reader
-from controller.bank import selection as selection_module
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
 from controller.fpga.time_base import TimeBase
 from controller.fpga.upload_image import UploadImage
-from controller.hardware import open_session, open_simulated
-from controller.latency import Counters
-from controller.playback import Playback
-from controller.scene import Emission
+from controller.loop.playback import Playback
+from controller.metrics import Counters
+from controller.scene.finger_state import Emission
+from controller.service.drivers import open_session, open_simulated
+from controller.waveforms import selection as selection_module
+from controller.waveforms.selection import Selection
 
 WORDS = memoryview(np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8))
 BUFFER = memoryview(bytearray(frames.UPLOAD_BYTES))

@@ -3,12 +3,13 @@
 import zlib
 
 import numpy as np
+from controller.fpga.build_parameters import Parameters
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Parameters, Permit, frame_ticks
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
+from controller.gateware_model.gateware import Permit, frame_ticks
+from controller.gateware_model.model import GatewareModel
 
 CLOCK_HZ = 20_000_000
 HASH = 0xC0FFEE

@@ -26,10 +26,10 @@ from model_host import (
 )
 
 from controller.fpga import frames
-from controller.fpga.gateware import Permit
-from controller.fpga.model_limits import PARTS, part_ticks
-from controller.fpga.model_pins import modulate, ramp_bits
 from controller.fpga.registers import DUTY_FULL, Control, Fault, Register, Result, Start, State
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.limits import PARTS, part_ticks
+from controller.gateware_model.pins import modulate, ramp_bits
 
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
 SHUT_TICKS = 3  # from a permit pin to the pins

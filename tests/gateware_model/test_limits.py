@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from limits_reference import NO_LIMITS, Inputs, limits_reference
 
-from controller.fpga.model_limits import (
+from controller.gateware_model.limits import (
     CHANNEL_EDGES,
     DUTY,
     EDGE_TICKS,

@@ -22,7 +22,6 @@ from model_host import (
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.model import GatewareModel
 from controller.fpga.registers import (
     PLAY_LANDING,
     READ_MEMORY,
@@ -34,6 +33,7 @@ from controller.fpga.registers import (
     Result,
     State,
 )
+from controller.gateware_model.model import GatewareModel
 
 
 def short(kind, argument=0, *words):

@@ -7,7 +7,7 @@ from alone import alone
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.fpga.model_pins import Pins
+from controller.gateware_model.pins import Pins
 
 HALF_TICKS = 7
 END = 400

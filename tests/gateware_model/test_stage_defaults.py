@@ -4,15 +4,15 @@ import selectors
 
 import numpy as np
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError
-from controller.fpga.gateware import Parameters
-from controller.fpga.model_limits import PARTS, part_ticks
-from controller.fpga.model_pins import ramp_bits
 from controller.fpga.registers import Fault, Register
-from controller.hardware import open_session, open_simulated
+from controller.gateware_model.limits import PARTS, part_ticks
+from controller.gateware_model.pins import ramp_bits
+from controller.service.drivers import open_session, open_simulated
 
 PERIOD_S = 2e-3  # of 500 Hz, and of an emission
 BUSIEST_EDGES_PER_S = 104e3  # of a channel at full duty, by `bank info --power`

@@ -19,7 +19,7 @@ from pathlib import Path
 import panel_board
 from the_service import CHECKOUT, UNIT, fresh_start, journal, main_pid, run, shown, wait_for
 
-from controller.client import PanelClient
+from controller.application_socket.client import PanelClient
 
 LENGTH_MM, WIDTH_MM = 165.0, 100.0
 DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88), (13, 52))  # no two are mirror images

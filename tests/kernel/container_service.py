@@ -28,7 +28,7 @@ from the_service import (
     wait_for,
 )
 
-from controller.client import PanelClient
+from controller.application_socket.client import PanelClient
 from controller.errors import LinkError
 
 FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
@@ -152,7 +152,7 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
 
 def as_user(name, *command):
     """The client of the package, as somebody who has just logged in."""
-    client = ["/opt/haptic-panel/bin/python", "-m", "controller.client", *command]
+    client = ["/opt/haptic-panel/bin/python", "-m", "controller.application_socket.client", *command]
     become = ["setpriv", f"--reuid={name}", f"--regid={name}", "--init-groups", "--"]
     return subprocess.run([*become, *client], cwd="/", check=False, capture_output=True, text=True)
 

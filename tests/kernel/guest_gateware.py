@@ -13,8 +13,9 @@ from gpio_lines import GpioLines
 from host_gateware import HostGateware
 
 from controller.bank.reader import Bank
-from controller.board import data_folder, find_board, load_board
-from controller.device_settings import LinkSettings
+from controller.bank_builder.build import build_bank
+from controller.board.board import data_folder, find_board, load_board
+from controller.board.devices import LinkSettings
 from controller.errors import ControllerError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.exchange import HostSilent, Refused
@@ -22,7 +23,6 @@ from controller.fpga.frames import pack_nop
 from controller.fpga.registers import Register, Result
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink
-from controller.offline.bank_builder import build_bank
 
 NAMES = ["TRIGGER", "PERMIT"]
 SETTINGS = LinkSettings(

@@ -14,9 +14,8 @@ import numpy as np
 from far_end_spi import FarEnd, GpioTrace
 from gpio_lines import GpioLines
 
-from controller.board import data_folder, find_board, load_board
-from controller.device_settings import LinkSettings, Temperature
-from controller.doctor import examine_link, look
+from controller.board.board import data_folder, find_board, load_board
+from controller.board.devices import LinkSettings, Temperature
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.exchange import FpgaReset
@@ -24,9 +23,10 @@ from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
 from controller.fpga.time_base import TimeBase
-from controller.latency import Counters
-from controller.outputs import Outputs
-from controller.temperature import RETRY_S, Thermometer
+from controller.loop.outputs import Outputs
+from controller.metrics import Counters
+from controller.service.doctor import examine_link, look
+from controller.service.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"
 NAMES = ["TRIGGER", "CONFIGURED", "PERMIT"]

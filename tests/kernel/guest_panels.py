@@ -25,8 +25,8 @@ from gpio_lines import GpioLines  # noqa: E402
 from peers.ft5x06_chip import Ft5x06Chip  # noqa: E402
 from peers.gt911_chip import STATUS, Gt911Chip  # noqa: E402
 
-from controller.board import find_board, load_board  # noqa: E402
-from controller.device_settings import Ft5x06Touch, Gt911Touch  # noqa: E402
+from controller.board.board import find_board, load_board  # noqa: E402
+from controller.board.devices import Ft5x06Touch, Gt911Touch  # noqa: E402
 from controller.errors import TouchError  # noqa: E402
 from controller.touch.ft5x06 import open_ft5x06  # noqa: E402
 from controller.touch.gt911 import open_gt911  # noqa: E402

@@ -10,8 +10,8 @@ import threading
 import traceback
 from pathlib import Path
 
-from controller.device_settings import Realtime
-from controller.service import enter_realtime
+from controller.board.devices import Realtime
+from controller.service.systemd import enter_realtime
 
 BANK_BYTES = 300 << 20
 

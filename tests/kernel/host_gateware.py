@@ -60,7 +60,7 @@ class Served:
     """What the host does of it."""
 
     def open(self, parameters):
-        from controller.offline.rtl_gateware import RtlGateware
+        from controller.simulation.rtl_gateware import RtlGateware
 
         self._gateware = RtlGateware(parameters)
         return self._gateware.now

@@ -16,8 +16,8 @@ from gpio_lines import GpioLines
 from host_gateware import HostGateware
 from the_service import cell, fresh_start, install, journal, main_pid, said, wait_for, wait_for_emission
 
-from controller.board import load_board
-from controller.client import PanelClient
+from controller.application_socket.client import PanelClient
+from controller.board.board import load_board
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "touch"))
 

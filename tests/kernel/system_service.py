@@ -29,7 +29,7 @@ from the_service import (
     wait_for_emission,
 )
 
-from controller.board import load_board
+from controller.board.board import load_board
 
 LINES = ["TRIGGER", "PERMIT"]
 LINK = """kind = "spi"

@@ -9,7 +9,7 @@ import panel_board
 import patience
 
 from controller.bank.reader import Bank
-from controller.board import load_board
+from controller.board.board import load_board
 
 CHECKOUT = Path(__file__).parents[2]
 UNIT = "haptic-panel"

@@ -11,15 +11,15 @@ import os
 import sys
 from pathlib import Path
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.board import find_board, load_board
+from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
-from controller.hardware import open_session, tracked
-from controller.scene import load_scene
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, tracked
 from controller.touch.live_source import LiveSource
-from tests.benchmarks.looped_panel import LoopedPanel
-from tests.benchmarks.null_link import NullLink
+from tests.benchmark.looped_panel import LoopedPanel
+from tests.benchmark.null_link import NullLink
 
 HERE = Path(__file__).parent
 RECORDINGS = sorted((HERE.parent / "touch/recordings").glob("*.ev*"))

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parent.parent
 SCENES = {
     "many emissions": HERE / "benchmarks/scene.toml",
     "the board's own": HERE.parent / "boards/simulated/scene.toml",
@@ -26,7 +26,7 @@ BLOCKS = 60  # of up to 512 bytes, more or fewer from one moment to another: con
 
 
 def steady(bank, scene, *more, before=(), environment=()):
-    command = [*before, sys.executable, "-m", "tests.allocations.steady_loop", bank, scene, str(WARM_UP), str(STEADY), *more]
+    command = [*before, sys.executable, "-m", "tests.loop.steady_loop", bank, scene, str(WARM_UP), str(STEADY), *more]
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(HERE.parent)} | dict(environment)
     done = subprocess.run(command, env=environment, cwd=HERE.parent, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)

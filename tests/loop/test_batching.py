@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.finger_state import Emission
-from controller.policy import APART_M, MOST, SAME_M, common_period_s, together
-from controller.scene_map import Spot
+from controller.loop.batching import APART_M, MOST, SAME_M, common_period_s, together
+from controller.scene.finger_state import Emission
+from controller.scene.scene import Spot
 
 T_S = 2e-3
 

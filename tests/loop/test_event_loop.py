@@ -16,22 +16,22 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
 from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
-from controller.event_loop import PREFETCH_AFTER_S
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
-from controller.hardware import open_session, open_simulated, tracked
-from controller.offline import simulated_run
-from controller.offline.simulated_run import foci_meant
-from controller.playback import _Repetition
-from controller.scene import load_scene
-from controller.scene_source import Prepared
+from controller.loop.event_loop import PREFETCH_AFTER_S
+from controller.loop.playback import _Repetition
+from controller.loop.scene_source import Prepared
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
+from controller.simulation import simulated_run
+from controller.simulation.simulated_run import foci_meant
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
+from controller.waveforms.selection import Selection
 
 
 def region(name, shape, effect):

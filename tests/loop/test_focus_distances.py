@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from controller.offline.impulse_response import ResponseModel
-from controller.policy import APART_M, SAME_M
+from controller.loop.batching import APART_M, SAME_M
+from controller.physics.impulse_response import ResponseModel
 
 
 @pytest.fixture(scope="module")

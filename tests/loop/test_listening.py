@@ -11,15 +11,15 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.fpga.time_base import TimeBase
-from controller.hardware import open_session, open_simulated, tracked
-from controller.latency import Counters
-from controller.offline.ghostly_panel import PERIOD_S, GhostlyPanel, pins_of
-from controller.playback import Playback, _Repetition
-from controller.scene import load_scene
+from controller.loop.playback import Playback, _Repetition
+from controller.loop.wiring import assemble
+from controller.metrics import Counters
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
+from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel, pins_of
 from controller.touch.ghost_guard import SHARE
 from controller.touch.live_source import LiveSource
 from controller.touch.panel import Protocol

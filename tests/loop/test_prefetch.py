@@ -7,10 +7,10 @@ import msgspec
 import pytest
 
 from controller.bank.reader import Bank
-from controller.bank.selection import NEAR_M
-from controller.offline.simulated_run import play
-from controller.scene import load_scene
+from controller.scene.scene import load_scene
+from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording
+from controller.waveforms.selection import NEAR_M
 
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -98,7 +98,7 @@ def test_rubbing_a_fine_texture_to_and_fro_goes_on(perform, board, seed):
 def test_of_what_is_sent_ahead_at_most_a_fifth_is_never_played(perform, board, bank_file):
     """Over the recordings of real panels on the board's own scene, and over strokes to and fro on textures."""
     scene = load_scene(board.folder / "scene.toml", board)
-    recordings = sorted((Path(__file__).parent / "touch" / "recordings").glob("*.ev*"))
+    recordings = sorted((Path(__file__).parent.parent / "touch" / "recordings").glob("*.ev*"))
     with Bank.open(bank_file, board) as bank:
         real = [play(board, scene, bank, Recording.open(file), real_time=False).counters for file in recordings]
     strokes = [perform(rubbing(9, 3.0), TEXTURE.replace("5.0", spacing)).counters for spacing in ("1.0", "2.0", "5.0")]

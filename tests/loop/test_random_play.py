@@ -13,16 +13,16 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError
-from controller.hardware import open_session, open_simulated, tracked
-from controller.scene import load_scene
-from controller.scene_source import Prepared
+from controller.loop.scene_source import Prepared
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
+from controller.waveforms.selection import Selection
 
 LENGTH_MM, WIDTH_MM = 210.0, 148.0
 START_S = 0.1

@@ -10,20 +10,21 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
 from controller.clocks import VirtualClock
 from controller.errors import BankError
-from controller.event_loop import BEAT_LEAD_S
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.time_base import TimeBase
-from controller.hardware import open_session, open_simulated, tracked
-from controller.latency import Counters
-from controller.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
-from controller.scene import Emission, load_scene
+from controller.loop.event_loop import BEAT_LEAD_S
+from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
+from controller.loop.wiring import assemble
+from controller.metrics import Counters
+from controller.scene.finger_state import Emission
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
+from controller.waveforms.selection import Selection
 
 PLATE = 'shape = "plate"'
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from controller.command_source import Outcome
 from controller.errors import ConfigError
-from controller.latency import Counters
-from controller.performance import MOST_WAITING, Performance
-from controller.scene import load_scene
+from controller.loop.commands import Outcome
+from controller.loop.scheduler import MOST_WAITING, Performance
+from controller.metrics import Counters
+from controller.scene.scene import load_scene
 from controller.touch.samples import TouchSample
 
 SCENE = """

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.slot_cache import FEWEST_FREE, SlotCache
+from controller.loop.slot_cache import FEWEST_FREE, SlotCache
 
 
 def same(_key):

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from controller.board import Driver
-from controller.offline.driver import DriverResponse
+from controller.board.board import Driver
+from controller.physics.driver import DriverResponse
 
 PAPER = Driver(supply_v=60.0, resistance_ohm=2000.0, inductance_h=6.8e-3, capacitance_f=2e-9, moment_n_per_v=1e-3)
 TIMES_S = np.array([0.3e-6, 2e-6, 7e-6, 30e-6, 200e-6])

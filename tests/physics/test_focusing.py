@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from controller.bank.packing import channel_bits
-from controller.board import find_board, load_board
-from controller.offline.focusing import focus
-from controller.offline.impulse_response import ResponseModel
+from controller.board.board import find_board, load_board
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
 
 BOARD = load_board(find_board("simulated"))
 

@@ -4,9 +4,9 @@ import pytest
 from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits, drive_words
-from controller.board import find_board, load_board
-from controller.offline.impulse_response import ResponseModel, band_gain, pulse_response
-from controller.offline.row_responses import in_rows
+from controller.board.board import find_board, load_board
+from controller.physics.impulse_response import ResponseModel, band_gain, pulse_response
+from controller.physics.row_responses import in_rows
 
 BOARD = load_board(find_board("simulated"))
 POINTS = np.random.default_rng(3).uniform([0.01, 0.01], [0.2, 0.138], (20, 2))

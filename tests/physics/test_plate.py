@@ -2,9 +2,9 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.board import Plate
+from controller.board.board import Plate
 from controller.errors import ConfigError
-from controller.offline.plate import PlateModes, bending_stiffness
+from controller.physics.plate import PlateModes, bending_stiffness
 
 PAPER = Plate(
     length_mm=210.0,

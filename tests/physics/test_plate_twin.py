@@ -4,18 +4,18 @@ import pytest
 from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits
-from controller.board import find_board, load_board
+from controller.benchmark.idle import ramp_words
+from controller.board.board import find_board, load_board
 from controller.fpga.capture import Capture
-from controller.fpga.model_pins import ramp_bits
-from controller.offline.audible import surface_energy
-from controller.offline.driver import DriverResponse
-from controller.offline.field import AROUND_S, LINE_M, half_width
-from controller.offline.focusing import focus
-from controller.offline.idle_figures import ramp_words
-from controller.offline.impulse_response import ResponseModel
-from controller.offline.plate import PlateModes
-from controller.offline.plate_twin import PlateTwin, capture_of_words
-from controller.offline.step_response import StepResponse
+from controller.gateware_model.pins import ramp_bits
+from controller.physics.audible import surface_energy
+from controller.physics.driver import DriverResponse
+from controller.physics.field import AROUND_S, LINE_M, half_width
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import PlateModes
+from controller.physics.plate_twin import PlateTwin, capture_of_words
+from controller.physics.step_response import StepResponse
 
 BOARD = load_board(find_board("simulated"))
 IDLE = BOARD.idle_word

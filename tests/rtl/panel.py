@@ -36,7 +36,8 @@ from controller.bank.reader import Bank
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import (
+from controller.fpga.registers import Control, Register, Result, State
+from controller.gateware_model.gateware import (
     BAUD,
     READY_TICKS,
     SCK_TICKS,
@@ -47,8 +48,7 @@ from controller.fpga.gateware import (
     TRIGGER_PERIOD_TICKS,
     Permit,
 )
-from controller.fpga.model import INPUT_TICKS, GatewareModel
-from controller.fpga.registers import Control, Register, Result, State
+from controller.gateware_model.model import INPUT_TICKS, GatewareModel
 
 __all__ = [
     "BIT_TICKS",

@@ -34,8 +34,6 @@ from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.configuration import LIMITS
 from controller.fpga.frames import FRAME_BYTES, parse_status
-from controller.fpga.gateware import Permit
-from controller.fpga.model_player import FETCH_TICKS
 from controller.fpga.registers import (
     FILTER_TICKS,
     IDENTITY_MAGIC,
@@ -54,6 +52,8 @@ from controller.fpga.registers import (
     Start,
     State,
 )
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.player import FETCH_TICKS
 
 SHORT = 20  # words of most waveforms here
 SOUNDING = SHORT * BIT_TICKS

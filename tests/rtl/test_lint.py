@@ -12,10 +12,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller.board import find_board, load_board
-from controller.fpga.gateware import Parameters
-from controller.offline.rtl_build import verilator_root
+from controller.board.board import find_board, load_board
+from controller.simulation.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
 WAIVERS = RTL / "lint_waivers.vlt"

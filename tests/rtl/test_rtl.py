@@ -11,7 +11,7 @@ from benches import BENCHES, RUNS
 from verilog_coverage import MODULES, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
 from controller.bank.grid import Grid
-from controller.offline.bank_builder import build_bank
+from controller.bank_builder.build import build_bank
 
 PITCH_M = 5e-3
 

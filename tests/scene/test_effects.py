@@ -5,11 +5,11 @@ import re
 import msgspec
 import pytest
 
-from controller.board import data_folder, load_board
-from controller.effects import EffectTable, library
+from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene import load_scene
-from controller.trains import Train
+from controller.scene.effects import EffectTable, library
+from controller.scene.scene import load_scene
+from controller.scene.trains import Train
 
 BOARD = load_board(data_folder("boards") / "simulated")
 CLICK = '{ effect = "click" }'

@@ -9,7 +9,7 @@ PIANO = "".join(
     'effects = ["click", { effect = "click", when = "release", amplitude = 0.5 }]\n'
     for k in range(10)
 )
-LIBRARY = (Path(__file__).parents[1] / "boards" / "simulated" / "library.toml").read_text()
+LIBRARY = (Path(__file__).parents[2] / "boards" / "simulated" / "library.toml").read_text()
 
 
 def felt(run):

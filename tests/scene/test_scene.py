@@ -9,37 +9,31 @@ from alone import alone
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller import scene_file, shapes
 from controller.bank.grid import Grid
-from controller.bank.selection import LATTICE_M
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene import (
-    OUTSIDE,
-    Area,
-    Scene,
-    Spot,
+from controller.scene import scene_file, shapes
+from controller.scene.finger_state import spot_emission
+from controller.scene.fingers import (
     UnknownEffect,
     anchored,
-    edge_warnings,
     ended,
-    find_scene,
-    load_scene,
     next_time_s,
     on_time,
     on_touch,
-    reach,
-    spot_emission,
     start_effect,
     stopped,
     taken_over,
 )
-from controller.scene_message import pack_scene, unpack_scene
-from controller.shapes import Boxes, Circle, Polygon, Rectangle
+from controller.scene.scene import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene.scene_file import find_scene
+from controller.scene.shapes import Boxes, Circle, Polygon, Rectangle
+from controller.scene.trains import Train
+from controller.service.scene_message import pack_scene, unpack_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.samples import TouchSample
-from controller.trains import Train
+from controller.waveforms.selection import LATTICE_M
 
 BOARD = load_board(data_folder("boards") / "simulated")
 

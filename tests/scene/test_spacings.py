@@ -6,9 +6,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from controller.effects import EffectTable
-from controller.shapes import Circle, Polygon, Rectangle
-from controller.spacings import REARM, REARM_MOST_M, REST_M, Spacing, spacing_of
+from controller.scene.effects import EffectTable
+from controller.scene.shapes import Circle, Polygon, Rectangle
+from controller.scene.spacings import REARM, REARM_MOST_M, REST_M, Spacing, spacing_of
 
 places = st.lists(st.tuples(st.integers(-4, 4), st.floats(REARM + 0.001, 1 - REARM - 0.001)), min_size=2, max_size=60)
 

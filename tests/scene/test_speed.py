@@ -1,10 +1,12 @@
-"""Benchmarks: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/test_scene_speed.py`."""
+"""Benchmarks: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/scene/test_speed.py`."""
 
 import pytest
 
-from controller.finger_state import Emission
-from controller.policy import together
-from controller.scene import find_scene, load_scene, on_time, on_touch, start_effect
+from controller.loop.batching import together
+from controller.scene.finger_state import Emission
+from controller.scene.fingers import on_time, on_touch, start_effect
+from controller.scene.scene import load_scene
+from controller.scene.scene_file import find_scene
 from controller.touch.samples import TouchSample
 
 REPORTS = 1000

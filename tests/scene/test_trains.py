@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.effects import EffectTable
-from controller.trains import NO_BEAT, Running, Train, silent, train_of
+from controller.scene.effects import EffectTable
+from controller.scene.trains import NO_BEAT, Running, Train, silent, train_of
 
 TENTH = ((0.0, 0.5), (0.1, 1.0))
 

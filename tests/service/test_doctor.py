@@ -10,28 +10,22 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from controller.fpga.build_parameters import Parameters
 
-from controller import board as boards
-from controller import doctor
-from controller.bank.location import bank_path
-from controller.board import find_board, load_board
+from controller.bank_builder.build import build_bank
+from controller.board import board as boards
+from controller.board.board import find_board, load_board
+from controller.board.devices import Ft5x06Touch, LinkSettings, LinuxInputTouch, Realtime, SerialTouch, Temperature
+from controller.board.paths import bank_path
 from controller.cli import main
 from controller.clocks import VirtualClock
-from controller.device_settings import (
-    Ft5x06Touch,
-    LinkSettings,
-    LinuxInputTouch,
-    Realtime,
-    SerialTouch,
-    Temperature,
-)
-from controller.doctor import examine_link, look
 from controller.fpga import spi_link
-from controller.fpga.gateware import Parameters, Permit
-from controller.fpga.model import GatewareModel
 from controller.fpga.session import Session
-from controller.fpga.simulated_link import SimulatedLink
-from controller.offline.bank_builder import build_bank
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
+from controller.service import doctor
+from controller.service.doctor import examine_link, look
 
 AXES = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
 SPI = LinkSettings(

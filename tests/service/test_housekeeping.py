@@ -4,14 +4,14 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
+from controller.board.devices import Temperature
 from controller.clocks import VirtualClock
-from controller.device_settings import Temperature
-from controller.hardware import open_session, open_simulated, open_thermometer, tracked
-from controller.housekeeping import Housekeeping
-from controller.scene import load_scene
-from controller.service import Notifier, Watchdog
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, open_thermometer, tracked
+from controller.service.housekeeping import Housekeeping
+from controller.service.systemd import Notifier, Watchdog
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 

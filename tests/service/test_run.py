@@ -17,15 +17,15 @@ import tty
 from pathlib import Path
 
 import pytest
+from controller.fpga.build_parameters import Parameters
 from patience import communicate
 
-from controller.board import load_board
-from controller.client import PanelClient
+from controller.application_socket.client import PanelClient
+from controller.board.board import load_board
 from controller.errors import ControllerError
-from controller.fpga.gateware import Parameters
-from controller.fpga.model import GatewareModel
-from controller.fpga.serial_peer import PseudoTerminal, UartPanel
-from controller.hardware import gateware_hash
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
+from controller.service.drivers import gateware_hash
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'

@@ -12,13 +12,21 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from controller import scene_change, scene_message
 from controller.bank.reader import Bank
 from controller.errors import BankError, ConfigError
-from controller.prepare_scene import populate
-from controller.scene import Scene, load_scene
-from controller.scene_change import SceneChanger
-from controller.scene_message import HEADER, MOST_BYTES, MessageError, pack_request, pack_scene, unpack_request, unpack_scene
+from controller.scene.scene import Scene, load_scene
+from controller.service import scene_message, scene_reload
+from controller.service.prepare_scene import populate
+from controller.service.scene_message import (
+    HEADER,
+    MOST_BYTES,
+    MessageError,
+    pack_request,
+    pack_scene,
+    unpack_request,
+    unpack_scene,
+)
+from controller.service.scene_reload import SceneChanger
 
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 
@@ -186,7 +194,7 @@ def test_of_a_helper_that_dies_at_work_another_one_takes_over_once(changer):
 
 
 def test_a_helper_that_hangs_is_ended_and_the_next_change_is_made(changer, monkeypatch):
-    monkeypatch.setattr(scene_change, "GRACE_S", -scene_change.LIMIT_S)
+    monkeypatch.setattr(scene_reload, "GRACE_S", -scene_reload.LIMIT_S)
     before = changer.pid
     os.kill(before, signal.SIGSTOP)
     changer.begin("scene", 11)
@@ -201,7 +209,7 @@ def test_a_helper_that_hangs_is_ended_and_the_next_change_is_made(changer, monke
 def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
     os.kill(changer.pid, signal.SIGKILL)
     os.waitid(os.P_PID, changer.pid, os.WEXITED | os.WNOWAIT)
-    monkeypatch.setattr(scene_change, "_fork", lambda: -1)
+    monkeypatch.setattr(scene_reload, "_fork", lambda: -1)
     changer.begin("scene", 4)
     done = changer.take()
     assert (done.ticket, done.scene, done.reason) == (4, None, "no process to prepare a scene")
@@ -212,7 +220,7 @@ def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
 def test_nothing_of_the_working_directory_is_run_or_read(board, bank, folder, tmp_path, monkeypatch):
     here = tmp_path / "here"
     (here / "controller").mkdir(parents=True)
-    for name in ("controller/__init__.py", "controller/scene_helper.py", "msgspec.py", "numpy.py", "sitecustomize.py"):
+    for name in ("controller/__init__.py", "controller/service/scene_helper.py", "msgspec.py", "numpy.py", "sitecustomize.py"):
         (here / name).write_text(f"open({str(here / 'was run')!r}, 'w')\nraise SystemExit('the wrong {name}')\n")
     (here / "drums").write_text(CLICK)
     monkeypatch.chdir(here)
@@ -242,7 +250,7 @@ def test_it_ends_with_the_loop(changer):
 
 
 def test_a_bank_that_lacks_what_the_scene_reaches_is_refused(board, bank, folder, tmp_path):
-    from controller.offline.bank_builder import build_bank
+    from controller.bank_builder.build import build_bank
 
     file = tmp_path / "corner.bank"
     reached = (bank.grid.points() < 0.06).all(axis=1)

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.service import PINGS_PER_TIMEOUT, Notifier, Watchdog
+from controller.service.systemd import PINGS_PER_TIMEOUT, Notifier, Watchdog
 
 
 @pytest.fixture(params=["path", "abstract"])
@@ -132,8 +132,8 @@ def in_a_process_without_rights(code):
 import os, resource
 from math import inf
 import numpy
-from controller.device_settings import Realtime
-from controller.service import enter_realtime, one_blas_thread
+from controller.board.devices import Realtime
+from controller.service.systemd import enter_realtime, one_blas_thread
 resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
 resource.setrlimit(resource.RLIMIT_MEMLOCK, (65536, 65536))
 if os.getuid() == 0:

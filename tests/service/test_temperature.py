@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller import temperature
-from controller.device_settings import Temperature
-from controller.temperature import (
+from controller.board.devices import Temperature
+from controller.board.worker import WorkerEnded
+from controller.service import temperature
+from controller.service.temperature import (
     ANSWER,
     HANGS_S,
     HOLD_S,
@@ -24,7 +25,6 @@ from controller.temperature import (
     lm75_c,
     serve_sensor,
 )
-from controller.worker import WorkerEnded
 
 SETTINGS = Temperature(kind="hwmon", device="plate", coefficient_per_k=-100e-6)
 

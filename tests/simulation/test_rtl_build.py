@@ -3,8 +3,8 @@
 import pytest
 
 from controller.errors import LinkError
-from controller.offline import rtl_build
-from controller.offline.rtl_build import build_library, verilator_root
+from controller.simulation import rtl_build
+from controller.simulation.rtl_build import build_library, verilator_root
 
 PARAMETERS = {"CLOCK_HZ": 1_000_000, "SLOTS": 2, "BUILD_HASH": 1, "HEARTBEAT_TICKS_MAX": 1000}
 

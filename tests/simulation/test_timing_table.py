@@ -4,8 +4,8 @@ import dataclasses
 
 import pytest
 
-from controller.offline.timing_diagram import LONGEST_TICKS, TimeAxis, draw, main, picture_digest
-from controller.offline.timing_table import Change, load_cases, read_case, read_table, read_tick
+from controller.simulation.timing_diagram import LONGEST_TICKS, TimeAxis, draw, main, picture_digest
+from controller.simulation.timing_table import Change, load_cases, read_case, read_table, read_tick
 
 TICKS = {"first": 6, "shut": 3}
 ENTRIES = {

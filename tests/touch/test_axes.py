@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.touch.axes import Axes, AxisRange
 
 BOARD = load_board(data_folder("boards") / "simulated")

@@ -4,9 +4,9 @@ import random
 
 import pytest
 
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.errors import CalibrationError
-from controller.offline.ghostly_panel import GhostlyPanel
+from controller.simulation.ghostly_panel import GhostlyPanel
 from controller.touch.ghost_figures import FEWEST_EMISSIONS, MARGIN_MS, MARGIN_OF_FEW_MS, ghost_figures
 from controller.touch.kept_events import KeptEvents, emission_event, recording_text
 from controller.touch.panel import Protocol

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board import data_folder, load_board
-from controller.device_settings import TouchPanel
-from controller.offline.ghostly_panel import PERIOD_S, GhostlyPanel
+from controller.board.board import data_folder, load_board
+from controller.board.devices import TouchPanel
+from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel
 from controller.touch.ghost_guard import SHARE, GhostGuard, Listening
 from controller.touch.live_source import LiveSource
 from controller.touch.panel import Protocol

@@ -5,9 +5,9 @@ import random
 
 import pytest
 
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.errors import CalibrationError
-from controller.offline.simulated_strokes import simulated_strokes
+from controller.simulation.simulated_strokes import simulated_strokes
 from controller.touch.lag_figures import lag_figures
 from controller.touch.recording import Recording
 

@@ -10,19 +10,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.assembly import assemble
 from controller.bank.reader import Bank
+from controller.board.devices import Gt911Touch, Temperature
+from controller.board.worker import Worker, WorkerEnded
 from controller.clocks import VirtualClock
-from controller.device_settings import Gt911Touch, Temperature
 from controller.errors import TouchError
-from controller.hardware import open_session, open_simulated, tracked
-from controller.scene import load_scene
+from controller.loop.wiring import assemble
+from controller.scene.scene import load_scene
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch import panel_messages as messages
 from controller.touch.awaited_reader import LOST, UNSEEN
 from controller.touch.contact_events import describe
 from controller.touch.live_source import LiveSource
 from controller.touch.panel_process import HANGS_S, PanelProcess, serve_panel
-from controller.worker import Worker, WorkerEnded
 
 PROGRAM = Path(__file__).parent / "peers" / "gt911_process.py"
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -238,7 +238,7 @@ def test_code_from_the_working_directory_is_not_run(tmp_path, monkeypatch):
     (tmp_path / "controller.py").write_text("raise SystemExit('not ours')")
     monkeypatch.chdir(tmp_path)
     settings = msgspec.json.encode(Temperature(kind="hwmon", device="/nowhere", coefficient_per_k=0.0)).decode()
-    worker = Worker(["-m", "controller.beside_loop", "thermometer", "0", settings])
+    worker = Worker(["-m", "controller.service.beside_loop", "thermometer", "0", settings])
     worker.send(b"?")
     answer = None
     while answer is None:

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scripted_source import ScriptedSource, touch
 
-from controller.device_settings import TouchPanel
-from controller.offline.prediction_error import HORIZONS_MS, METHODS, Kalman, main, measure, overshoot_m, rest_m
+from controller.benchmark.prediction_error import HORIZONS_MS, METHODS, Kalman, main, measure, overshoot_m, rest_m
+from controller.board.devices import TouchPanel
 from controller.touch.prediction import FARTHEST_AHEAD_M, LONGEST_AHEAD_S, PAUSE_S, REST_M, REST_REPORTS, STOP_GAIN, Motion
 from controller.touch.recording import Recording
 from controller.touch.tracker import Tracker

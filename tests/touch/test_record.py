@@ -13,8 +13,8 @@ import pytest
 from patience import communicate
 from peers.elo_panel import INITIAL, UNTOUCH, touch
 
+from controller.board.devices import SerialTouch
 from controller.cli import main
-from controller.device_settings import SerialTouch
 from controller.errors import ConfigError, TouchError
 from controller.touch.live_source import LiveSource
 from controller.touch.panel import Protocol

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board import data_folder, load_board
+from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError, TouchError
 from controller.touch.axes import AxisRange
 from controller.touch.panel import Protocol

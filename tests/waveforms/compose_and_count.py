@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from controller.bank.reader import Bank
-from controller.bank.selection import Selection
+from controller.waveforms.selection import Selection
 
 ROUNDS = 10
 

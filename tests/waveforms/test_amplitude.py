@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from controller.bank.amplitude import SHARES, THRESHOLDS, hold_threshold
-from controller.bank.composition import Composer
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, edges
 from controller.bank.reader import Bank
+from controller.waveforms.amplitude import SHARES, THRESHOLDS, hold_threshold
+from controller.waveforms.composition import Composer
 
 IDLE_WORD = 0x69969669
 IDLE = np.array([IDLE_WORD >> q & 1 for q in range(CHANNELS)])

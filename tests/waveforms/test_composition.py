@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from controller.bank.composition import MOST_POINTS, Composer
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.errors import BankError
+from controller.waveforms.composition import MOST_POINTS, Composer
 
 IDLE_WORD = 0x69969669
 SAMPLES = 200  # of the waves

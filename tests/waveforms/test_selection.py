@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.bank.amplitude import AMPLITUDES, amplitude_step
-from controller.bank.composition import Composer
 from controller.bank.packing import edges
 from controller.bank.reader import Bank
-from controller.bank.selection import LATTICE_M, Selection
+from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
+from controller.waveforms.composition import Composer
+from controller.waveforms.selection import LATTICE_M, Selection
 
 SNAP_M = 1e-3
 

@@ -1,13 +1,13 @@
-"""Benchmarks: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/bank/test_speed.py`."""
+"""Benchmarks: `pytest -o addopts=--import-mode=importlib --benchmark-only tests/waveforms/test_speed.py`."""
 
 import zlib
 
 import numpy as np
 import pytest
 
-from controller.bank.composition import Composer
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
+from controller.waveforms.composition import Composer
 
 GRID = Grid(5e-3, 7, 6, 5e-3, 6e-3)
 

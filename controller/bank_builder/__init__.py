@@ -1,0 +1,1 @@
+"""Builds banks of precomputed waveforms, on any computer."""

@@ -1,0 +1,1 @@
+"""Every command that makes a figure of the README."""
