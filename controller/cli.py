@@ -1,6 +1,6 @@
 """The command line: arguments, exit codes, printing. Every command is a module of `commands`, and one call into a room.
 
-The offline room is imported only by the commands that need it: a device may lack its packages.
+Physics, simulation and benchmarks are imported only by the commands that need them: a device may lack their packages.
 """
 
 from __future__ import annotations

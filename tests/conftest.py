@@ -12,6 +12,8 @@ from controller.scene.scene import load_scene
 from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording
 
+pytest_plugins = ["random_banks"]
+
 # How long an example takes says how busy the machine is, not whether the code is right.
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")

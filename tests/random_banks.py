@@ -1,3 +1,5 @@
+"""Banks of random responses, and of smooth ones: for tests of the file and of what is composed from it."""
+
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,16 +10,11 @@ from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, drive_words, quantise
 from controller.bank.writer import BankWriter
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board
 
 IDLE_WORD = 0x69969669
 MakeBank = Callable[..., dict[int, np.ndarray]]
 WAVE_SAMPLES = 200
-
-
-@pytest.fixture(scope="session")
-def board() -> Board:
-    return load_board(find_board("simulated"))
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""Picture of `amplitude_figures`: asked against got, and what less amplitude does to contrast and edges."""
+"""Picture of `amplitude`: asked against got, and what less amplitude does to contrast and edges."""
 
 from __future__ import annotations
 

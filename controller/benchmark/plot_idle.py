@@ -1,4 +1,4 @@
-"""Picture of `idle_figures`: the plate with and without the idle word, and what can be heard of getting there."""
+"""Picture of `idle`: the plate with and without the idle word, and what can be heard of getting there."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The FPGA as the host sees it: registers, frames, links, and a bit-exact model of the gateware."""
+"""The FPGA as the host sees it: registers, frames, links, session, recovery and bring-up."""

@@ -6,19 +6,13 @@ ends tick t.
 
 from __future__ import annotations
 
-import math
-import sys
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import IntEnum
-from pathlib import Path
 from typing import Protocol, Self
 
-from controller.board.board import Board, load_board
-from controller.errors import ConfigError
-from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.fpga.registers import DUTY_FULL
 
 READY_TICKS = 8  # from reset to the first frame and the first trigger: inputs pass through registers
 SELECT_TO_SCK_TICKS = 5  # chip select falls at least this long before the first SCK edge
@@ -27,7 +21,6 @@ SCK_TO_RELEASE_TICKS = 3  # from its last rise to the rise of chip select at lea
 SELECT_HIGH_TICKS = 4  # chip select stays high at least this long between frames
 TRIGGER_HIGH_TICKS = 4  # of a trigger, as it is given here
 TRIGGER_PERIOD_TICKS = 8  # between rises of the trigger: high for four clocks, low for four
-EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
 
 
 BAUD = 1_000_000  # of the UART, what `haptic_core.v` has by itself
@@ -45,65 +38,6 @@ class Permit(IntEnum):
 
     RUN = 0
     TEMPERATURE = 1
-
-
-@dataclass(frozen=True)
-class Parameters:
-    """What is fixed when the gateware is built; names are those of `haptic_core.v` in lower case.
-
-    The limits are hard: whatever the host writes, or does not, none of them is exceeded.
-    """
-
-    clock_hz: int
-    slots: int
-    build_hash: int
-    board: int
-    bit_period_reset: int
-    ramp_samples_reset: int
-    channel_mask_max: int
-    hv_settle_ticks: int
-    heartbeat_ticks_max: int
-    edge_window_ticks: int
-    pulse_ticks_min: int
-    channel_edges_max: int
-    total_edges_max: int
-    emission_ticks_max: int
-    duty_share_max: int
-    duty_ticks_max: int
-
-    @classmethod
-    def of(cls, board: Board, build_hash: int) -> Self:
-        """Those of a board: what its bitstream is built with, what simulates it, and what bring-up asks for.
-
-        Parameters
-        ----------
-        board : Board
-        build_hash : int
-            Of the Verilog.
-        """
-        limits, clock_hz = board.limits, board.link.clock_hz
-        return cls(
-            clock_hz=clock_hz,
-            slots=board.link.slots,
-            build_hash=build_hash,
-            board=int.from_bytes(b"SIM ", "little"),  # a bitstream has the letters of its own top.v
-            bit_period_reset=board.bit_period,
-            ramp_samples_reset=max(1, round(limits.ramp_ms * 1e-3 * board.waveform.bit_clock_hz)),
-            channel_mask_max=board.channel_mask,
-            hv_settle_ticks=math.ceil(limits.hv_settle_us * 1e-6 * clock_hz),
-            heartbeat_ticks_max=round(limits.heartbeat_timeout_ms * 1e-3 * clock_hz),
-            edge_window_ticks=round(clock_hz * EDGE_WINDOW_S),
-            pulse_ticks_min=math.floor(limits.min_pulse_us * 1e-6 * clock_hz),
-            channel_edges_max=math.floor(limits.max_channel_edge_rate_hz * EDGE_WINDOW_S),
-            total_edges_max=math.floor(limits.max_total_edge_rate_hz * EDGE_WINDOW_S),
-            emission_ticks_max=round(limits.longest_emission_ms * 1e-3 * clock_hz),
-            duty_share_max=round(limits.max_duty * DUTY_FULL),
-            duty_ticks_max=round(limits.duty_budget_ms * 1e-3 * clock_hz),
-        )
-
-    def verilog(self) -> dict[str, int]:
-        """Parameters of the Verilog module."""
-        return {name.upper(): value for name, value in asdict(self).items()}
 
 
 class Gateware(Protocol):
@@ -206,17 +140,3 @@ class InputTiming:
         if not 1 <= high_ticks <= TRIGGER_HIGH_TICKS:
             raise ValueError(f"the trigger is high for {high_ticks} ticks, not 1 to {TRIGGER_HIGH_TICKS}")
         self._trigger_from = tick + TRIGGER_PERIOD_TICKS
-
-
-def main(board_toml: str, folder: str) -> None:
-    """Print the parameters of a board's bitstream, `NAME=32'dVALUE`: what its Makefile passes on."""
-    try:
-        parameters = Parameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
-    except (ConfigError, OSError) as error:
-        sys.exit(str(error))
-    built_in = parameters.verilog().items() - {("BOARD", parameters.board)}  # its letters are top.v's
-    sys.stdout.write(" ".join(f"{name}=32'd{value}" for name, value in sorted(built_in)) + "\n")
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

@@ -1,1 +1,1 @@
-"""Physics and tools that run on any computer, never on the device; may import scipy and matplotlib."""
+"""Plate, driver, responses and fields, and the plate twin: on any computer, never on the device."""

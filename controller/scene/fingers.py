@@ -22,36 +22,10 @@ from __future__ import annotations
 import math
 
 from controller.errors import ConfigError
-from controller.scene.finger_state import COMMAND, Emission, FingerState, spot_emission
-from controller.scene.scene import OUTSIDE, Area, Meshes, Scene, Spot, edge_warnings, load_scene, reach
-from controller.scene.scene_file import find_scene
+from controller.scene.finger_state import COMMAND, Emission, FingerState
+from controller.scene.scene import OUTSIDE, Scene
 from controller.scene.trains import Running, Train
 from controller.touch.samples import TouchSample
-
-__all__ = [
-    "OUTSIDE",
-    "ROUNDING_S",
-    "Area",
-    "Emission",
-    "FingerState",
-    "Meshes",
-    "Scene",
-    "Spot",
-    "UnknownEffect",
-    "anchored",
-    "edge_warnings",
-    "ended",
-    "find_scene",
-    "load_scene",
-    "next_time_s",
-    "on_time",
-    "on_touch",
-    "reach",
-    "spot_emission",
-    "start_effect",
-    "stopped",
-    "taken_over",
-]
 
 ROUNDING_S = 1e-9
 

@@ -1,4 +1,4 @@
-"""The processes beside the loop: `python -m controller.service.beside_loop panel|thermometer PRIORITY SETTINGS`, the settings as JSON.
+"""The processes beside the loop: `python -m controller.service.beside_loop panel|thermometer PRIORITY SETTINGS` (JSON).
 
 Started by the service (`worker`); standard input is the way to it. They end when it does, and by no signal that is
 meant for it: a service manager sends those to all of a service's processes.

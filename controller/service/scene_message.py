@@ -1,7 +1,7 @@
 """What goes between the loop and the process that prepares scenes for it: versioned, bounded, checked data.
 
 A message is a header (magic, version, length, CRC-32; little-endian) and that many bytes of MessagePack. The scene
-in it is what `scene_map`, `trains`, `spacings` and `shapes` declare, within the ranges that their types give; the board is
+in it is what `scene`, `trains`, `spacings` and `shapes` declare, within the ranges that their types give; the board is
 `board.Board`. Whatever does not fit is refused as a whole.
 """
 

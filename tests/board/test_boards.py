@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import data_folder, find_board, load_board
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.simulation.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import data_folder, load_board
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import (

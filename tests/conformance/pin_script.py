@@ -10,11 +10,11 @@ from functools import partial
 
 import numpy as np
 from cobs import cobs
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import parse_status
 from controller.fpga.registers import Control, Register
 from controller.gateware_model.gateware import (

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 from hard_limits import broken_limits
 from pin_script import BUILD_HASH, PARAMETERS, Script, readable
 
 from controller.board.board import find_board, load_board
 from controller.fpga import frames
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Fault, Register, Start
 from controller.gateware_model.gateware import Permit

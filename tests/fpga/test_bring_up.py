@@ -6,7 +6,6 @@ import json
 import msgspec
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import data_folder
 from controller.cli import main
@@ -14,6 +13,7 @@ from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import bring_up
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.clock_relation import ClockRelation
 from controller.fpga.cut_through import keep, play_arriving, slowest_sck_hz
 from controller.fpga.exchange import Refused

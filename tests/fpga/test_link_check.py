@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
 from controller.fpga.bring_up import BitErrors, bit_errors
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.link_check import MARGIN, SWEEP_STEPS, Speed, counted, error_rate_bound, measured_hz, proposed_hz, sweep
 from controller.fpga.registers import Register

@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,7 @@ from controller.board.board import find_board, load_board
 from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
 from controller.fpga.recovery import Action, Recovery, action_for, permitted, state_after

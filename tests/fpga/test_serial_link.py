@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import serial
 from cobs import cobs
-from controller.fpga.build_parameters import Parameters
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,6 +17,7 @@ from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES, parse_status
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire

@@ -7,12 +7,12 @@ from dataclasses import replace
 import msgspec
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES

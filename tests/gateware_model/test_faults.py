@@ -1,6 +1,6 @@
 """Arming, ramps, disarming and every cause for which the gateware model shuts its outputs.
 
-SHORT_PULSE and LONG_EMISSION stand behind what registers and PLAY refuse already: test_model_limits.py has them.
+SHORT_PULSE and LONG_EMISSION stand behind what registers and PLAY refuse already: test_limits.py has them.
 """
 
 from dataclasses import replace

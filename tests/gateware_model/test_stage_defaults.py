@@ -4,11 +4,11 @@ import selectors
 
 import numpy as np
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import find_board, load_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import Fault, Register
 from controller.gateware_model.limits import PARTS, part_ticks
 from controller.gateware_model.pins import ramp_bits

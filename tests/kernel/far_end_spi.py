@@ -14,10 +14,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import data_folder
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import Parameters
 from controller.gateware_model.gateware import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, Permit, frame_ticks
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.restarting import RestartingGateware

@@ -1,7 +1,7 @@
 """Once the loop is warm it takes no memory: no block over 512 bytes, no growth, no new pages.
 
-Each test runs `allocations/steady_loop.py` as a process of its own: recordings of up to five fingers on a scene, the
-product's loop, a link that says yes. The C library's allocator is counted by `allocations/counter.c`, which is loaded
+Each test runs `steady_loop.py` as a process of its own: recordings of up to five fingers on a scene, the
+product's loop, a link that says yes. The C library's allocator is counted by `counter.c`, which is loaded
 before it; the kernel is asked by strace. Objects of up to 512 bytes come from the interpreter's own arenas: those it
 would have to map anew, which strace would see.
 """
@@ -15,11 +15,12 @@ from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent.parent
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
 SCENES = {
-    "many emissions": HERE / "benchmarks/scene.toml",
-    "the board's own": HERE.parent / "boards/simulated/scene.toml",
-    "every effect": HERE.parent / "boards/simulated/library.toml",
+    "many emissions": HERE.parent / "benchmark/scene.toml",
+    "the board's own": ROOT / "boards/simulated/scene.toml",
+    "every effect": ROOT / "boards/simulated/library.toml",
 }
 WARM_UP, STEADY = 1000, 2000
 BLOCKS = 60  # of up to 512 bytes, more or fewer from one moment to another: contacts that are down, lists of them
@@ -27,15 +28,15 @@ BLOCKS = 60  # of up to 512 bytes, more or fewer from one moment to another: con
 
 def steady(bank, scene, *more, before=(), environment=()):
     command = [*before, sys.executable, "-m", "tests.loop.steady_loop", bank, scene, str(WARM_UP), str(STEADY), *more]
-    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(HERE.parent)} | dict(environment)
-    done = subprocess.run(command, env=environment, cwd=HERE.parent, capture_output=True, text=True, check=True)
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)} | dict(environment)
+    done = subprocess.run(command, env=environment, cwd=ROOT, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 
 
 @pytest.fixture(scope="module")
 def counter(tmp_path_factory):
     library = tmp_path_factory.mktemp("counter") / "counter.so"
-    source = HERE / "allocations/counter.c"
+    source = HERE / "counter.c"
     subprocess.run(["cc", "-O2", "-Wall", "-Werror", "-shared", "-fPIC", "-o", library, source], check=True)
     return {"LD_PRELOAD": str(library)}
 

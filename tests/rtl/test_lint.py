@@ -12,9 +12,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.board.board import find_board, load_board
+from controller.fpga.build_parameters import Parameters
 from controller.simulation.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from controller.fpga.build_parameters import Parameters
 
 from controller.bank_builder.build import build_bank
 from controller.board import board as boards
@@ -20,6 +19,7 @@ from controller.board.paths import bank_path
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel

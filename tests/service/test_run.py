@@ -17,12 +17,12 @@ import tty
 from pathlib import Path
 
 import pytest
-from controller.fpga.build_parameters import Parameters
 from patience import communicate
 
 from controller.application_socket.client import PanelClient
 from controller.board.board import load_board
 from controller.errors import ControllerError
+from controller.fpga.build_parameters import Parameters
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
 from controller.service.drivers import gateware_hash
