@@ -31,7 +31,7 @@ from controller.board.board import Board
 from controller.board.devices import ApplicationSocket
 from controller.board.panel_state import Condition
 from controller.errors import ControllerError
-from controller.log import Priority, tell
+from controller.log import Priority, log
 from controller.loop.commands import Outcome, PanelControl
 from controller.loop.scheduler import MOST_WAITING
 from controller.touch.samples import TouchSample
@@ -341,7 +341,7 @@ class CommandSocket:
                 self._answer(client, request.id, "refused", self._rights.why_not(client.peer, "operate"))
             case messages.Arm() | messages.Disarm():
                 on = isinstance(request, messages.Arm)
-                tell(f"{self._rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
+                log(f"{self._rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
                 control.switch(on)
                 self._remember(on)
                 self._answer(client, request.id, "done")
@@ -356,7 +356,7 @@ class CommandSocket:
                 except ControllerError as error:
                     self.loaded(ticket, str(error))
                 else:
-                    tell(f"{self._rights.called(client.peer)} loads the scene {name!r}")
+                    log(f"{self._rights.called(client.peer)} loads the scene {name!r}")
             case messages.AskFigures(id=number):
                 if now_s >= self._figures_until_s:
                     self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
@@ -398,7 +398,7 @@ class CommandSocket:
             else:
                 self._disarmed.touch(mode=0o600)
         except OSError as error:
-            tell(f"{self._disarmed}: {error.strerror}: a restart would not know that the panel was switched", Priority.WARNING)
+            log(f"{self._disarmed}: {error.strerror}: a restart would not know that the panel was switched", Priority.WARNING)
 
     def _state(self, number: Id) -> messages.State:
         now = self.condition
