@@ -716,6 +716,17 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         link.close()
 
 
+def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, cell, evemu_text):
+    """Which has run for 100 s when this host begins."""
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
+        loop._time_base.offset_s, given = 100.0, []
+        loop._performance.touch = given.append
+        loop._read(loop._source.next_time_s())
+        link.close()
+    assert [sample.time_s for sample in given] == [pytest.approx(100.1)]
+
+
 def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
     """Not from when the loop came to read it, a millisecond later."""
 
