@@ -39,6 +39,10 @@ class Clients:
 
     Attributes
     ----------
+    places : list of Connection
+        One for each client that may be connected; those without a client are not `open`.
+    first : int
+        Index of the place that is served first in the next turn.
     rights : Rights
         What users may do.
     next_s : float
@@ -68,12 +72,12 @@ class Clients:
         self._listen_s = NEVER  # when the listener is watched again
         self._epoll = select.epoll()
         self._epoll.register(self._listener_fd, select.EPOLLIN)
-        self._places = [Connection(settings.commands_per_s, settings.burst) for _ in range(settings.max_clients)]
-        self._first = 0  # index of the client that is served first
+        self.places = [Connection(settings.commands_per_s, settings.burst) for _ in range(settings.max_clients)]
+        self.first = 0
 
     def __iter__(self) -> Iterator[Connection]:
         """Every connected client."""
-        return (client for client in self._places if client.open)
+        return (client for client in self.places if client.open)
 
     def fileno(self) -> int:
         """File that is readable when `receive` has something to do."""
@@ -86,7 +90,7 @@ class Clients:
             if fd == self._listener_fd:
                 arrived = True
                 continue
-            client = next(client for client in self._places if client.fd == fd)
+            client = next(client for client in self.places if client.fd == fd)
             if events & (select.EPOLLHUP | select.EPOLLERR):
                 client.deaf = True  # both directions are shut: what it sent is still carried out
             if not client.ended:
@@ -97,25 +101,36 @@ class Clients:
             self._listen_s = NEVER
             self._epoll.register(self._listener_fd, select.EPOLLIN)
 
-    def serve_each(self, now_s: float, serve: Callable[[Connection], bool]) -> None:
-        """Serve each client in turn, then send what is queued for it.
+    def begin_turn(self) -> None:
+        """Forget when to serve next; each `settle` of the turn may bring that time forward."""
+        self.next_s = self._listen_s
 
-        The client after the last one for which `serve` returned True comes first the next time, so that
-        all get their share of a turn's lines.
-        """
-        self.next_s = next_s = self._listen_s
-        first, count = self._first, len(self._places)
-        for number in range(count):
-            client = self._places[(first + number) % count]
-            if client.open:
-                if client.resume_s <= now_s and serve(client):
-                    self._first = (first + number + 1) % count
-                next_s = min(next_s, self._settle(client, now_s))
-        self.next_s = min(self.next_s, next_s)  # an outcome may have been sent meanwhile
+    def settle(self, client: Connection, now_s: float) -> None:
+        """After a client's lines: send, then watch its socket for what can come next, or disconnect it."""
+        client.flush()
+        if client.leaving_reason and client.leave_s == NEVER:
+            self._counters.told_to_go += 1
+            self.unsubscribe(client)
+            client.leave_s = now_s + LEAVE_S
+        has_line = client.has_line and not client.leaving_reason
+        over = client.ended and not has_line and not client.waiting and not client.subscribed and not client.informed
+        if (
+            (client.leaving_reason and not client.unsent)
+            or client.leave_s <= now_s
+            or (client.ended and client.deaf and not has_line)
+            or (over and not client.unsent)
+        ):
+            self._disconnect(client)
+            return
+        paused = client.resume_s > now_s
+        wanted = UNWATCHED if paused else _events(client)
+        if wanted != client.watched:
+            self._watch(client, wanted)
+        self.next_s = min(self.next_s, client.leave_s, client.resume_s if paused else NOW if has_line else NEVER)
 
     def with_serial(self, serial: int) -> Connection | None:
         """The client with this serial number; None if it has disconnected."""
-        return next((client for client in self._places if client.serial == serial), None)
+        return next((client for client in self.places if client.serial == serial), None)
 
     def pause(self, client: Connection, now_s: float) -> None:
         """Stop reading a client that sends too fast, for the longer the more clients there are."""
@@ -193,10 +208,10 @@ class Clients:
         reason = ""
         if not operator and len(own) >= self._clients_per_user:
             there, reason = own, f"{len(own)} clients of {self.rights.called(peer)} are connected already"
-        elif len(there) == len(self._places):
+        elif len(there) == len(self.places):
             reason = f"{len(there)} clients are connected already"
         else:
-            return next(client for client in self._places if not client.open), ""
+            return next(client for client in self.places if not client.open), ""
         idle = [client for client in there if client.silent and now_s - client.heard_s >= self._idle_s]
         if operator and not idle:
             idle = [client for client in there if "operate" not in client.rights]
@@ -208,31 +223,6 @@ class Clients:
         gone.flush()
         self._disconnect(gone)
         return gone, ""
-
-    def _settle(self, client: Connection, now_s: float) -> float:
-        """Send, then watch the socket or disconnect; returns when to serve this client although nothing is readable."""
-        client.flush()
-        if client.leaving_reason and client.leave_s == NEVER:
-            self._counters.told_to_go += 1
-            self.unsubscribe(client)
-            client.leave_s = now_s + LEAVE_S
-        has_line = client.has_line and not client.leaving_reason
-        over = client.ended and not has_line and not client.waiting and not client.subscribed and not client.informed
-        if (
-            (client.leaving_reason and not client.unsent)
-            or client.leave_s <= now_s
-            or (client.ended and client.deaf and not has_line)
-            or (over and not client.unsent)
-        ):
-            self._disconnect(client)
-            return NEVER
-        paused = client.resume_s > now_s
-        wanted = UNWATCHED if paused else _events(client)
-        if wanted != client.watched:
-            self._watch(client, wanted)
-        if paused:
-            return min(client.resume_s, client.leave_s)
-        return NOW if has_line else client.leave_s
 
     def _watch(self, client: Connection, wanted: int) -> None:
         if client.watched == UNWATCHED:

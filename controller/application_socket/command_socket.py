@@ -10,7 +10,6 @@ import socket
 from collections.abc import Callable, Sequence
 
 from controller.application_socket.clients import Clients
-from controller.application_socket.connection import Connection
 from controller.application_socket.counters import SocketCounters
 from controller.application_socket.notifications import Notifications
 from controller.application_socket.peers import Peer, peer_of
@@ -78,17 +77,17 @@ class CommandSocket:
 
     def serve(self, now_s: float, control: PanelControl) -> None:
         """Read what clients sent, a bounded part of it, and answer what can be answered."""
-        left = LINES_A_TURN
-
-        def serve_client(client: Connection) -> bool:
-            nonlocal left
-            if not left:
-                return False
-            left -= self._requests.serve(client, min(left, LINES_A_CLIENT), now_s, control)
-            return True
-
-        self._clients.receive(now_s)
-        self._clients.serve_each(now_s, serve_client)
+        clients = self._clients
+        clients.receive(now_s)
+        clients.begin_turn()
+        left, count = LINES_A_TURN, len(clients.places)
+        for number in range(clients.first, clients.first + count):
+            client = clients.places[number % count]
+            if client.open:
+                if left and client.resume_s <= now_s:
+                    left -= self._requests.serve(client, min(left, LINES_A_CLIENT), now_s, control)
+                    clients.first = (number + 1) % count  # the next turn begins with the client after the last one served
+                clients.settle(client, now_s)
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
         """Send the touch samples of one report to the clients that subscribed to touches."""

@@ -27,7 +27,7 @@ class Notifications:
         """Send the touch samples of one report, lengths in mm."""
         if not self._clients.touch_subscribers:
             return
-        for client in self._clients:
+        for client in self._clients.places:
             if client.subscribed:
                 for finger, x_m, y_m, time_s, contact, size_m in samples:
                     client.put(
@@ -45,7 +45,7 @@ class Notifications:
     def changed(self, condition: Condition) -> None:
         """Keep the panel's new condition, and send it."""
         self.condition = condition
-        for client in self._clients:
+        for client in self._clients.places:
             if client.informed:
                 client.put(self.state())
                 self._clients.send(client)
