@@ -12,7 +12,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from controller.board.board import Board
-from controller.board.records import Positive, Record, load_toml
+from controller.board.records import PlaceMm, Record, SizeMm, load_toml
 from controller.errors import ConfigError
 from controller.scene.effects import (
     ROUNDING,
@@ -44,24 +44,24 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
 class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
     """A rectangle from its corner of smallest x and y."""
 
-    x_mm: float
-    y_mm: float
-    width_mm: Positive
-    height_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    width_mm: SizeMm
+    height_mm: SizeMm
 
 
 class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
     """A disc around its centre."""
 
-    x_mm: float
-    y_mm: float
-    radius_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    radius_mm: SizeMm
 
 
 class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
     """A polygon by its corners."""
 
-    corners_mm: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3, max_length=1000)]
+    corners_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(min_length=3, max_length=1000)]
 
     def __post_init__(self) -> None:
         crossing = Polygon(self.corners_mm).crossing()
