@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from controller.scene.finger_state import Emission, spot_emission
+from controller.scene.emission import Emission, spot_emission
 from controller.scene.scene import Spot
 
 MOST = 10  # foci of one waveform

@@ -23,11 +23,10 @@ from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
 from controller.loop.playback import ENDLESS, Playback
 from controller.loop.scene_source import SceneChange
-from controller.loop.scheduler import Performance
+from controller.loop.scheduler import ROUNDING_S, Performance
 from controller.loop.signals import Wakeup, signals
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
-from controller.scene.fingers import ROUNDING_S
+from controller.scene.emission import Emission
 from controller.touch.samples import TouchSample
 from controller.touch.source import TrackedTouch
 

@@ -20,7 +20,7 @@ from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key, Selection
 

@@ -19,7 +19,7 @@ from controller.scene.effects import EffectTable
 from controller.scene.scene_file import RegionRead, Shape, read_scene, spot_at
 from controller.scene.shapes import Boxes, Place
 from controller.scene.spacings import Spacing, spacing_of
-from controller.scene.trains import Loudness, Train, train_of
+from controller.scene.trains import EffectiveAmplitude, Train, train_of
 
 OUTSIDE = -1
 SLACK_M = 0.25e-3  # points may be rounded by this much before their cells are asked for (waveforms/selection.py)
@@ -34,7 +34,7 @@ class Spot(NamedTuple):
     y_m: Place
     rate_hz: Annotated[float, Meta(ge=0.1, le=1000)]
     region: str
-    amplitude: Loudness = 1.0
+    amplitude: EffectiveAmplitude = 1.0
     phase: Annotated[float, Meta(ge=0, lt=1)] = 0.0
     alternate: bool = False
 

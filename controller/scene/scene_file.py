@@ -16,7 +16,7 @@ from controller.board.records import PlaceMm, Record, SizeMm, load_toml
 from controller.errors import ConfigError
 from controller.scene.effects import (
     ROUNDING,
-    WEAKEST,
+    MIN_AMPLITUDE,
     Amplitude,
     Effects,
     EffectTable,
@@ -183,10 +183,10 @@ def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], 
             raise ConfigError(f'{at} has when = "command": an application plays it, no region does; keep it in [effects]')
         if "always" in effect.occasions and any("always" in other.occasions for other in effects[:number]):
             raise ConfigError(f"{at}: region {region.name!r} has a spot already; give each spot a region")
-        if effect.strength * region.amplitude < WEAKEST * (1 - ROUNDING):
+        if effect.strength * region.amplitude < MIN_AMPLITUDE * (1 - ROUNDING):
             raise ConfigError(
                 f"{at}: amplitude {effect.strength:g} in a region of amplitude {region.amplitude:g} is"
-                f" {effect.strength * region.amplitude:.3g}, below {WEAKEST:g}, the weakest that the plate plays"
+                f" {effect.strength * region.amplitude:.3g}, below {MIN_AMPLITUDE:g}, the weakest that the plate plays"
             )
         if silent(train_of(effect)):
             raise ConfigError(f"{at}.envelope is silent at every emission of the train")

@@ -17,7 +17,7 @@ from controller.fpga.time_base import TimeBase
 from controller.fpga.upload_image import UploadImage
 from controller.loop.playback import Playback
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.service.drivers import open_session, open_simulated
 from controller.waveforms import selection as selection_module
 from controller.waveforms.selection import Selection

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.loop.batching import APART_M, MOST, SAME_M, common_period_s, together
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.scene.scene import Spot
 
 T_S = 2e-3

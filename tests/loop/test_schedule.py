@@ -19,7 +19,7 @@ from controller.loop.event_loop import BEAT_LEAD_S
 from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
 from controller.loop.wiring import assemble
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording

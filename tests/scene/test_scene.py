@@ -13,18 +13,8 @@ from controller.bank.grid import Grid
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
 from controller.scene import scene_file, shapes
-from controller.scene.finger_state import spot_emission
-from controller.scene.fingers import (
-    UnknownEffect,
-    anchored,
-    ended,
-    next_time_s,
-    on_time,
-    on_touch,
-    start_effect,
-    stopped,
-    taken_over,
-)
+from controller.scene.emission import spot_emission
+from controller.scene.fingers import ActiveEffects, UnknownEffect
 from controller.scene.scene import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
 from controller.scene.scene_file import find_scene
 from controller.scene.shapes import Boxes, Circle, Polygon, Rectangle
@@ -65,6 +55,16 @@ def at(x_mm, y_mm=70.0, time_s=0.0, contact=True, finger=3):
     return TouchSample(finger, x_mm * 1e-3, y_mm * 1e-3, time_s, contact)
 
 
+def on_touch(scene, active, sample):
+    """Active effects of a finger after a sample (None: it is lifted), and the emissions that are due; `active` None: it is new."""
+    if active is None:
+        active = ActiveEffects(scene, sample.finger, sample.x_m, sample.y_m)
+        return (active, active.press(sample.time_s)) if sample.contact else (None, ())
+    if sample.contact:
+        return active, active.move(sample.x_m, sample.y_m, sample.time_s)
+    return None, active.release(sample.time_s)
+
+
 def touch(scene, *samples):
     """Emissions of each sample of one finger, as (x in mm, region) or None, and its state after them."""
     state, felt = None, []
@@ -81,13 +81,13 @@ def test_a_click_is_felt_on_press_only(scene_of):
     felt, state = touch(scene, at(60), at(61), at(61, contact=False), at(60))
     assert felt == [(60, "square"), None, None, (60, "square")]
     assert (state.finger, state.x_m, state.y_m, state.region) == (3, 0.060, 0.070, 0)
-    assert ended(state)
+    assert state.ended
 
 
 def test_sliding_into_a_click_or_train_is_not_felt(scene_of):
     felt, state = touch(scene_of(square(CLICK + "," + TRAIN)), at(40), at(60), at(70))
     assert felt == [None, None, None]
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 def test_outside_of_all_regions_nothing_is_felt(scene_of):
@@ -135,58 +135,58 @@ def test_a_train_beats_from_the_press_and_follows_the_finger(scene_of):
     scene = scene_of(square(TRAIN))
     state, first = on_touch(scene, None, at(60, time_s=10.0))
     assert [e.time_s for e in first] == [10.0]
-    assert next_time_s(state) == pytest.approx(10.01)
-    assert on_time(scene, state, 10.0099) == (state, ())
+    assert state.next_s == pytest.approx(10.01)
+    assert state.advance(10.0099) == ()
     state, _ = on_touch(scene, state, at(62, time_s=10.005))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (second,) = state.advance(state.next_s)
     assert (second.time_s, second.x_m, second.region, second.finger) == (pytest.approx(10.01), 0.062, "square", 3)
-    state, (third,) = on_time(scene, state, 10.0213)
+    (third,) = state.advance(10.0213)
     assert third.time_s == pytest.approx(10.02)
-    assert next_time_s(state) is None  # 30 ms at 100 Hz are three
-    assert on_time(scene, state, 99.0) == (state, ())
+    assert state.ended  # 30 ms at 100 Hz are three
+    assert state.advance(99.0) == ()
 
 
 def test_a_late_train_plays_one_and_keeps_its_beat(scene_of):
     scene = scene_of(square(TRAIN.replace("30", "1000")))
     state, _ = on_touch(scene, None, at(60, time_s=0.0))
-    state, (late,) = on_time(scene, state, 0.0455)
+    (late,) = state.advance(0.0455)
     assert late.time_s == pytest.approx(0.04)
-    assert next_time_s(state) == pytest.approx(0.05)
-    state, (last,) = on_time(scene, state, 77.0)
+    assert state.next_s == pytest.approx(0.05)
+    (last,) = state.advance(77.0)
     assert last.time_s == pytest.approx(0.99)
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 def test_a_train_read_at_the_very_time_of_a_beat_plays_that_beat(scene_of):
     scene = scene_of(square(TRAIN.replace("100", "64").replace("30", "100")))
     state, _ = on_touch(scene, None, at(60))
-    assert [on_time(scene, state, beat / 64)[1][0].time_s * 64 for beat in (1, 2)] == [1, 2]
+    assert [state.advance(beat / 64)[0].time_s * 64 for beat in (1, 2)] == [1, 2]
 
 
 @pytest.mark.parametrize("press_s", [5.0, 20.0, 33.3])
 def test_rounding_gives_a_late_train_no_beat_more(scene_of, press_s):
     scene = scene_of(square(TRAIN))
     state, _ = on_touch(scene, None, at(60, time_s=press_s))
-    assert on_time(scene, state, 77.0)[1][0].time_s == pytest.approx(press_s + 0.02)
+    assert state.advance(77.0)[0].time_s == pytest.approx(press_s + 0.02)
 
 
 def test_a_train_of_one_beat_is_over_with_the_press(scene_of):
     state, emissions = on_touch(scene_of(square(TRAIN.replace("30", "10"))), None, at(60))
     assert len(emissions) == 1
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 @pytest.mark.parametrize("end", [at(60, contact=False), at(20)])
 def test_a_train_ends_when_the_finger_is_lifted_or_leaves(scene_of, end):
     _, state = touch(scene_of(square(TRAIN)), at(60), end)
-    assert state is None or next_time_s(state) is None
+    assert state is None or state.ended
 
 
 def test_several_effects_of_one_press_are_one_emission(scene_of):
     scene = scene_of(square(f"{CLICK}, {TRAIN}, {TEXTURE}"))
     felt, state = touch(scene, at(60), at(65))
     assert felt == [(60, "square"), (65, "square")]
-    assert next_time_s(state) == pytest.approx(0.01)
+    assert state.next_s == pytest.approx(0.01)
 
 
 def test_spots_are_at_the_centre_or_where_told(scene_of):
@@ -276,14 +276,14 @@ def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes
     entered = scene_of(square(PRESSED.replace("press", "enter")))
     state, _ = on_touch(entered, None, at(40))
     state, (first,) = on_touch(entered, state, at(60, time_s=1.0))
-    assert (first.beat, first.period_s, next_time_s(state)) == (0, 0.01, pytest.approx(1.01))
+    assert (first.beat, first.period_s, state.next_s) == (0, 0.01, pytest.approx(1.01))
     state, _ = on_touch(entered, state, at(40, time_s=1.005))
-    assert next_time_s(state) is None
+    assert state.ended
     left = scene_of(square(PRESSED.replace("press", "leave")), square(CLICK, "other", 10, 25))
     state, _ = on_touch(left, None, at(60))
     state, (first,) = on_touch(left, state, at(40, time_s=1.0))
     state, _ = on_touch(left, state, at(30, time_s=1.005))
-    state, (second,) = on_time(left, state, 1.01)
+    (second,) = state.advance(1.01)
     assert (second.x_m, second.beat, second.region) == (0.030, 1, "square")
     assert on_touch(left, state, at(30, time_s=1.015, contact=False)) == (None, ())
 
@@ -292,19 +292,19 @@ def test_a_phase_delays_a_train_by_a_part_of_its_period(scene_of):
     scene = scene_of(square('{ when = "press", rate_hz = 100, count = 2, phase = 0.25 }'))
     state, none = on_touch(scene, None, at(60, time_s=1.0))
     assert none == ()
-    state, (first,) = on_time(scene, state, next_time_s(state))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (first,) = state.advance(state.next_s)
+    (second,) = state.advance(state.next_s)
     assert (first.time_s, second.time_s) == (pytest.approx(1.0025), pytest.approx(1.0125))
     assert (first.beat, second.beat) == (0, 1)
-    assert ended(state)
+    assert state.ended
 
 
 def test_trains_of_one_finger_keep_their_own_beats(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3, amplitude = 0.5 }}'))
     state, felt = on_touch(scene, None, at(60))
     assert [(e.amplitude, e.period_s) for e in felt] == [(1.0, 0.01)]
-    while (due_s := next_time_s(state)) is not None:
-        state, emissions = on_time(scene, state, due_s)
+    while not state.ended:
+        emissions = state.advance(state.next_s)
         felt += emissions
     fast, slow = ([round(e.time_s, 9) for e in felt if e.period_s == period_s] for period_s in (0.01, 1 / 30))
     assert fast == [0.0, 0.01, 0.02, 0.03, 0.04]
@@ -320,7 +320,7 @@ def test_a_press_that_is_felt_at_once_with_a_train_has_the_trains_beat(scene_of)
 def test_what_was_missed_of_several_trains_comes_in_order_of_time(scene_of):
     scene = scene_of(square(f'{{ when = "press", rate_hz = 30, count = 9 }}, {PRESSED}'))
     state, _ = on_touch(scene, None, at(60))
-    state, emissions = on_time(scene, state, 0.0685)
+    emissions = state.advance(0.0685)
     assert [(round(e.time_s, 4), e.beat) for e in emissions] == [(0.04, 4), (0.0667, 2)]
 
 
@@ -328,7 +328,7 @@ def test_fingers_have_trains_of_their_own(scene_of):
     scene = scene_of(square(PRESSED))
     states = [on_touch(scene, None, at(55 + finger, time_s=0.003 * finger, finger=finger))[0] for finger in range(4)]
     for finger, state in enumerate(states):
-        _, (emission,) = on_time(scene, state, 0.02)
+        (emission,) = state.advance(0.02)
         assert (emission.finger, emission.owner) == (finger, finger)
         assert emission.time_s == pytest.approx(0.02 if finger == 0 else 0.01 + 0.003 * finger)
 
@@ -360,44 +360,45 @@ def test_a_spots_beats_are_its_period_apart_from_its_phase_on(scene_of):
 def test_a_train_keeps_its_beat_from_when_its_first_emission_began_to_play(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3 }}'))
     state, (first,) = on_touch(scene, None, at(60, time_s=1.0))
-    state, (second,) = on_time(scene, anchored(state, first, 1.004), 1.0140001)
+    state.shift(first.time_s, 1.004)
+    (second,) = state.advance(1.0140001)
     assert second.time_s == pytest.approx(1.014, abs=1e-12)
-    assert anchored(state, second, 1.02) is state
-    assert next_time_s(state) == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
-    state, (third, *_) = on_time(scene, state, 1.004 + 1 / 30)
+    state.shift(second.time_s, 1.02)
+    assert state.next_s == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
+    (third, *_) = state.advance(1.004 + 1 / 30)
     assert (third.beat, state.next_s) == (3, pytest.approx(1.044))
-    assert on_time(scene, state, 1.004 + 1 / 30 + 1e-9)[1] == (), "the slower one began with it"
+    assert state.advance(1.004 + 1 / 30 + 1e-9) == (), "the slower one began with it"
 
 
 def test_when_the_outputs_go_off_trains_are_over_and_the_way_goes_on(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ effect = "texture", spacing_mm = 5 }}'))
     state, _ = on_touch(scene, None, at(60))
     state, _ = on_touch(scene, state, at(64, time_s=0.005))
-    state = stopped(state)
-    assert ended(state)
-    assert next_time_s(state) is None
+    state.end_trains()
+    assert state.ended
     assert on_touch(scene, state, at(65, time_s=0.5))[1][0].region == "square"
 
 
 # Commands
 
 
-def command(scene, state=None, name="buzz", *, finger=None, amplitude=1.0, time_s=5.0, ticket=17):
-    return start_effect(scene, state, name, x_m=0.1, y_m=0.05, finger=finger, amplitude=amplitude, time_s=time_s, ticket=ticket)
+def command(scene, state=None, name="buzz", *, amplitude=1.0, time_s=5.0, ticket=17):
+    active = ActiveEffects(scene, f"command {ticket}", 0.1, 0.05) if state is None else state
+    return active, active.start(name, amplitude, time_s, ticket)
 
 
 def test_a_command_plays_an_effect_at_a_point_and_its_ticket_comes_back_once(scene_of):
     scene = scene_of(square(CLICK))
     state, emissions = command(scene, name="double_click")
-    assert next_time_s(state) == pytest.approx(5.125)
-    state, more = on_time(scene, state, 6.0)
-    assert ended(state)
+    assert state.next_s == pytest.approx(5.125)
+    more = state.advance(6.0)
+    assert state.ended
     first, second = emissions + more
     assert (first.ticket, second.ticket) == (17, 0)
     assert first.owner == second.owner == "command 17"
     assert {(e.x_m, e.y_m, e.finger, e.region) for e in (first, second)} == {(0.1, 0.05, None, "double_click")}
     state, (click,) = command(scene, name="click")
-    assert ended(state)
+    assert state.ended
     assert click.ticket == 17
 
 
@@ -412,11 +413,10 @@ def test_a_commands_amplitude_multiplies_down_to_the_weakest(scene_of):
 def test_a_command_for_a_finger_follows_it_over_borders_until_it_is_lifted(scene_of):
     scene = scene_of(square(TRAIN))
     state, _ = on_touch(scene, None, at(60, time_s=4.995))
-    same, (first,) = command(scene, state, finger=3)
-    assert same is state
+    _, (first,) = command(scene, state)
     assert (first.x_m, first.owner, first.finger, first.ticket) == (0.060, 3, 3, 17)
     state, _ = on_touch(scene, state, at(20, time_s=5.001))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (second,) = state.advance(state.next_s)
     assert (second.x_m, second.time_s, second.region) == (0.020, pytest.approx(5 + 1 / 120), "buzz")
     assert on_touch(scene, state, at(20, contact=False)) == (None, ())
 
@@ -428,11 +428,11 @@ def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
     scene = load_scene(file, BOARD)
     state, none = command(scene, name="late")
     assert none == ()
-    assert state.unfelt == ((17, 5.0),)
-    assert not ended(state)
-    state, emissions = on_time(scene, state, 5.021)
+    assert state.unplayed_commands == ((17, 5.0),)
+    assert not state.ended
+    emissions = state.advance(5.021)
     assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
-    assert state.unfelt == ()
+    assert state.unplayed_commands == ()
 
 
 @pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])
@@ -445,19 +445,21 @@ def test_an_effect_that_no_command_can_play_is_refused_and_the_others_are_listed
 def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_of):
     old, new = scene_of(square(f"{TRAIN}, {TEXTURE}")), scene_of(square('"edge"', "new", 40), square(TEXTURE, "other", 95))
     state, _ = on_touch(old, None, at(60, time_s=5.0))
-    state, _ = command(old, state, finger=3)
-    state = taken_over(new, state)
+    state, _ = command(old, state)
+    state.change_scene(new)
     assert new.areas[state.region].name == "new"
-    state, emissions = on_time(new, state, 5.02)
+    emissions = state.advance(5.02)
     assert [e.region for e in emissions] == ["buzz"]
     state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
     assert edge.region == "new"
     leaving = scene_of(square(PRESSED.replace("press", "leave")))
     state, _ = on_touch(leaving, None, at(60))
     state, _ = on_touch(leaving, state, at(20))
-    assert ended(taken_over(new, state))
+    state.change_scene(new)
+    assert state.ended
     point, _ = command(old)
-    assert on_time(new, taken_over(new, point), 5.0084)[1][0].region == "buzz"
+    point.change_scene(new)
+    assert point.advance(5.0084)[0].region == "buzz"
 
 
 LIBRARY_SCENE = load_scene(BOARD.folder / "library.toml", BOARD)
@@ -474,11 +476,10 @@ def test_whatever_a_finger_does_time_moves_on_and_every_emission_can_be_played(t
         now_s += wait_s
         felt = ()
         if state is not None:
-            state, felt = on_time(scene, state, now_s)
-            assert next_time_s(state) is None or next_time_s(state) > now_s
-            assert ended(state) == (next_time_s(state) is None)
+            felt = state.advance(now_s)
+            assert state.next_s > now_s
         if what == "command" and state is not None:
-            state, more = command(scene, state, name, finger=3, time_s=now_s)
+            state, more = command(scene, state, name, time_s=now_s)
         elif what == "command":
             continue
         else:
@@ -505,7 +506,7 @@ def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
         states, emissions = {}, 0
         for sample in samples:
             for state in states.values():
-                emissions += len(on_time(LIBRARY_SCENE, state, sample.time_s)[1])
+                emissions += len(state.advance(sample.time_s))
             state, more = on_touch(LIBRARY_SCENE, states.pop(sample.finger, None), sample)
             emissions += len(more)
             if state is not None:
@@ -823,10 +824,9 @@ def test_every_real_recording_is_felt_where_its_fingers_went(file):
     source, tracks = RecordingSource(recording, axes, 0.0), recording.tracks(axes)
     states, felt = {}, []
     while (due_s := source.next_time_s()) is not None:
-        for finger, state in states.items():
-            if (beat_s := next_time_s(state)) is not None and beat_s <= due_s:
-                states[finger], emissions = on_time(scene, state, beat_s)
-                felt += emissions
+        for state in states.values():
+            if state.next_s <= due_s:
+                felt += state.advance(state.next_s)
         for sample in source.read(due_s):
             state, emissions = on_touch(scene, states.pop(sample.finger, None), sample)
             felt += emissions
