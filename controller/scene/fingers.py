@@ -91,7 +91,7 @@ class ActiveEffects:
         if index == OUTSIDE:
             return ()
         self._enter(index)
-        trains = self._scene.areas[index].press
+        trains = self._scene.regions[index].press
         return _at_most_one(self._begin(trains, index, time_s, ends_on_leave=True)) if trains else ()
 
     def move(self, x_m: float, y_m: float, time_s: float) -> tuple[Emission, ...]:
@@ -104,21 +104,21 @@ class ActiveEffects:
             amplitude = self._spacing_amplitude()
             if not amplitude:
                 return ()
-            area = scene.areas[index]
-            return (Emission(time_s, x_m, y_m, self.finger, area.name, amplitude, self.owner, alternate=area.alternate),)
+            inside = scene.regions[index]
+            return (Emission(time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, alternate=inside.alternate),)
         self._enter(index)
         emission = None
         if left != OUTSIDE:
-            emission = self._begin(scene.areas[left].leave, left, time_s, ends_on_leave=False)
+            emission = self._begin(scene.regions[left].leave, left, time_s, ends_on_leave=False)
         if index != OUTSIDE:
-            emission = self._begin(scene.areas[index].enter, index, time_s, ends_on_leave=True, strongest=emission)
+            emission = self._begin(scene.regions[index].enter, index, time_s, ends_on_leave=True, strongest=emission)
         return _at_most_one(emission)
 
     def release(self, time_s: float) -> tuple[Emission, ...]:
         """The finger is lifted from its place; this object is not used any more."""
         if self.region == OUTSIDE:
             return ()
-        trains = self._scene.areas[self.region].release
+        trains = self._scene.regions[self.region].release
         return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
 
     def start(self, effect: str, amplitude: float, time_s: float, ticket: int) -> tuple[Emission, ...]:
@@ -197,7 +197,7 @@ class ActiveEffects:
     def _enter(self, region: int) -> None:
         """Be in another region: trains that were bound to the one before end, spacings begin anew."""
         self.region = region
-        spacings = self._scene.areas[region].spacings if region != OUTSIDE else ()
+        spacings = self._scene.regions[region].spacings if region != OUTSIDE else ()
         self._progress = tuple([spacing.begin(self.x_m, self.y_m) for spacing in spacings])
         if self._trains:
             self._set_trains([train for train in self._trains if not train.ends_on_leave])
@@ -230,8 +230,8 @@ class ActiveEffects:
             return None
         name, alternate = train.effect, False
         if train.region != COMMAND:
-            area = self._scene.areas[train.region]
-            name, alternate = area.name, area.alternate
+            region = self._scene.regions[train.region]
+            name, alternate = region.name, region.alternate
         period_s, ticket = train.train.period_s, train.ticket
         train.ticket = 0
         time_s = train.first_s + beat * period_s

@@ -74,28 +74,28 @@ class PlateTable(RegionTable, frozen=True, kw_only=True, tag="plate"):
     """The whole plate."""
 
 
-Region = RectangleTable | CircleTable | PolygonTable | PlateTable
+AnyRegionTable = RectangleTable | CircleTable | PolygonTable | PlateTable
 
 
 class SceneTable(Record, frozen=True):
     """The whole file."""
 
-    regions: Annotated[tuple[Region, ...], Meta(min_length=1)]
+    regions: Annotated[tuple[AnyRegionTable, ...], Meta(min_length=1)]
     effects: Tables = msgspec.field(default_factory=dict)
 
 
-class RegionRead(NamedTuple):
+class CheckedRegion(NamedTuple):
     """A region with its shape in metres and its effects as they are meant."""
 
-    table: Region
+    table: AnyRegionTable
     shape: Shape
     effects: tuple[EffectTable, ...]
 
 
-class SceneRead(NamedTuple):
+class CheckedScene(NamedTuple):
     """A scene as it was read and checked: regions in the file's order, and the effects that a command can play."""
 
-    regions: tuple[RegionRead, ...]
+    regions: tuple[CheckedRegion, ...]
     playable: Effects
 
 
@@ -118,7 +118,7 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     raise ConfigError(f"scene {name!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
 
 
-def read_scene(file: Path, board: Board) -> SceneRead:
+def read_scene(file: Path, board: Board) -> CheckedScene:
     """Read and check a scene.toml.
 
     Raises
@@ -134,7 +134,7 @@ def read_scene(file: Path, board: Board) -> SceneRead:
     plate = Rectangle(0.0, 0.0, board.plate.length_m, board.plate.width_m)
     numbers: dict[str, int] = {}  # of the regions by their names
     bounds = np.empty((len(scene.regions), 4))
-    found: list[RegionRead] = []
+    found: list[CheckedRegion] = []
     for index, region in enumerate(scene.regions):
         key = f"{file}: regions[{index}]"
         if region.name in numbers:
@@ -150,8 +150,8 @@ def read_scene(file: Path, board: Board) -> SceneRead:
         _check_together(key, region, effects, board)
         if any("always" not in effect.occasions for effect in effects):
             _check_not_hidden(key, region, shape, found, bounds[:index])
-        found.append(RegionRead(region, shape, effects))
-    return SceneRead(tuple(found), playable)
+        found.append(CheckedRegion(region, shape, effects))
+    return CheckedScene(tuple(found), playable)
 
 
 def spot_at(effect: EffectTable, shape: Shape) -> Point:
@@ -160,7 +160,7 @@ def spot_at(effect: EffectTable, shape: Shape) -> Point:
     return x_m if effect.x_mm is None else effect.x_mm * 1e-3, y_m if effect.y_mm is None else effect.y_mm * 1e-3
 
 
-def _shape(region: Region, plate: Rectangle) -> Shape:
+def _shape(region: AnyRegionTable, plate: Rectangle) -> Shape:
     match region:
         case RectangleTable():
             x_m, y_m = region.x_mm * 1e-3, region.y_mm * 1e-3
@@ -173,7 +173,7 @@ def _shape(region: Region, plate: Rectangle) -> Shape:
             return plate
 
 
-def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], board: Board) -> None:
+def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
     """What the effects of one region say together."""
     for number, effect in enumerate(effects):
         at = f"{key}.effects[{number}]"
@@ -200,7 +200,7 @@ def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], 
             )
 
 
-def _check_not_hidden(key: str, region: Region, shape: Shape, earlier: list[RegionRead], bounds: NDArray[np.float64]) -> None:
+def _check_not_hidden(key: str, region: AnyRegionTable, shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]) -> None:
     """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt.
 
     Only regions whose bounds, (region, 4), contain the shape's are looked at: thousands of regions are compared at once.

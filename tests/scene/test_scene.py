@@ -13,9 +13,11 @@ from controller.bank.grid import Grid
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
 from controller.scene import scene_file, shapes
+from controller.scene.coverage import cells_needed
+from controller.scene.edge_rate import edge_warnings
 from controller.scene.emission import spot_emission
 from controller.scene.fingers import ActiveEffects, UnknownEffect
-from controller.scene.scene import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene.scene import OUTSIDE, Region, Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 from controller.scene.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.scene.trains import Train
@@ -211,7 +213,7 @@ def test_a_scene_is_not_changed_and_can_be_handed_to_another_process(scene_of):
     assert touch(copy, at(60), at(66))[0] == touch(scene, at(60), at(66))[0]
     assert copy == scene
     with pytest.raises(AttributeError):
-        scene.areas[0].name = "other"
+        scene.regions[0].name = "other"
 
 
 # Occasions
@@ -447,7 +449,7 @@ def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_
     state, _ = on_touch(old, None, at(60, time_s=5.0))
     state, _ = command(old, state)
     state.change_scene(new)
-    assert new.areas[state.region].name == "new"
+    assert new.regions[state.region].name == "new"
     emissions = state.advance(5.02)
     assert [e.region for e in emissions] == ["buzz"]
     state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
@@ -528,8 +530,8 @@ def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
 
 @given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))
 def test_a_region_is_found_as_by_asking_one_after_the_other(x_m, y_m):
-    for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.areas[:-1]), Scene(())):
-        asked = [index for index, area in enumerate(scene.areas) if area.shape.contains(x_m, y_m)]
+    for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.regions[:-1]), Scene(())):
+        asked = [index for index, region in enumerate(scene.regions) if region.shape.contains(x_m, y_m)]
         assert scene.region_at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
 
 
@@ -621,7 +623,7 @@ def test_a_file_without_regions_is_refused(tmp_path, text):
 
 
 def test_the_highest_rate_that_emissions_fit_into_is_accepted(scene_of):
-    assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).areas[0].press == (Train(1.0, 2, 1 / 500),)
+    assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).regions[0].press == (Train(1.0, 2, 1 / 500),)
 
 
 def test_what_reaches_just_to_the_limits_is_accepted_rounding_included(scene_of, tmp_path):
@@ -630,7 +632,7 @@ def test_what_reaches_just_to_the_limits_is_accepted_rounding_included(scene_of,
     assert scene_of(square(corner + "," + fine, "wide", 100.1).replace("width_mm = 40", "width_mm = 109.9")).spots
     board = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, max_duty=0.7))
     scene_of(square('{ effect = "train", rate_hz = 350, duration_ms = 4 }'))
-    assert load_scene(tmp_path / "scene.toml", board).areas[0].press  # 350 Hz × 2 ms is above 0.7 in binary
+    assert load_scene(tmp_path / "scene.toml", board).regions[0].press  # 350 Hz × 2 ms is above 0.7 in binary
 
 
 def test_a_scene_is_found_by_path_or_name_and_an_unknown_one_lists_those_that_exist(tmp_path):
@@ -670,7 +672,7 @@ def point_in(shape, u, v):
 @given(u=fractions, v=fractions)
 def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v):
     grid = Grid.of(BOARD.plate, pitch_mm * 1e-3)
-    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(shape), grid.points(), grid.pitch_m)
     point = point_in(shape, u, v)
     if point:
         cells, _ = grid.corners(*point)
@@ -678,13 +680,13 @@ def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v
 
 
 def _scene(shape):
-    return Scene((Area("a", shape, press=(Train(),)),))
+    return Scene((Region("a", shape, press=(Train(),)),))
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
     grid = Grid.of(BOARD.plate, 5e-3)
-    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(shape), grid.points(), grid.pitch_m)
     needed = np.zeros(len(reached), bool)
     for u in np.linspace(0, 1, 150):
         for v in np.linspace(0, 1, 150):
@@ -703,7 +705,7 @@ def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
 def test_a_region_in_a_corner_of_the_plate_reaches_the_four_outermost_cells_only(far):
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = (BOARD.plate.length_m - 1e-3, BOARD.plate.width_m - 1e-3) if far else (0.0, 0.0)
-    reached = reach(_scene(Rectangle(x_m, y_m, x_m + 1e-3, y_m + 1e-3)), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(Rectangle(x_m, y_m, x_m + 1e-3, y_m + 1e-3)), grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(x_m, y_m)[0])
 
 
@@ -711,22 +713,22 @@ def test_a_region_in_a_corner_of_the_plate_reaches_the_four_outermost_cells_only
 def test_every_effect_of_a_finger_reaches_the_cells_of_its_region(scene_of, effect):
     grid = Grid.of(BOARD.plate, 5e-3)
     asked = np.array([grid.corners(x, y)[0] for x in (0.050, 0.090) for y in (0.050, 0.090)])
-    assert reach(scene_of(square(effect)), grid.points(), grid.pitch_m)[asked].all()
+    assert cells_needed(scene_of(square(effect)), grid.points(), grid.pitch_m)[asked].all()
 
 
-def test_a_region_within_one_mesh_reaches_its_four_cells_only():
+def test_a_region_within_one_grid_square_reaches_its_four_cells_only():
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
-    reached = reach(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(x_m + 1e-3, y_m + 1e-3)[0])
 
 
-def test_a_region_that_nearly_touches_the_next_mesh_reaches_it_because_points_are_rounded():
+def test_a_region_that_nearly_touches_the_next_grid_square_reaches_it_because_points_are_rounded():
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
     near = Rectangle(x_m + 1e-3, y_m + 1e-3, x_m + grid.pitch_m - LATTICE_M / 3, y_m + grid.pitch_m - LATTICE_M / 3)
     over = grid.corners(near.x_high + LATTICE_M / 2, near.y_high + LATTICE_M / 2)[0]
-    assert reach(_scene(near), grid.points(), grid.pitch_m)[list(over)].all()
+    assert cells_needed(_scene(near), grid.points(), grid.pitch_m)[list(over)].all()
 
 
 @given(u=fractions, v=fractions, dx=st.floats(-1, 1), dy=st.floats(-1, 1), shape=st.sampled_from(SHAPES))
@@ -735,19 +737,19 @@ def test_points_rounded_to_the_bank_lattice_are_reached_too(u, v, dx, dy, shape)
     point = point_in(shape, u, v)
     if point:
         rounded = point[0] + dx * LATTICE_M / 2, point[1] + dy * LATTICE_M / 2
-        assert reach(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
+        assert cells_needed(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
 
 
 def test_what_begins_by_leaving_a_region_may_be_felt_anywhere(scene_of):
     points = Grid.of(BOARD.plate, 5e-3).points()
-    assert reach(scene_of(square(LEAVE)), points, 5e-3).all()
-    assert not reach(scene_of(square(ENTER)), points, 5e-3).all()
+    assert cells_needed(scene_of(square(LEAVE)), points, 5e-3).all()
+    assert not cells_needed(scene_of(square(ENTER)), points, 5e-3).all()
 
 
 def test_a_margin_reaches_what_a_prediction_may_ask_for(scene_of):
     grid = Grid.of(BOARD.plate, 5e-3)
     scene = scene_of(square(CLICK), square(ALWAYS, "spot", 140))
-    near, wide = (reach(scene, grid.points(), grid.pitch_m, margin_m) for margin_m in (0.0, 12e-3))
+    near, wide = (cells_needed(scene, grid.points(), grid.pitch_m, margin_m) for margin_m in (0.0, 12e-3))
     asked = list(grid.corners(0.050 - 11.9e-3, 0.090 + 11.9e-3)[0])
     assert wide[asked].all()
     assert not near[asked].all()
@@ -758,7 +760,7 @@ def test_a_margin_reaches_what_a_prediction_may_ask_for(scene_of):
 def test_spots_reach_their_four_cells_and_their_region_none(scene_of):
     scene = scene_of(square(ALWAYS.replace("20", "20, x_mm = 101, y_mm = 71")))
     grid = Grid.of(BOARD.plate, 5e-3)
-    reached = reach(scene, grid.points(), grid.pitch_m)
+    reached = cells_needed(scene, grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(0.101, 0.071)[0])
 
 
@@ -840,11 +842,11 @@ def test_every_real_recording_is_felt_where_its_fingers_went(file):
 
 def test_the_demo_shows_every_kind_of_region():
     scene = load_scene(find_scene(BOARD, BOARD.scene), BOARD)
-    assert {type(area.shape) for area in scene.areas} == {Rectangle, Circle, Polygon}
-    assert scene.areas[-1].shape == Rectangle(0, 0, BOARD.plate.length_m, BOARD.plate.width_m)
+    assert {type(region.shape) for region in scene.regions} == {Rectangle, Circle, Polygon}
+    assert scene.regions[-1].shape == Rectangle(0, 0, BOARD.plate.length_m, BOARD.plate.width_m)
     assert [spot.region for spot in scene.spots] == ["beacon"]
     grid = Grid.of(BOARD.plate, 5e-3)
-    assert reach(scene, grid.points(), grid.pitch_m).all()
+    assert cells_needed(scene, grid.points(), grid.pitch_m).all()
 
 
 def test_thousands_of_regions_are_not_compared_each_with_each(tmp_path, monkeypatch):
@@ -859,7 +861,7 @@ def test_thousands_of_regions_are_not_compared_each_with_each(tmp_path, monkeypa
         for y in range(36)
     ]
     file.write_text("".join(keys))
-    assert len(load_scene(file, BOARD).areas) == 1800
+    assert len(load_scene(file, BOARD).regions) == 1800
     assert not compared
     file.write_text("".join(keys) + keys[7].replace("0 7", "again"))
     with pytest.raises(ConfigError, match=r"regions\[1800\] \('again'\) is never felt: regions\[7\] \('0 7'\) covers it"):
