@@ -15,8 +15,8 @@ from controller.board.board import Board
 from controller.board.records import PlaceMm, Record, SizeMm, load_toml
 from controller.errors import ConfigError
 from controller.scene.effects import (
-    ROUNDING,
     MIN_AMPLITUDE,
+    ROUNDING,
     Amplitude,
     Effects,
     EffectTable,
@@ -200,7 +200,9 @@ def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable
             )
 
 
-def _check_not_hidden(key: str, region: AnyRegionTable, shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]) -> None:
+def _check_not_hidden(
+    key: str, region: AnyRegionTable, shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]
+) -> None:
     """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt.
 
     Only regions whose bounds, (region, 4), contain the shape's are looked at: thousands of regions are compared at once.

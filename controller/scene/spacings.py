@@ -118,7 +118,7 @@ class GridProgress:
         return first != last or first != felt
 
     def remaining_m(self, x_m: float, y_m: float, x: float, y: float) -> float:
-        """Distance from a place to the next grid line for a finger that moves along the unit vector (x, y); inf: along the lines."""
+        """Distance from a place to the next grid line for a finger that moves along the unit vector (x, y)."""
         towards, at_m = (y, y_m) if self._axis else (x, x_m)
         if towards == 0.0:
             return math.inf

@@ -110,7 +110,9 @@ LENGTHS = [
 
 
 @pytest.mark.parametrize("value", [1.8e308, 1e300, -1e300, 1e154, 10**400, float("nan"), float("inf"), -float("inf")])
-@pytest.mark.parametrize(("tables", "kind", "path"), LENGTHS, ids=lambda value: ".".join(map(str, value)) if type(value) is tuple else "")
+@pytest.mark.parametrize(
+    ("tables", "kind", "path"), LENGTHS, ids=lambda value: ".".join(map(str, value)) if type(value) is tuple else ""
+)
 def test_a_length_that_no_plate_has_is_refused_with_its_key(tables, kind, path, value):
     with pytest.raises(ConfigError) as caught:
         as_record("file: ", changed(tables, *path, to=value), kind)
