@@ -288,19 +288,19 @@ def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_fin
     clock._now_s += 0.053  # its third emission sounds
     third_s = playback.next_repetition_s(clock.now_s()) - 0.025
     playback.prepare(focus(0.1, finger=0), 0, at_s=at_s)
-    begins_s = playback.begins_s if playback.trigger_at_s is None else playback.trigger_at_s
-    assert begins_s == pytest.approx(third_s + T_S / DUTY, abs=2 * MARGIN_S)
-    assert by_hand.asked_s[-1] == pytest.approx(begins_s + T_S, abs=2 * MARGIN_S)
+    last_start_s = playback.last_start_s if playback.trigger_at_s is None else playback.trigger_at_s
+    assert last_start_s == pytest.approx(third_s + T_S / DUTY, abs=2 * MARGIN_S)
+    assert by_hand.asked_s[-1] == pytest.approx(last_start_s + T_S, abs=2 * MARGIN_S)
     assert not playback.repeating
 
 
 def test_of_a_beat_it_is_foreseen_what_an_emission_before_it_takes(by_hand):
     """That emission waits for the plate and for its upload; the plate is busy for longer than an upload takes."""
     playback, clock = by_hand.playback, by_hand.clock
-    assert playback.clear_s(clock.now_s()) == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
+    assert playback.free_after_next_s(clock.now_s()) == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
     playback.prepare(focus(0.05), 0)
     (first,) = by_hand.played
-    assert playback.clear_s(clock.now_s()) == pytest.approx(first.trigger_s + 2 * T_S / DUTY + 3 * MARGIN_S)
+    assert playback.free_after_next_s(clock.now_s()) == pytest.approx(first.trigger_s + 2 * T_S / DUTY + 3 * MARGIN_S)
 
 
 @pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
@@ -312,7 +312,7 @@ def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s
     asked_s = clock.now_s()
     playback.prepare(focus(0.1), 0, at_s=at_s)
     assert playback.trigger_at_s is None
-    assert asked_s + 1.4e-3 <= playback.begins_s < asked_s + 3e-3
+    assert asked_s + 1.4e-3 <= playback.last_start_s < asked_s + 3e-3
 
 
 def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(by_hand, monkeypatch):
