@@ -18,13 +18,12 @@ from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
-from controller.loop.collector import collector_off
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
 from controller.loop.playback import ENDLESS, Playback
+from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
-from controller.loop.signals import Wakeup, signals
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
 from controller.scene.fingers import ROUNDING_S
@@ -134,7 +133,7 @@ class EventLoop:
         handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop}
         if self._change is not None:
             handlers[signal.SIGHUP] = self.reload
-        with selectors.DefaultSelector() as selector, signals(handlers, selector) as self._wakeup, collector_off():
+        with selectors.DefaultSelector() as selector, handled_signals(handlers, selector) as self._wakeup, no_garbage_collection():
             try:
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
