@@ -22,7 +22,7 @@ from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
 from controller.loop.playback import ENDLESS, Playback
 from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
-from controller.loop.scene_source import SceneChange
+from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
@@ -51,6 +51,10 @@ class EventLoop:
         For SIGHUP, and for commands that load a scene.
     progress : callable, optional
         Called in each turn with the time: feeds the watchdog.
+    emission_started : callable, optional
+        Called whenever an emission starts, or a repetition by the FPGA.
+    scene_changed : callable, optional
+        Called with each scene that was prepared, taken over or refused.
     """
 
     def __init__(
@@ -67,6 +71,8 @@ class EventLoop:
         commands: CommandSource | None = None,
         change: SceneChange | None = None,
         progress: Callable[[float], None] = lambda _: None,
+        emission_started: Callable[[], None] = lambda: None,
+        scene_changed: Callable[[PreparedScene], None] = lambda _: None,
     ) -> None:
         self._clock = clock
         self._session = session
@@ -78,6 +84,8 @@ class EventLoop:
         self._commands = commands
         self._change = change
         self._progress = progress
+        self._emission_started = emission_started
+        self._scene_changed = scene_changed
         self._outputs = Outputs(session, board, clock, time_base, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
@@ -252,6 +260,7 @@ class EventLoop:
             trigger_at_s = self._playback.trigger_at_s
             if trigger_at_s is not None and trigger_at_s <= now_s:
                 self._playback.trigger()
+                self._started()
             elif trigger_at_s is None and self._scheduler.due:
                 if self._may_play(now_s) and self._open_s() <= now_s:
                     self._play(now_s, started_ns)
@@ -303,6 +312,7 @@ class EventLoop:
         if not prepared.ticket:
             self._counters.reloads += 1
             self._counters.reload_refused = prepared.reason
+        self._scene_changed(prepared)
         if prepared.ticket and self._commands is not None:
             self._commands.loaded(prepared.ticket, prepared.reason)
 
@@ -356,26 +366,31 @@ class EventLoop:
         return self._scheduler.must_defer(panel_s, self._time_base.fpga_s(self._playback.free_after_next_s(now_s)))
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
-        bad = self._counters.skipped.bad_entries
         repeating = self._playback.repeating
         try:
-            start_s = self._playback.prepare(emissions, started_ns, **how)
+            result = self._playback.prepare(emissions, started_ns, **how)
         except ControllerError:  # they wait no longer, and what is under way ends with the outputs
             self._counters.skipped.outputs_off += len(emissions)
             self._scheduler.discarded(emissions, Outcome.REFUSED, self._panel_s())
             raise
-        if start_s is not None:
+        if result.started:
+            self._started()
+        if result.outcome is Outcome.PLAYED:
             if self._report_ns >= 0:
                 self._counters.report_latency.record(self._report_ns)
-            sounds_s = self._time_base.host_s(start_s)
+            sounds_s = self._time_base.host_s(result.start_s)
             self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
-            self._scheduler.started(emissions, start_s)
+            self._scheduler.started(emissions, result.start_s)
             return
         if repeating and not self._playback.repeating:
             now_s = self._clock.now_s()
             self._source.emitted(now_s, now_s)
-        outcome = Outcome.SKIPPED if self._counters.skipped.bad_entries > bad else Outcome.REFUSED
-        self._scheduler.discarded(emissions, outcome, self._panel_s())
+        self._scheduler.discarded(emissions, result.outcome, self._panel_s())
+
+    def _started(self) -> None:
+        """Something is played from now on."""
+        self._outputs.emission_started()
+        self._emission_started()
 
     def _prefetch(self, now_s: float) -> None:
         """Send ahead what the finger that moved last will ask for, if there is time for it."""

@@ -11,6 +11,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from controller.clocks import NEVER
 from controller.errors import BankError
@@ -18,6 +19,7 @@ from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
+from controller.loop.commands import Outcome
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
@@ -46,6 +48,24 @@ class Played:
     period_s: float
     resident: bool
     at_ticks: int | None = None
+
+
+class Attempt(NamedTuple):
+    """What became of a batch of emissions.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
+    start_s : float
+        FPGA time at which it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
+    started : bool
+        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
+    """
+
+    outcome: Outcome
+    start_s: float = math.nan
+    started: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,8 +199,8 @@ class Playback:
         period_s: float = 0.0,
         at_s: float | None = None,
         ahead: bool = True,
-    ) -> float | None:
-        """Bring one emission, of one or several foci, to an accepted play command; None if it had to be left out.
+    ) -> Attempt:
+        """Bring one emission, of one or several foci, to an accepted play command.
 
         Parameters
         ----------
@@ -197,8 +217,7 @@ class Playback:
 
         Returns
         -------
-        float or None
-            When it starts, in FPGA time: to the clock if the FPGA starts it, else as expected.
+        Attempt
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
@@ -225,7 +244,7 @@ class Playback:
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
             self._counters.skipped.bad_entries += len(emissions)
             self._counters.bad_entry = self._counters.bad_entry or str(error)
-            return None
+            return Attempt(Outcome.SKIPPED)
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
@@ -233,7 +252,7 @@ class Playback:
             if resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot is dropped: sent anew
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
             self._counters.skipped.refused += len(emissions)
-            return None
+            return Attempt(Outcome.REFUSED)
         ready_s = session.ready_s()
         away_ns = session.away_ns - away_before_ns
         prepared = _Prepared(
@@ -252,11 +271,12 @@ class Playback:
         if at_s is not None:
             self._counters.scheduled += 1
             self._account(prepared, prepared.start_s, 0)
-            return when_ticks / self._time_base.clock_hz
+            return Attempt(Outcome.PLAYED, when_ticks / self._time_base.clock_hz, True)
         self._prepared = prepared
-        if prepared.start_s <= ready_s:
+        at_once = prepared.start_s <= ready_s
+        if at_once:
             self.trigger()
-        return self._time_base.fpga_s(prepared.start_s)
+        return Attempt(Outcome.PLAYED, self._time_base.fpga_s(prepared.start_s), at_once)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.

@@ -15,6 +15,7 @@ from controller.clocks import VirtualClock
 from controller.errors import BankError
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.time_base import TimeBase
+from controller.loop.commands import Outcome
 from controller.loop.event_loop import BEAT_LEAD_S
 from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
 from controller.loop.wiring import assemble
@@ -325,7 +326,7 @@ def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(b
         return words(selection, key)
 
     monkeypatch.setattr(Selection, "words", damaged)
-    assert by_hand.playback.prepare(focus(0.05, finger=0), 0) is not None
+    assert by_hand.playback.prepare(focus(0.05, finger=0), 0).outcome is Outcome.PLAYED
     assert [emission.x_m for played in by_hand.played for emission in played.emissions] == [0.05]
     assert by_hand.counters.skipped.bad_entries == 0
 
@@ -338,7 +339,7 @@ def test_what_was_sent_ahead_and_is_found_damaged_in_its_slot_is_sent_anew(by_ha
         sent = playback.prefetch(0, place_m, 0.05, 1.0)
         monkeypatch.undo()
         clock._now_s += 0.03
-        assert playback.prepare(focus(place_m, finger=0), 0) is not None
+        assert playback.prepare(focus(place_m, finger=0), 0).outcome is Outcome.PLAYED
     assert sent, "what it was sent for came true twice"
     assert (by_hand.counters.uploads, by_hand.counters.resident) == (3, 0)
     assert by_hand.counters.prefetch_wasted == 1
