@@ -2,7 +2,7 @@
 
 import pytest
 
-from controller.loop.batching import together
+from controller.loop.batching import select_batch
 from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import load_scene
@@ -48,4 +48,4 @@ def test_a_thousand_beats_of_a_train(benchmark, scene):
 @pytest.mark.parametrize("count", [1, 4, 10])
 def test_choose_what_plays_together(benchmark, count):
     due = [Emission(0.0, 0.02 * k, 0.07, k, "r", owner=k) for k in range(count)]
-    benchmark(together, due, 2e-3)
+    benchmark(select_batch, due, 2e-3)
