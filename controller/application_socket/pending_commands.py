@@ -9,7 +9,7 @@ from controller.application_socket.clients import Clients
 from controller.application_socket.connection import Connection
 from controller.application_socket.messages import Id
 from controller.application_socket.tickets import FULL, Tickets, Waiting
-from controller.loop.scheduler import MOST_WAITING
+from controller.loop.scheduler import MAX_WAITING_COMMANDS
 
 WAITING_PER_CLIENT = 64
 
@@ -69,4 +69,4 @@ class PendingCommands:
         those of another.
         """
         users = self._clients.users
-        return math.inf if users < 2 else max(MOST_WAITING // users, 1)
+        return math.inf if users < 2 else max(MAX_WAITING_COMMANDS // users, 1)
