@@ -12,7 +12,6 @@ from collections.abc import Callable
 from controller.board.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
-from controller.fpga.clock_relation import ClockRelation
 from controller.fpga.exchange import COMMANDS, Exchange, FpgaReset, Refused
 from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status
 from controller.fpga.link import Link
@@ -47,8 +46,6 @@ class Session:
     ----------
     exchange : Exchange
         The messages below.
-    clock_relation : ClockRelation or None
-        If it is set, each heartbeat tells it the FPGA's time, for plays that are scheduled.
     bit_period : int
         Time for which one drive word is held now, in 65536ths of a clock of the FPGA.
     ramp_end_s : float
@@ -77,7 +74,6 @@ class Session:
         self._on = False  # it has to be, since it was armed and until it is disarmed
         self._beat_s = math.inf  # after the last heartbeat
         self._beat_ticks = 0  # the FPGA's time at that heartbeat
-        self.clock_relation: ClockRelation | None = None
         self.bit_period = board.bit_period
         self.ramp_end_s = -math.inf
         if bring_up:
@@ -189,10 +185,6 @@ class Session:
                 return  # it has switched off already, or will within the heartbeat timeout
             self._ours = False
 
-    def clear_faults(self) -> None:
-        """Clear what is latched, so that arming is possible again."""
-        self.exchange.control(Control.CLEAR, faults_matter=False)
-
     def heartbeat(self) -> Status:
         """Tell the FPGA that the host lives; its status.
 
@@ -212,8 +204,6 @@ class Session:
         if (self._on and State.HV_ENABLE not in status.state) or status.timestamp_ticks - self._beat_ticks < least_ticks:
             raise FpgaReset
         self._beat_s, self._beat_ticks = after_s, status.timestamp_ticks
-        if self.clock_relation is not None:
-            self.clock_relation.add(before_s, after_s, status.timestamp_ticks)
         return status
 
     def play(

@@ -17,7 +17,7 @@ from controller.board.board import Board
 from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.collector import collector_off
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
@@ -42,7 +42,7 @@ class EventLoop:
     Parameters
     ----------
     board : Board
-    clock, session, source, performance, playback, time_base
+    clock, session, source, performance, playback, clock_estimate
         The parts; each may be simulated.
     counters : Counters
         Shared with performance and playback.
@@ -62,7 +62,7 @@ class EventLoop:
         source: TrackedTouch,
         performance: Performance,
         playback: Playback,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         counters: Counters,
         *,
         commands: CommandSource | None = None,
@@ -74,12 +74,12 @@ class EventLoop:
         self._source = source
         self._performance = performance
         self._playback = playback
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._counters = counters
         self._commands = commands
         self._change = change
         self._progress = progress
-        self._outputs = Outputs(session, board, clock, time_base, counters)
+        self._outputs = Outputs(session, board, clock, clock_estimate, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
         self._quiet_until_s = -NEVER  # no emission begins before
@@ -163,7 +163,7 @@ class EventLoop:
             raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-        self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
+        self._performance.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
     def switch(self, on: bool) -> None:
         """Have the outputs armed or disarmed from now on; see `PanelControl`."""
@@ -189,7 +189,7 @@ class EventLoop:
             self._commands.outcome(ticket, outcome, age_s)
 
     def _panel_s(self) -> float:
-        return self._time_base.fpga_s(self._clock.now_s())
+        return self._clock_estimate.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
         """The outputs are off, unasked."""
@@ -243,7 +243,7 @@ class EventLoop:
             self._commands.serve(now_s, self)
         if self._change is not None:
             self._change_scene(now_s)
-        panel_s = self._time_base.fpga_s(now_s)
+        panel_s = self._clock_estimate.fpga_s(now_s)
         self._performance.advance(panel_s + self._lead_s + ROUNDING_S)
         self._quiet_until_s = -NEVER
         if self._outputs.on:
@@ -267,7 +267,7 @@ class EventLoop:
         self._report_ns = -1
         if not samples:
             return
-        offset_s = self._time_base.offset_s
+        offset_s = self._clock_estimate.offset_s
         self._report_ns = round((now_s - samples[0].time_s) * 1e9)
         self._moving = None
         for sample in samples:
@@ -295,7 +295,7 @@ class EventLoop:
             if self._playback.repeating:  # the spots of the scene before
                 self._playback.stop()
                 self._source.emitted(now_s, now_s)
-            self._performance.swap(prepared.scene, self._time_base.fpga_s(now_s))
+            self._performance.swap(prepared.scene, self._clock_estimate.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
         else:
@@ -311,7 +311,7 @@ class EventLoop:
         """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
         performance, playback = self._performance, self._playback
         within_s = NEVER if self._listened else playback.duration_s  # what was held back has become due together
-        emissions = performance.take(within_s, self._time_base.fpga_s(now_s))
+        emissions = performance.take(within_s, self._clock_estimate.fpga_s(now_s))
         self._listened = False
         period_s = performance.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
@@ -319,7 +319,7 @@ class EventLoop:
             return
         if playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
             next_s = playback.next_repetition_s(now_s)
-            panel_s = self._time_base.fpga_s(next_s)
+            panel_s = self._clock_estimate.fpga_s(next_s)
             if next_s < now_s + playback.duration_s and period_s is not None:
                 emissions = performance.with_spots(emissions, panel_s + period_s)
             else:
@@ -345,7 +345,7 @@ class EventLoop:
         last_s = playback.stop_repeating(now_s)
         if last_s is not None:
             self._source.emitted(last_s, last_s + playback.duration_s)
-            self._performance.spots_from(self._time_base.fpga_s(next_s))
+            self._performance.spots_from(self._clock_estimate.fpga_s(next_s))
 
     def _may_play(self, now_s: float) -> bool:
         """Whether something is due and held back neither for the panel nor for a beat."""
@@ -353,8 +353,8 @@ class EventLoop:
 
     def _held(self, now_s: float) -> bool:
         """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
-        panel_s = self._time_base.fpga_s(now_s)
-        return self._performance.held(panel_s, self._time_base.fpga_s(self._playback.clear_s(now_s)))
+        panel_s = self._clock_estimate.fpga_s(now_s)
+        return self._performance.held(panel_s, self._clock_estimate.fpga_s(self._playback.clear_s(now_s)))
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         bad = self._counters.skipped.bad_entries
@@ -368,7 +368,7 @@ class EventLoop:
         if start_s is not None:
             if self._report_ns >= 0:
                 self._counters.report_latency.record(self._report_ns)
-            sounds_s = self._time_base.host_s(start_s)
+            sounds_s = self._clock_estimate.host_s(start_s)
             self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
             self._performance.started(emissions, start_s)
             return
@@ -388,7 +388,9 @@ class EventLoop:
         )
         if wanted is None or self._session.free_s() > now_s:
             return
-        soonest_s = min(self._time_base.host_s(self._performance.next_s()), self._time_base.host_s(self._performance.next_spot_s()))
+        soonest_s = min(
+            self._clock_estimate.host_s(self._performance.next_s()), self._clock_estimate.host_s(self._performance.next_spot_s())
+        )
         if soonest_s - self._lead_s > now_s + PREFETCH_AFTER_S:
             self._playback.prefetch(finger, *wanted)
 
@@ -406,12 +408,12 @@ class EventLoop:
                 return min(open_s, self._outputs.next_s())
             times.append(open_s)
         if next_s != NEVER:
-            times.append(self._time_base.host_s(next_s) - self._lead_s)
+            times.append(self._clock_estimate.host_s(next_s) - self._lead_s)
         if not times and self._source.fileno() is None and self._commands is None:
             # a replay that has ended: let the last emission sound
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating and self._outputs.on:
-            times.append(self._time_base.host_s(self._performance.next_spot_s()) - self._lead_s)
+            times.append(self._clock_estimate.host_s(self._performance.next_spot_s()) - self._lead_s)
         if self._quiet_until_s > now_s:
             times.append(self._quiet_until_s)
             if self._playback.repeating:

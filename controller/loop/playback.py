@@ -17,7 +17,7 @@ from controller.errors import BankError
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
@@ -86,7 +86,7 @@ class Playback:
         An armed FPGA.
     selection : Selection
         Drive words for points.
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         The FPGA's clock.
     where : callable
         Place of a finger at a time: an emission meets it where it will be at T.
@@ -106,7 +106,7 @@ class Playback:
         self,
         session: Session,
         selection: Selection,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         where: Where,
         *,
         slots: int,
@@ -123,7 +123,7 @@ class Playback:
         self.upload_s = upload_s
         self._session = session
         self._selection = selection
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._where = where
         self._command_s = command_s
         self._nominal_s = duration_s
@@ -159,7 +159,7 @@ class Playback:
         """When the endless repetition next starts an emission, after a time; never without one."""
         if self._running is None:
             return NEVER
-        next_s = self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
+        next_s = self._clock_estimate.host_s(self._running.last_s(self._clock_estimate.fpga_s(at_s)) + self._running.period_s)
         return max(next_s, self.begins_s)  # before the first it is that, whatever was rounded on the way
 
     def stop_repeating(self, now_s: float) -> float | None:
@@ -168,7 +168,7 @@ class Playback:
         if running is None or now_s < self.begins_s:
             return None
         self.stop()
-        return self._time_base.host_s(running.last_s(self._time_base.fpga_s(self._session.ready_s())))
+        return self._clock_estimate.host_s(running.last_s(self._clock_estimate.fpga_s(self._session.ready_s())))
 
     def prepare(
         self,
@@ -213,7 +213,7 @@ class Playback:
             self._came_true = self._came_true + 1 if self._foreseen(emissions[0].finger, key) else 0
             self._expected = None
         start = Start.TRIGGER if at_s is None else Start.TIME
-        when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
+        when_ticks = 0 if at_s is None else self._clock_estimate.ticks(start_s)
         try:
             if resident is None:
                 self._upload(key, count, period_s, start, when_ticks)
@@ -243,7 +243,7 @@ class Playback:
             period_s,
             resident is not None,
             ready_s,
-            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._time_base.host_s(start_s),
+            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(start_s),
             None if at_s is None else when_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - away_ns,
@@ -252,11 +252,11 @@ class Playback:
         if at_s is not None:
             self._counters.scheduled += 1
             self._account(prepared, prepared.start_s, 0)
-            return when_ticks / self._time_base.clock_hz
+            return when_ticks / self._clock_estimate.clock_hz
         self._prepared = prepared
         if prepared.start_s <= ready_s:
             self.trigger()
-        return self._time_base.fpga_s(prepared.start_s)
+        return self._clock_estimate.fpga_s(prepared.start_s)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.
@@ -341,7 +341,7 @@ class Playback:
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._time_base.fpga_s(self._session.ready_s() + wire_s)
+        arrived_s = self._clock_estimate.fpga_s(self._session.ready_s() + wire_s)
         if at_s is not None:
             arrived_s += HANDOVER_S
         free_s = self._free_fpga_s
@@ -352,7 +352,7 @@ class Playback:
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
         """Where each emission meets its finger, at T or where it was, and how strong it is."""
-        focus_s = self._time_base.host_s(start_s) + self.duration_s
+        focus_s = self._clock_estimate.host_s(start_s) + self.duration_s
         points = []
         for emission in emissions:
             place = None if emission.finger is None or not ahead else self._where(emission.finger, focus_s)
@@ -404,23 +404,23 @@ class Playback:
     def _stopped(self) -> None:
         """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
         if self._running is not None:
-            time_base = self._time_base
-            last_s = self._running.last_s(time_base.fpga_s(self._session.ready_s()))
+            clock_estimate = self._clock_estimate
+            last_s = self._running.last_s(clock_estimate.fpga_s(self._session.ready_s()))
             self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
-            self.free_s = max(self.free_s, time_base.host_s(last_s) + time_base.error_s + self._busy_s)
+            self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
             self._running = None
 
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
-        time_base = self._time_base
+        clock_estimate = self._clock_estimate
         self.begins_s = start_s
         if prepared.at_ticks is None:
-            fpga_s = time_base.fpga_s(start_s)
+            fpga_s = clock_estimate.fpga_s(start_s)
             self.free_s = start_s + self._busy_s
-            self._free_fpga_s = fpga_s + self._busy_s + time_base.error_s
+            self._free_fpga_s = fpga_s + self._busy_s + clock_estimate.error_s
         else:
-            fpga_s = prepared.at_ticks / time_base.clock_hz
-            self.free_s = start_s + self._busy_s + time_base.error_s
+            fpga_s = prepared.at_ticks / clock_estimate.clock_hz
+            self.free_s = start_s + self._busy_s + clock_estimate.error_s
             self._free_fpga_s = fpga_s + self._busy_s
         counters = self._counters
         counters.emissions += 1

@@ -16,9 +16,9 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.configuration import UnfitFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
 from controller.fpga.recovery import Action, Recovery, action_for, permitted, state_after
-from controller.fpga.registers import Fault, Register, Result, State
+from controller.fpga.registers import Control, Fault, Register, Result, State
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.restarting import RestartingGateware
@@ -70,7 +70,7 @@ class Panel:
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
         self.counters = Counters()
-        self.outputs = Outputs(self.session, BOARD, self.clock, TimeBase(BOARD.link.clock_hz), self.counters)
+        self.outputs = Outputs(self.session, BOARD, self.clock, ClockEstimate(BOARD.link.clock_hz), self.counters)
         self.come_on(1.0)
 
     def rest(self, until_s):
@@ -284,7 +284,7 @@ def test_a_permit_that_goes_away_is_waited_for(panel, which):
     for _ in range(50):
         assert not panel.advance()
     assert panel.link.frames - frames == 50, "waiting is a heartbeat at a time"
-    panel.session.clear_faults()
+    panel.session.exchange.control(Control.CLEAR, faults_matter=False)
     assert State.HV_ENABLE not in panel.session.heartbeat().state
     permit(True)
     panel.wait(1e-3)
@@ -371,7 +371,7 @@ def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
     clock._now_s = 1.0
     gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
-    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), Counters())
+    outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), Counters())
     clock._now_s += 1.0
     with pytest.raises(UnfitFpga, match="BUILD_HASH"):
         outputs.advance(clock.now_s())
@@ -403,7 +403,7 @@ def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_ea
     session = Session(link, BOARD, BUILD, clock.now_s, bring_up=False)
     link.gateware.permit(0, False, permit)
     counters = Counters()
-    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), counters)
+    outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), counters)
     seen = []
 
     def turns(until_s):

@@ -16,7 +16,7 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import READ_SLOT_CRC, Fault, Register, Result, Start, State
+from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -294,7 +294,6 @@ def test_over_a_good_link_the_fpga_finds_no_gap_in_the_numbers_of_the_frames(clo
         armed.upload_and_play(0, WORDS, 0, 25e-3, stop=stop)
         armed.play(1, 1, 0.0, stop=True)
         armed.stop()
-    armed.clear_faults()
     clock._now_s = armed.disarm()
     armed.bring_up()
     clock._now_s = armed.arm()
@@ -375,7 +374,7 @@ def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed)
     assert State.PENDING in armed.heartbeat().state, "sent again: it is there after all"
     link.noise = {link.frames: ("lost, an old NOP instead", 0)}
     with pytest.raises(LinkError, match="lost on its way"):
-        armed.clear_faults()
+        armed.exchange.control(Control.CLEAR, faults_matter=False)
 
 
 @pytest.mark.parametrize("frame", range(12))

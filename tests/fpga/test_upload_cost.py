@@ -13,7 +13,7 @@ from controller.bank import reader
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.upload_image import UploadImage
 from controller.loop.playback import Playback
 from controller.metrics import Counters
@@ -84,7 +84,7 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
     with Bank.open(bank_file, board) as bank:
         selection = Selection(bank, 1e-3, board.idle_word)
         playback = Playback(
-            fpga, selection, TimeBase(link.clock_hz), lambda *_: None, slots=4, duration_s=2e-3, max_duty=1.0, upload_s=1.4e-3,
+            fpga, selection, ClockEstimate(link.clock_hz), lambda *_: None, slots=4, duration_s=2e-3, max_duty=1.0, upload_s=1.4e-3,
             command_s=1e-5, counters=counters,
         )  # fmt: skip
         checked = count_crcs(monkeypatch, frames, session, upload_image, reader, selection_module)

@@ -123,6 +123,6 @@ def test_after_silence_it_is_off_by_itself_until_it_is_armed_again():
     assert panel().level("word") == 0
     assert isinstance(raised(panel().session.heartbeat), HostSilent)
     panel().session.off()
-    panel().session.clear_faults()
+    panel().session.bring_up()
     panel().arm()
     assert panel().level("hv") == 1

@@ -22,7 +22,7 @@ from controller.fpga.exchange import FpgaReset
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
 from controller.service.doctor import examine_link, look
@@ -100,7 +100,7 @@ class Panel:
         self.far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
         self.link = SpiLink(SETTINGS, CLOCK.now_s)
         self.session = session_on(self.link)
-        self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
+        self.outputs = Outputs(self.session, BOARD, CLOCK, ClockEstimate(SETTINGS.clock_hz), Counters())
         self.come_on()
 
     def come_on(self):

@@ -690,7 +690,7 @@ def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, t
             return wanted[-1]
 
         def sending(*what):
-            ahead_s.append(loop._time_base.host_s(loop._performance.next_s()) - clock.now_s())
+            ahead_s.append(loop._clock_estimate.host_s(loop._performance.next_s()) - clock.now_s())
             return prefetch(*what)
 
         loop._playback.prefetch, loop._performance.expected = sending, noting
@@ -711,7 +711,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
         loop._quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2
-        loop._playback.begins_s, loop._playback._running = 10.1, _Repetition(loop._time_base.fpga_s(10.1), 0.025)
+        loop._playback.begins_s, loop._playback._running = 10.1, _Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()
 
