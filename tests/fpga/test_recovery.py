@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from restarting_gateware import RestartingGateware
 
 from controller.board.board import find_board, load_board
 from controller.board.panel_state import PanelState
@@ -21,7 +22,6 @@ from controller.fpga.session import Session
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.restarting import RestartingGateware
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
