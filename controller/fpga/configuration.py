@@ -24,7 +24,7 @@ LIMITS: Final = {  # fixed when the gateware is built, and the key of board.toml
 }
 
 
-class UnfitFpga(LinkError):
+class IncompatibleFpga(LinkError):
     """Another FPGA than this software and this board need: it says so itself, and waiting does not change it."""
 
 
@@ -33,7 +33,7 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
 
     Raises
     ------
-    UnfitFpga
+    IncompatibleFpga
         If it is another one, too small for the board, or built for another.
     LinkError
         If it does not answer.
@@ -47,13 +47,13 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     for register, value in expected.items():
         found = read(register)
         if found != value:
-            raise UnfitFpga(
+            raise IncompatibleFpga(
                 f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
             )
     geometry = read(Register.GEOMETRY)
     slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
     if slots < board.link.slots or depth < board.waveform.samples or channels != CHANNELS:
-        raise UnfitFpga(
+        raise IncompatibleFpga(
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
@@ -64,7 +64,7 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
         if found != value
     ]
     if other:
-        raise UnfitFpga(
+        raise IncompatibleFpga(
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"
             f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
         )

@@ -11,7 +11,7 @@ from itertools import accumulate
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
 from controller.fpga.diagnosis import diagnose
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, Damaged, Status, answered_well, parse_status
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, DamagedStatus, Status, parse_status, status_ok
 from controller.fpga.link import Link
 from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
 
@@ -75,12 +75,12 @@ class Exchange:
         self._beat_s = beat_s
         self._answers: dict[tuple[int, ...], Answers] = {}
 
-    def message(self, lengths: Sequence[int], *, faults_matter: bool = True, vouched: int = 0) -> Status:
+    def send(self, lengths: Sequence[int], *, raise_faults: bool = True, implied: int = 0) -> Status:
         """Send frames and check every answer; the last status, which is that of the frame before the last.
 
         Parameters
         ----------
-        vouched : int
+        implied : int
             So many frames at the beginning need no answer of their own if all behind them was done: LOADs before their
             STORE, which is done only if all that it stores arrived as it was sent.
 
@@ -90,7 +90,7 @@ class Exchange:
             If a fault is latched.
         Refused
             With the first result that is not OK.
-        Damaged
+        DamagedStatus
             If an answer is no status, with what may be wrong with the wires.
         LinkError
             If a frame or an answer was damaged or lost.
@@ -102,25 +102,25 @@ class Exchange:
         answers = self._answers_to(tuple(lengths))
         start = 0
         try:
-            if not vouched or not _all_well(answers, sequence, vouched):  # the first that is not as it should be says why
+            if not implied or not _all_ok(answers, sequence, implied):  # the first that is not as it should be says why
                 for answer, start in answers:
-                    if not answered_well(answer, sequence & 0xFF):
-                        self._explain(parse_status(self.received, start), faults_matter)
+                    if not status_ok(answer, sequence & 0xFF):
+                        self._explain(parse_status(self.received, start), raise_faults)
                     sequence += 1
             start = answers[-1][1] if answers else 0
             status = parse_status(self.received, start)
-        except Damaged as error:
+        except DamagedStatus as error:
             why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
-            raise Damaged(why) from error
+            raise DamagedStatus(why) from error
         if status.faults:
-            self._explain(status, faults_matter)
+            self._explain(status, raise_faults)
         return status
 
-    def short(self, end: int, *, faults_matter: bool = True) -> Status:
+    def send_short(self, end: int, *, raise_faults: bool = True) -> Status:
         """Send the short frames packed up to `end`; as `message`."""
-        return self.message([FRAME_BYTES] * (end // FRAME_BYTES), faults_matter=faults_matter)
+        return self.send([FRAME_BYTES] * (end // FRAME_BYTES), raise_faults=raise_faults)
 
-    def insist(self, send: Callable[[bool], Status]) -> Status:
+    def retry(self, send: Callable[[bool], Status]) -> Status:
         """Send again what was damaged on its way there or back; `send` is told whether it is again."""
         for again in (False, *[True] * (ATTEMPTS - 2)):
             try:
@@ -145,15 +145,15 @@ class Exchange:
             except LinkError:
                 continue
 
-    def control(self, command: Control, *, faults_matter: bool = True) -> None:
+    def control(self, command: Control, *, raise_faults: bool = True) -> None:
         """Give one command."""
         end = frames.pack_control(self.sent, 0, self.sequence, command)
-        self.short(frames.pack_nop(self.sent, end, self.sequence + 1), faults_matter=faults_matter)
+        self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
 
     def write(self, register: Register, value: int) -> None:
         """Write one register."""
         end = frames.pack_write(self.sent, 0, self.sequence, register, value)
-        self.short(frames.pack_nop(self.sent, end, self.sequence + 1))
+        self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1))
 
     def read(self, register: Register) -> int:
         """Value of one register."""
@@ -166,9 +166,9 @@ class Exchange:
     def read_address(self, address: int) -> int:
         """Value of a register, a word of memory, or whatever else READ knows."""
         end = frames.pack_read(self.sent, 0, self.sequence, address)
-        return self.short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
+        return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
 
-    def unchecked(self, lengths: list[int]) -> int:
+    def send_unchecked(self, lengths: list[int]) -> int:
         """Send frames whatever becomes of them; how many answers were damaged."""
         self.sequence = (self.sequence + len(lengths)) & 0xFF
         self._link.exchange(self.sent, lengths, self.received)
@@ -192,9 +192,9 @@ class Exchange:
             self._answers[lengths] = known
         return known
 
-    def _explain(self, status: Status, faults_matter: bool) -> None:
+    def _explain(self, status: Status, raise_faults: bool) -> None:
         """Raise what an answer that is not plain OK stands for; a fault that does not matter is none."""
-        if status.faults and faults_matter:
+        if status.faults and raise_faults:
             kind = HostSilent if status.faults == Fault.HOST_SILENT else FaultError
             raise kind(f"outputs off: {status.faults.sentence}", status.faults)
         if status.result is not Result.OK:
@@ -203,9 +203,9 @@ class Exchange:
             raise LinkError(f"a frame was lost on its way: the FPGA's last one is number {status.sequence}")
 
 
-def _all_well(answers: Answers, sequence: int, first: int) -> bool:
+def _all_ok(answers: Answers, sequence: int, first: int) -> bool:
     """Whether all answers from the first on are well; the frame before all of them has this number."""
     for index in range(first, len(answers)):  # noqa: SIM110 — a generator would cost as much as the answers
-        if not answered_well(answers[index][0], (sequence + index) & 0xFF):
+        if not status_ok(answers[index][0], (sequence + index) & 0xFF):
             return False
     return True

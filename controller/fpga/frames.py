@@ -50,7 +50,7 @@ LOAD_FRAME_BYTES = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size  # of a full 
 UPLOAD_BYTES = CHUNKS * LOAD_FRAME_BYTES  # of the longest waveform
 
 
-class Damaged(LinkError):
+class DamagedStatus(LinkError):
     """What came back is no status: nothing is known of the FPGA, nor of what it was sent."""
 
 
@@ -239,7 +239,7 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
 
     Raises
     ------
-    Damaged
+    DamagedStatus
         If it has no sync word or a wrong CRC.
     LinkError
         If it has a code this version does not know.
@@ -253,7 +253,7 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     return Status(code, sequence, _STATES[state], Fault(faults) if faults else _NO_FAULT, *counters)
 
 
-def answered_well(answer: ReadableBuffer, sequence: int) -> bool:
+def status_ok(answer: ReadableBuffer, sequence: int) -> bool:
     """Whether a status is sound, and says that the frame of this sequence number was accepted and done and no fault is latched.
 
     The short form of `parse_status` for the hot path; that one says why not.
@@ -273,10 +273,10 @@ def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
     """Fields of a status between sync word and CRC, both of which have to be right."""
     sync, *fields, crc = STATUS.unpack_from(buffer, offset)
     if sync != STATUS_SYNC:
-        raise Damaged(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
+        raise DamagedStatus(f"status begins with 0x{sync:04X} and not 0x{STATUS_SYNC:04X}: is the FPGA configured, is MISO wired?")
     wanted = zlib.crc32(memoryview(buffer)[offset : offset + FRAME_BYTES - CRC.size])
     if crc != wanted:
-        raise Damaged(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
+        raise DamagedStatus(f"status has CRC 0x{crc:08X} and not 0x{wanted:08X}: damaged on its way; try a lower SPI clock")
     return tuple(fields)
 
 

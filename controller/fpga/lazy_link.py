@@ -8,7 +8,7 @@ from controller.errors import LinkError
 from controller.fpga.link import Link
 
 
-class AwaitedLink:
+class LazyLink:
     """`Link` by another one, made as soon as that can be done.
 
     Parameters
@@ -35,9 +35,9 @@ class AwaitedLink:
         return self._link.wire_ns if self._link is not None else 0
 
     @property
-    def away_ns(self) -> int:
+    def blocked_ns(self) -> int:
         """Time spent inside the link."""
-        return self._link.away_ns if self._link is not None else 0
+        return self._link.blocked_ns if self._link is not None else 0
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """Send frames, and store what comes back.
@@ -57,9 +57,9 @@ class AwaitedLink:
             raise LinkError("the link to the FPGA is not open yet")
         return self._link.trigger()
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When the wire is free."""
-        return self._link.free_s() if self._link is not None else self._now_s()
+        return self._link.wire_free_s() if self._link is not None else self._now_s()
 
     def close(self) -> None:
         """Let go of the device."""

@@ -21,7 +21,7 @@ class Link(Protocol):
         """Time those bytes took on the wire."""
 
     @property
-    def away_ns(self) -> int:
+    def blocked_ns(self) -> int:
         """Time spent inside this link that is not the host's own work: waiting for the wire, computing the far end."""
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
@@ -36,7 +36,7 @@ class Link(Protocol):
     def trigger(self) -> float:
         """Pulse the trigger pin; the time of its edge in s on the loop's clock."""
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """Since or until when, on the loop's clock, the wire is free: what is sent or triggered before waits until then."""
 
     def close(self) -> None:

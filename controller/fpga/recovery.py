@@ -21,7 +21,7 @@ from typing import Final
 from controller.board.board import Board
 from controller.board.panel_state import PanelState
 from controller.errors import ControllerError, FaultError, LinkError
-from controller.fpga.configuration import UnfitFpga
+from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Fault, Result, State
 from controller.fpga.session import Session
@@ -35,9 +35,9 @@ LONGEST_PAUSE_S: Final = 2.0
 class Action(Enum):
     """What to do about an error."""
 
-    AGAIN = "again"
-    WAIT = "wait"
-    END = "end"
+    RETRY = "retry"
+    WAIT_FOR_PERMIT = "wait for permit"
+    FAIL = "fail"
 
 
 def action_for(error: ControllerError) -> Action:
@@ -45,21 +45,21 @@ def action_for(error: ControllerError) -> Action:
     if isinstance(error, FaultError):
         faults = Fault(error.faults)
         if not faults or faults & ~(WAITED_FOR | Fault.HOST_SILENT):
-            return Action.END
-        return Action.WAIT if faults & WAITED_FOR else Action.AGAIN
+            return Action.FAIL
+        return Action.WAIT_FOR_PERMIT if faults & WAITED_FOR else Action.RETRY
     if isinstance(error, Refused) and error.result is Result.NO_PERMIT:
-        return Action.WAIT
-    if isinstance(error, UnfitFpga):
-        return Action.END
-    return Action.AGAIN if isinstance(error, LinkError) else Action.END
+        return Action.WAIT_FOR_PERMIT
+    if isinstance(error, IncompatibleFpga):
+        return Action.FAIL
+    return Action.RETRY if isinstance(error, LinkError) else Action.FAIL
 
 
-def permitted(state: State) -> bool:
+def arming_permitted(state: State) -> bool:
     """Whether run permit and temperature allow arming."""
     return state & PERMITS == PERMITS
 
 
-def state_after(error: ControllerError) -> PanelState:
+def panel_state_after(error: ControllerError) -> PanelState:
     """How the panel is called while an error is being got over."""
     if isinstance(error, FaultError):
         return PanelState.NO_PERMIT if Fault.NO_PERMIT in Fault(error.faults) else PanelState.FAULTED
@@ -114,7 +114,7 @@ class Recovery:
         if isinstance(error, FaultError):  # it is off already
             self.next_s = now_s
 
-    def rest(self, off_s: float) -> None:
+    def disarmed(self, off_s: float) -> None:
         """Outputs are gliding to 0 V, at which they are at `off_s`: the next step is then."""
         self.next_s = off_s
         self._pause_s = self._safe_s
@@ -148,7 +148,7 @@ class Recovery:
             session.bring_up()
             self._known = True
         state = session.heartbeat().state
-        if not permitted(state):
+        if not arming_permitted(state):
             if State.RUN_PERMIT in state:
                 self.state, self.cause = (
                     PanelState.FAULTED,
@@ -167,13 +167,13 @@ class Recovery:
         return False
 
     def _fail(self, error: ControllerError, now_s: float) -> None:
-        self.state = state_after(error)
+        self.state = panel_state_after(error)
         self.cause = str(error)
         action = action_for(error)
-        if action is Action.END:
+        if action is Action.FAIL:
             raise error
         self._known = False
         self._armed_s = None
-        self.next_s = now_s + (self._pause_s if action is Action.AGAIN else PERMIT_POLL_S)
-        if action is Action.AGAIN:
+        self.next_s = now_s + (self._pause_s if action is Action.RETRY else PERMIT_POLL_S)
+        if action is Action.RETRY:
             self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)

@@ -86,7 +86,7 @@ class Session:
 
         Raises
         ------
-        UnfitFpga
+        IncompatibleFpga
             If it is another one, or does not take a setting.
         LinkError
             If it does not answer, or is armed. One that this host armed is told to disarm first:
@@ -94,7 +94,7 @@ class Session:
         """
         self._on = False
         self._beat_s = math.inf  # its clock may have begun anew
-        self.exchange.insist(lambda _: self._commanded(Control.CLEAR, faults_matter=False))  # it answers no question before
+        self.exchange.retry(lambda _: self._commanded(Control.CLEAR, raise_faults=False))  # it answers no question before
         configuration.verify(self.exchange.read, self._board, self._build_hash)
         self._configure()
         self._ours = False
@@ -110,22 +110,22 @@ class Session:
         return self.exchange.heartbeat_due_s
 
     @property
-    def away_ns(self) -> int:
+    def blocked_ns(self) -> int:
         """Time spent in the link that is not the host's own work."""
-        return self._link.away_ns
+        return self._link.blocked_ns
 
     @property
     def wire_ns(self) -> int:
         """Time the bytes sent took on the wire."""
         return self._link.wire_ns
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """Since or until when the wire is free."""
-        return self._link.free_s()
+        return self._link.wire_free_s()
 
-    def ready_s(self) -> float:
+    def earliest_trigger_s(self) -> float:
         """Earliest time at which a trigger given now would rise."""
-        return max(self._now_s(), self._link.free_s())
+        return max(self._now_s(), self._link.wire_free_s())
 
     def arm(self) -> float:
         """Have the outputs glide to their idle levels; the time at which they have arrived.
@@ -146,17 +146,17 @@ class Session:
 
         def send(again: bool) -> Status:
             if again:  # the ARM may have arrived, and only its answer not
-                status = self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence))
+                status = self.exchange.send_short(frames.pack_nop(self._sent, 0, self.exchange.sequence))
                 if State.HV_ENABLE in status.state:
                     return status
             sequence = self.exchange.sequence
             end = frames.pack_nop(self._sent, 0, sequence)  # feeds the heartbeat, without which arming is refused
             end = frames.pack_unlock(self._sent, end, sequence + 1, self._build_hash)
             end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
-            return self.exchange.short(frames.pack_nop(self._sent, end, sequence + 3))
+            return self.exchange.send_short(frames.pack_nop(self._sent, end, sequence + 3))
 
         self._ours = True
-        self.exchange.insist(send)
+        self.exchange.retry(send)
         self._on = True
         self.ramp_end_s = self._in_s(configuration.arming_ticks(self._board, self.bit_period))
         return self.ramp_end_s
@@ -171,7 +171,7 @@ class Session:
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""
         self._on = False
-        self.exchange.insist(lambda _: self._commanded(Control.DISARM))
+        self.exchange.retry(lambda _: self._commanded(Control.DISARM))
         self.ramp_end_s = self._in_s(configuration.ramp_ticks(self._board, self.bit_period))
         return self.ramp_end_s
 
@@ -198,8 +198,8 @@ class Session:
             If its answers are damaged again and again.
         """
         before_s = self._now_s()
-        status = self.exchange.insist(lambda _: self.exchange.short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
-        after_s = max(self._now_s(), self._link.free_s())
+        status = self.exchange.retry(lambda _: self.exchange.send_short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        after_s = max(self._now_s(), self._link.wire_free_s())
         least_ticks = (before_s - self._beat_s) * self._board.link.clock_hz * (1 - CLOCK_TOLERANCE)
         if (self._on and State.HV_ENABLE not in status.state) or status.timestamp_ticks - self._beat_ticks < least_ticks:
             raise FpgaReset
@@ -251,10 +251,10 @@ class Session:
                 when_ticks=when_ticks,
                 mask=mask,
             )
-            return self.exchange.short(frames.pack_nop(self._sent, end, sequence + (stop or again) + 1))
+            return self.exchange.send_short(frames.pack_nop(self._sent, end, sequence + (stop or again) + 1))
 
         try:
-            self.exchange.insist(send)
+            self.exchange.retry(send)
         except Refused as refusal:
             self._look_for_reset(refusal)
             raise
@@ -283,9 +283,9 @@ class Session:
             fillers = self._check_frames + 1
             for number in range(1, fillers + 1):
                 end = frames.pack_nop(self._sent, end, sequence + number)
-            return self.exchange.message(self._upload_lengths[1 + fillers], vouched=self._upload.frames)
+            return self.exchange.send(self._upload_lengths[1 + fillers], implied=self._upload.frames)
 
-        self.exchange.insist(send)
+        self.exchange.retry(send)
 
     def upload_and_play(
         self,
@@ -333,10 +333,10 @@ class Session:
                 self._sent, end, sequence, slot, count=count, period_ticks=period_ticks, start=start, when_ticks=when_ticks
             )
             end = frames.pack_nop(self._sent, end, sequence + 1)
-            return self.exchange.message(self._upload_lengths[(end - commands) // FRAME_BYTES], vouched=self._upload.frames)
+            return self.exchange.send(self._upload_lengths[(end - commands) // FRAME_BYTES], implied=self._upload.frames)
 
         try:
-            self.exchange.insist(send)
+            self.exchange.retry(send)
         except Refused as refusal:
             self._look_for_reset(refusal)
             self.exchange.stop()  # if it was the STORE, the PLAY behind it may have taken the slot's old waveform
@@ -350,7 +350,7 @@ class Session:
         LinkError
             If the link damages whatever is tried.
         """
-        self.exchange.insist(lambda _: self._commanded(Control.STOP))
+        self.exchange.retry(lambda _: self._commanded(Control.STOP))
 
     def trigger(self) -> float:
         """Start what was accepted; the time of the trigger's edge."""
@@ -373,7 +373,7 @@ class Session:
         if period == self.bit_period:
             return True
         try:
-            self.exchange.insist(lambda _: self._written(Register.BIT_PERIOD, period))
+            self.exchange.retry(lambda _: self._written(Register.BIT_PERIOD, period))
         except Refused as refusal:
             if refusal.result is Result.BUSY:
                 return False
@@ -381,7 +381,7 @@ class Session:
         self.bit_period = period
         return True
 
-    def played_period_s(self, period_s: float) -> float:
+    def actual_period_s(self, period_s: float) -> float:
         """Time from emission to emission as the FPGA counts it, where this is asked for."""
         return self._period_ticks(period_s) / self._board.link.clock_hz
 
@@ -408,13 +408,13 @@ class Session:
             return shortest
         return ticks
 
-    def _commanded(self, command: Control, *, faults_matter: bool = True) -> Status:
+    def _commanded(self, command: Control, *, raise_faults: bool = True) -> Status:
         end = frames.pack_control(self._sent, 0, self.exchange.sequence, command)
-        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1), faults_matter=faults_matter)
+        return self.exchange.send_short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1), raise_faults=raise_faults)
 
     def _written(self, register: Register, value: int) -> Status:
         end = frames.pack_write(self._sent, 0, self.exchange.sequence, register, value)
-        return self.exchange.short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1))
+        return self.exchange.send_short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1))
 
     def _look_for_reset(self, refusal: Refused) -> None:
         """Raise FpgaReset if that is why the FPGA refused."""
@@ -434,10 +434,10 @@ class Session:
             try:
                 self.exchange.write(register, value)
             except Refused as refusal:
-                kind = configuration.UnfitFpga if refusal.result in UNFIT else LinkError
+                kind = configuration.IncompatibleFpga if refusal.result in UNFIT else LinkError
                 raise kind(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
             if self.exchange.read(register) != value:
                 raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
 
     def _in_s(self, ticks: int) -> float:
-        return self.ready_s() + ticks / self._board.link.clock_hz
+        return self.earliest_trigger_s() + ticks / self._board.link.clock_hz

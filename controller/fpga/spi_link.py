@@ -65,7 +65,7 @@ class SpiLink:
     ----------
     sck_hz : float
         What SCK really is: by the divider of `settings.spi_source_hz` where that is given, else what spidev was asked for.
-    wire_ns, away_ns : int
+    wire_ns, blocked_ns : int
         Both are the time in the kernel, which returns when the last bit has gone.
 
     Raises
@@ -77,7 +77,7 @@ class SpiLink:
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0
-        self.away_ns = 0
+        self.blocked_ns = 0
         self.sck_hz = 0.0
         self.bufsiz = read_bufsiz()
         self._settings = settings
@@ -129,14 +129,14 @@ class SpiLink:
         finally:
             elapsed_ns = time.perf_counter_ns() - started_ns
             self.wire_ns += elapsed_ns
-            self.away_ns += elapsed_ns
+            self.blocked_ns += elapsed_ns
             self._free_s = self._now_s()
 
     def trigger(self) -> float:
         """Pulse the trigger line; the time of its edge."""
         return self.lines.pulse()
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When the last message had gone."""
         return self._free_s
 

@@ -329,7 +329,7 @@ class EventLoop:
 
     def _open_s(self) -> float:
         """Since or until when the next emission may be handed over: the wire is free, and the one before has begun."""
-        return max(self._session.free_s(), self._playback.begins_s)
+        return max(self._session.wire_free_s(), self._playback.begins_s)
 
     def _listen(self, now_s: float) -> None:
         """Let the panel have the silence that it asks for; what the FPGA repeats is stopped, and goes on in its beat."""
@@ -386,7 +386,7 @@ class EventLoop:
         wanted = self._performance.expected(
             finger, self._source.place, reported_s, self._source.report_s, self._playback.duration_s + PREFETCHED_S
         )
-        if wanted is None or self._session.free_s() > now_s:
+        if wanted is None or self._session.wire_free_s() > now_s:
             return
         soonest_s = min(
             self._clock_estimate.host_s(self._performance.next_s()), self._clock_estimate.host_s(self._performance.next_spot_s())
@@ -404,7 +404,7 @@ class EventLoop:
         times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
         if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
             open_s = max(now_s, self._open_s())
-            if open_s <= max(now_s, self._session.free_s()):
+            if open_s <= max(now_s, self._session.wire_free_s()):
                 return min(open_s, self._outputs.next_s())
             times.append(open_s)
         if next_s != NEVER:

@@ -122,12 +122,12 @@ class Outputs:
         self.on = False
         self._off_since_s = now_s
         off_s = self._session.disarm()
-        self._recovery.rest(off_s)
+        self._recovery.disarmed(off_s)
         return off_s
 
     def _beat(self) -> None:
         before_s = self._clock.now_s()
         status = self._session.heartbeat()
-        sent_s = max(before_s, self._session.free_s())  # not later: what came back may have been read late
+        sent_s = max(before_s, self._session.wire_free_s())  # not later: what came back may have been read late
         self._clock_estimate.add(before_s, sent_s, status.timestamp_ticks)
         self._counters.heartbeats += 1

@@ -168,7 +168,7 @@ class Playback:
         if running is None or now_s < self.begins_s:
             return None
         self.stop()
-        return self._clock_estimate.host_s(running.last_s(self._clock_estimate.fpga_s(self._session.ready_s())))
+        return self._clock_estimate.host_s(running.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
 
     def prepare(
         self,
@@ -201,7 +201,7 @@ class Playback:
             When it starts, in FPGA time: to the clock if the FPGA starts it, else as expected.
         """
         decided_ns = time.perf_counter_ns()
-        session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
+        session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
         for wire_s in (self._command_s, self.upload_s):  # an upload starts later, and so meets a finger elsewhere
             start_s = self._start_s(wire_s, at_s)
             points = self._aim(emissions, start_s, ahead)
@@ -234,8 +234,8 @@ class Playback:
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
             self._counters.skipped.refused += len(emissions)
             return None
-        ready_s = session.ready_s()
-        away_ns = session.away_ns - away_before_ns
+        ready_s = session.earliest_trigger_s()
+        blocked_ns = session.blocked_ns - blocked_before_ns
         prepared = _Prepared(
             emissions,
             points,
@@ -246,7 +246,7 @@ class Playback:
             max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(start_s),
             None if at_s is None else when_ticks,
             decided_ns - started_ns,
-            time.perf_counter_ns() - decided_ns - away_ns,
+            time.perf_counter_ns() - decided_ns - blocked_ns,
             session.wire_ns - wire_before_ns,
         )
         if at_s is not None:
@@ -325,9 +325,9 @@ class Playback:
         if prepared is None:
             return
         self._prepared = None
-        called_ns, away_ns = time.perf_counter_ns(), self._session.away_ns
+        called_ns, blocked_ns = time.perf_counter_ns(), self._session.blocked_ns
         trigger_s = self._session.trigger()
-        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.away_ns - away_ns))
+        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
 
     def forget(self) -> None:
         """Take it that the FPGA holds and plays nothing: after a fault."""
@@ -341,7 +341,7 @@ class Playback:
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._clock_estimate.fpga_s(self._session.ready_s() + wire_s)
+        arrived_s = self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s)
         if at_s is not None:
             arrived_s += HANDOVER_S
         free_s = self._free_fpga_s
@@ -405,7 +405,7 @@ class Playback:
         """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
         if self._running is not None:
             clock_estimate = self._clock_estimate
-            last_s = self._running.last_s(clock_estimate.fpga_s(self._session.ready_s()))
+            last_s = self._running.last_s(clock_estimate.fpga_s(self._session.earliest_trigger_s()))
             self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
             self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
             self._running = None
@@ -434,7 +434,7 @@ class Playback:
         else:
             counters.uploads += 1
         if prepared.count == ENDLESS:
-            self._running = _Repetition(fpga_s, self._session.played_period_s(prepared.period_s))
+            self._running = _Repetition(fpga_s, self._session.actual_period_s(prepared.period_s))
         if self._played is not None:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]

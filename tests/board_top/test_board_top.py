@@ -144,7 +144,7 @@ def test_a_frame_damaged_on_its_way_is_refused_and_the_next_one_taken(pi):
     damaged = iter([True])
     pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
     with pytest.raises(Refused) as caught:
-        session.exchange.short(end)
+        session.exchange.send_short(end)
     assert caught.value.result is Result.BAD_CRC
     session.heartbeat()
 

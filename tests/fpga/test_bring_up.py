@@ -157,8 +157,8 @@ def test_the_gateware_plays_a_waveform_while_it_arrives(board):
     for chunk in range(1, 8):
         end = frames.pack_load(exchange.sent, end, sequence + 1 + chunk, chunk, words[500 * chunk : 500 * (chunk + 1)])
     frames.pack_nop(exchange.sent, end, sequence + 9)
-    began_s = link.free_s()
-    exchange.message([frames.LOAD_FRAME_BYTES, FRAME_BYTES, *[frames.LOAD_FRAME_BYTES] * 7, FRAME_BYTES])
+    began_s = link.wire_free_s()
+    exchange.send([frames.LOAD_FRAME_BYTES, FRAME_BYTES, *[frames.LOAD_FRAME_BYTES] * 7, FRAME_BYTES])
     rest(session, clock, clock.now_s() + 0.01)
     assert exchange.read(Register.EMISSIONS) == 1
     first_s = link.time_s(exchange.read(Register.EMISSION_TIME_LOW)) - began_s
@@ -172,7 +172,7 @@ def test_a_play_is_scheduled_at_a_time_of_the_host(board):
     for _ in range(10):
         before_s = clock.now_s()
         status = session.heartbeat()
-        estimate.add(before_s, link.free_s(), status.timestamp_ticks)
+        estimate.add(before_s, link.wire_free_s(), status.timestamp_ticks)
         rest(session, clock, clock.now_s() + 0.05)
     at_s = clock.now_s() + 0.02
     session.play(0, 3, 5e-3, stop=False, start=Start.TIME, when_ticks=estimate.ticks(estimate.fpga_s(at_s)))

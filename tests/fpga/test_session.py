@@ -73,7 +73,7 @@ def armed(board, clock, link):
 
 
 def wait(clock, link, seconds):
-    clock._now_s = max(clock.now_s(), link.free_s()) + seconds
+    clock._now_s = max(clock.now_s(), link.wire_free_s()) + seconds
 
 
 def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock, link, armed):
@@ -189,7 +189,7 @@ def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock
 
 def test_a_missing_permit_is_told_when_arming(board, clock, link):
     session = Session(link, board, BUILD, clock.now_s)
-    link.gateware.permit(round(link.free_s() * link.clock_hz), False, Permit.TEMPERATURE)
+    link.gateware.permit(round(link.wire_free_s() * link.clock_hz), False, Permit.TEMPERATURE)
     clock._now_s += 1e-3
     with pytest.raises(Refused, match="run permit") as caught:
         session.arm()
@@ -260,7 +260,7 @@ def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board
 
 
 def test_a_fault_carries_its_bits(board, clock, link, armed):
-    link.gateware.permit(round(link.free_s() * link.clock_hz) + 100, False, Permit.TEMPERATURE)
+    link.gateware.permit(round(link.wire_free_s() * link.clock_hz) + 100, False, Permit.TEMPERATURE)
     wait(clock, link, 1e-3)
     with pytest.raises(FaultError, match="temperature input went low") as caught:
         armed.heartbeat()
@@ -312,7 +312,7 @@ def test_an_upload_whose_slot_is_still_checked_is_waited_for_at_any_sck(board, c
         assert session.heartbeat().queued == 1
         assert session.exchange.read_address(READ_SLOT_CRC) == zlib.crc32(WORDS)
         session.off()
-        clock._now_s = link.free_s() + 0.1
+        clock._now_s = link.wire_free_s() + 0.1
 
 
 def test_refuses_an_fpga_that_somebody_else_has_armed(board, clock, link, armed):
@@ -374,7 +374,7 @@ def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed)
     assert State.PENDING in armed.heartbeat().state, "sent again: it is there after all"
     link.noise = {link.frames: ("lost, an old NOP instead", 0)}
     with pytest.raises(LinkError, match="lost on its way"):
-        armed.exchange.control(Control.CLEAR, faults_matter=False)
+        armed.exchange.control(Control.CLEAR, raise_faults=False)
 
 
 @pytest.mark.parametrize("frame", range(12))

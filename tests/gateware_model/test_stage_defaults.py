@@ -57,7 +57,7 @@ def test_the_simulated_panel_plays_500_hz_for_as_long_as_asked():
 def test_hardware_shuts_it_off_when_the_duty_budget_is_spent():
     fault, session, capture, began_s = play_endlessly("ulx3s", 1.0)
     assert "more emission than the duty limit allows" in str(fault)
-    session.exchange.control(Control.CLEAR, faults_matter=False)
+    session.exchange.control(Control.CLEAR, raise_faults=False)
     board = load_board(find_board("ulx3s"))
     ramp_s, budget_s, share = board.limits.ramp_ms * 1e-3, board.limits.duty_budget_ms * 1e-3, board.limits.max_duty
     spent_s = (budget_s - ramp_s * (1 - share)) / (1 - share)  # the ramp before has taken its part; 0.02 ms leaked since

@@ -165,7 +165,7 @@ def test_each_frame_is_a_transfer_of_its_own_chip_select_and_comes_back_in_its_p
         link.exchange(sent, lengths, received)
         assert link.bytes_sent == sum(lengths)
         assert 0 < link.effective_hz < link.sck_hz == 25e6
-        assert link.free_s() <= CLOCK.now_s()
+        assert link.wire_free_s() <= CLOCK.now_s()
     thread.join()
     os.close(wires)
     start = 0

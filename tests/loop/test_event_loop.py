@@ -172,7 +172,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
-    monkeypatch.setattr(Session, "away_ns", property(lambda _: next(ages_ns)))
+    monkeypatch.setattr(Session, "blocked_ns", property(lambda _: next(ages_ns)))
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.counters.upload_latency.host.count == 1
     assert run.counters.upload_latency.host.worst_ns == 0
