@@ -13,7 +13,8 @@ from controller.board.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
 from controller.fpga.exchange import COMMANDS, Exchange, FpgaReset, Refused
-from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, Status
+from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES
+from controller.fpga.status import Status
 from controller.fpga.link import Link
 from controller.fpga.registers import Control, Register, Result, Start, State
 from controller.fpga.upload_image import UploadImage

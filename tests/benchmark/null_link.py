@@ -11,7 +11,8 @@ import zlib
 from collections.abc import Callable, Sequence
 
 from controller.board.board import Board
-from controller.fpga.frames import CRC, FRAME_BYTES, STATUS
+from controller.fpga.frames import CRC, FRAME_BYTES
+from controller.fpga.status import STATUS
 from controller.fpga.registers import STATUS_SYNC, Result, State
 from controller.service.drivers import open_simulated
 

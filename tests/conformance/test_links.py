@@ -20,7 +20,8 @@ from pin_script import (
 )
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.status import parse_status
 from controller.fpga.registers import Control, Register, Result, Start, State
 from controller.gateware_model.gateware import frame_ticks
 

@@ -6,7 +6,9 @@ from hypothesis import strategies as st
 
 from controller.errors import LinkError
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status, parse_status, upload_slices
+from controller.fpga.frames import FRAME_BYTES, HEADER
+from controller.fpga.status import Status, pack_status, parse_status
+from controller.fpga.upload_image import UploadImage, upload_slices
 from controller.fpga.registers import (
     CRC_RESIDUE,
     IDENTITY_MAGIC,
@@ -217,7 +219,7 @@ def test_a_frame_with_a_bit_flipped_or_bytes_lost_or_added_is_refused(payload, d
 def test_an_upload_lies_where_its_slices_say(length):
     words = bytes(range(256)) * 16
     buffer = bytearray(frames.UPLOAD_BYTES)
-    end = frames.pack_upload(buffer, 0, 250, memoryview(words)[: 4 * length])
+    end = UploadImage(memoryview(buffer), length).pack(250, memoryview(words)[: 4 * length])
     slices = upload_slices(length)
     assert slices[-1].stop == end
     assert slices[0].start == 0

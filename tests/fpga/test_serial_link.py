@@ -18,7 +18,8 @@ from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.status import parse_status
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
 from controller.fpga.session import Session
@@ -213,7 +214,8 @@ def test_the_trigger_plays(board, clock, line, open_link):
 def test_a_load_is_answered_at_its_place_with_zeros_behind(open_link):
     link = open_link()
     sent = bytearray(2 * frames.LOAD_FRAME_BYTES + FRAME_BYTES)
-    end = frames.pack_upload(sent, 0, 5, WORDS[:1000])
+    end = frames.pack_load(sent, 0, 5, 0, WORDS[:500])
+    end = frames.pack_load(sent, end, 6, 1, WORDS[500:1000])
     frames.pack_nop(sent, end, 7)
     lengths = [frames.LOAD_FRAME_BYTES] * 2 + [FRAME_BYTES]
     received = memoryview(bytearray(b"\xee" * len(sent)))

@@ -14,7 +14,7 @@ from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.upload_image import UploadImage
+from controller.fpga.upload_image import UploadImage, upload_slices
 from controller.loop.playback import Playback
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
@@ -57,8 +57,8 @@ def count_crcs(monkeypatch, *modules):
 
 
 def test_packing_an_upload_is_one_crc_pass(monkeypatch):
-    checked = count_crcs(monkeypatch, frames)
-    frames.pack_upload(BUFFER, 0, 0, WORDS)
+    checked = count_crcs(monkeypatch, upload_image)
+    UploadImage(BUFFER, 1000).pack(0, WORDS)
     assert checked == [8 + 500] * 8
 
 
@@ -99,8 +99,8 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
 
 
 def test_every_byte_of_the_payload_arrives_in_its_chunk():
-    frames.pack_upload(BUFFER, 0, 0, WORDS)
-    payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in frames.upload_slices(1000))
+    UploadImage(BUFFER, 1000).pack(0, WORDS)
+    payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in upload_slices(1000))
     assert payload == bytes(WORDS)
 
 
@@ -111,6 +111,8 @@ def test_the_image_of_an_upload_is_what_packing_it_frame_by_frame_gives(samples,
     image = UploadImage(kept, samples)
     image.pack(sequence ^ 0x55, WORDS[-4 * samples :])
     kept[: len(between)] = between
-    end = frames.pack_upload(plain, 0, sequence, words)
+    end = 0
+    for chunk in range(-(-samples // 125)):
+        end = frames.pack_load(plain, end, sequence + chunk, chunk, words[500 * chunk : 500 * (chunk + 1)])
     assert image.pack(sequence, words) == end == sum(image.lengths)
     assert kept[:end] == plain[:end]
