@@ -179,7 +179,7 @@ def test_a_clock_that_is_a_little_slow_is_no_reset(panel):
     panel.wait(10.0)
     hz = panel.link.clock_hz
     panel.link.clock_hz = round(hz * 0.9995)  # from its start on
-    panel.session._beat_ticks = round(panel.session._beat_ticks * 0.9995)
+    panel.session._heartbeat_ticks = round(panel.session._heartbeat_ticks * 0.9995)
     panel.session.heartbeat()
 
 
