@@ -635,6 +635,22 @@ def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, t
     assert told == ([(7, "bad.toml")] if ticket else [])
 
 
+def test_a_spot_of_another_scene_stays_resident_whatever_is_played_between_its_beats(board, bank_file, tmp_path, evemu_text):
+    clock, places = VirtualClock(), [(30.0 + 13.0 * k, 110.0) for k in range(10)]
+    taps = [report for k, place in enumerate(places) for report in ((0.6 + 0.04 * k, {0: place}), (0.62 + 0.04 * k, {0: None}))]
+    (tmp_path / "other.toml").write_text(SPOT.replace("rate_hz = 20.0", "rate_hz = 2.0") + CLICK)
+    change = Change(clock, Prepared(0, load_scene(tmp_path / "other.toml", board)))
+    with Bank.open(bank_file, board) as bank:
+        reports = [(0.0, {}), *taps, (2.2, {})]
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, CLICK, change=change)
+        loop.run()
+        assert not loop.reloading
+        change.fileno = lambda: 0
+        assert loop.reloading
+        link.close()
+    assert counters.uploads == len(places) + 1
+
+
 def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text):
     clock = At((0.3, lambda: loop.stop()))  # noqa: PLW0108 — there is no loop yet
     reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
@@ -714,6 +730,17 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         loop._playback.begins_s, loop._playback._running = 10.1, _Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()
+
+
+def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, cell, evemu_text):
+    """Which has run for 100 s when this host begins."""
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
+        loop._time_base.offset_s, given = 100.0, []
+        loop._performance.touch = given.append
+        loop._read(loop._source.next_time_s())
+        link.close()
+    assert [sample.time_s for sample in given] == [pytest.approx(100.1)]
 
 
 def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):

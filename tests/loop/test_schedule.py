@@ -359,6 +359,14 @@ def test_after_what_the_fpga_started_by_itself_the_plate_is_as_busy(by_hand):
     assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
 
 
+def test_what_lasts_longer_keeps_the_plate_busy_for_longer(by_hand):
+    by_hand.playback.stretch(1.1)
+    for x_m in (0.05, 0.1):
+        by_hand.playback.prepare(focus(x_m), 0)
+    (first,) = by_hand.played
+    assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + 1.1 * T_S / DUTY, abs=2 * MARGIN_S)
+
+
 def test_a_waveform_that_serves_for_a_place_near_by_is_counted(by_hand):
     for x_m in (0.0550, 0.0553, 0.0553, 0.0650):
         by_hand.playback.prepare(focus(x_m), 0)

@@ -1,5 +1,7 @@
 """What is under way between two moments: what waits, what replaces what, and what commands are told."""
 
+import math
+
 import pytest
 
 from controller.errors import ConfigError
@@ -173,6 +175,14 @@ def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, t
     assert performance.due
 
 
+def test_who_takes_the_number_of_a_finger_that_was_lifted_gets_a_share_of_its_own(scene, told):
+    performance = performing(scene, told, confirmed=lambda _: False)
+    for at_s in (0.0, 1.0, 2.0):
+        performance.touch(TouchSample(0, 0.05, 0.05, at_s, True))
+        assert len(played(performance, at_s)) == 1
+        performance.touch(TouchSample(0, 0.05, 0.05, at_s + 0.1, False))
+
+
 def test_another_scene_takes_over_while_fingers_are_down(performance, board, tmp_path, told):
     performance.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
     command(performance, 1, now_s=0.25)
@@ -243,14 +253,21 @@ def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_d
     assert performance.due
 
 
+@pytest.mark.parametrize(("effect", "way_mm"), [("texture", 0.5), ("detent", 0.25)])  # from the touch, from line to line
 @pytest.mark.parametrize(("step_mm", "foreseen"), [(0.09, False), (0.11, True)])
-def test_a_finger_that_hardly_moves_is_at_rest_and_nothing_is_foreseen_for_it(board, tmp_path, told, step_mm, foreseen):
+def test_a_finger_that_hardly_moves_is_at_rest_and_nothing_is_foreseen_for_it(
+    board, tmp_path, told, step_mm, foreseen, effect, way_mm
+):
     (tmp_path / "fine.toml").write_text(
-        '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 0.5 }]\n'
+        f'[[regions]]\nname = "all"\nshape = "plate"\neffects = [{{ effect = "{effect}", spacing_mm = 0.5 }}]\n'
     )
     performance = performing(load_scene(tmp_path / "fine.toml", board), told)
-    speed_m_s = step_mm * 1e-3 / 0.01
-    for k in range(3):
-        performance.touch(TouchSample(0, 0.05 + speed_m_s * 0.01 * k, 0.05, 0.01 * k, True))
-    wanted = performance.expected(0, lambda _, at_s: (0.05 + speed_m_s * at_s, 0.05), 0.02, 0.01, 2e-3)
+
+    def place(_, at_s):
+        return 0.05 + step_mm * 1e-3 * at_s / 0.01, 0.05
+
+    performance.touch(TouchSample(0, *place(0, 0.0), 0.0, True))
+    wanted = performance.expected(0, place, 0.0, 0.01, 2e-3)
     assert (wanted is not None) == foreseen
+    if foreseen:
+        assert wanted == pytest.approx((*place(0, math.ceil(way_mm / step_mm) * 0.01 + 2e-3), 1.0))
