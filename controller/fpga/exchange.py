@@ -12,9 +12,9 @@ from controller.errors import FaultError, LinkError
 from controller.fpga import frames
 from controller.fpga.diagnosis import diagnose
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
-from controller.fpga.status import DamagedStatus, Status, parse_status, status_ok
 from controller.fpga.link import Link
 from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
+from controller.fpga.status import DamagedStatus, Status, parse_status, status_ok
 
 ATTEMPTS = 3
 COMMANDS = 8  # short frames that the buffers hold after an upload

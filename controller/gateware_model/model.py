@@ -14,8 +14,8 @@ from typing import NamedTuple
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
-from controller.fpga.status import Status, pack_status
 from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
+from controller.fpga.status import Status, pack_status
 from controller.gateware_model.commands import Commands
 from controller.gateware_model.decoder import Frame, decode
 from controller.gateware_model.gate import PIN_TICKS, Gate

@@ -16,8 +16,8 @@ from typing import Any
 from controller.board.board import Board
 from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
-from controller.fpga.session import Session
 from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.session import Session
 from controller.loop.collector import collector_off
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs

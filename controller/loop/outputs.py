@@ -10,10 +10,10 @@ from controller.board.board import Board
 from controller.board.panel_state import PanelState
 from controller.clocks import Clock
 from controller.errors import ControllerError, FaultError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
 from controller.fpga.session import Session
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.metrics import Counters
 
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between

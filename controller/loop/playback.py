@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 from controller.clocks import NEVER
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission

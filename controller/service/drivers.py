@@ -13,9 +13,9 @@ from controller.board.devices import Ft5x06Touch, Gt911Touch, I2cTouch, LinuxInp
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
-from controller.fpga.lazy_link import LazyLink
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
+from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import GatewareFactory

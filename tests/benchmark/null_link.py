@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 
 from controller.board.board import Board
 from controller.fpga.frames import CRC, FRAME_BYTES
-from controller.fpga.status import STATUS
 from controller.fpga.registers import STATUS_SYNC, Result, State
+from controller.fpga.status import STATUS
 from controller.service.drivers import open_simulated
 
 PAUSE_S = 0.25e-6  # chip select high between frames

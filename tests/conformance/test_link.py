@@ -12,8 +12,8 @@ from pin_script import BUILD_HASH, open_gateware
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import parse_status
 from controller.fpga.registers import Control, Register, Result
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import READY_TICKS
 
 QUICK, SLOW = 3_000, 1_000_000

@@ -11,8 +11,8 @@ from random_script import random_script
 
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import parse_status
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 
 SCRIPTS = 72

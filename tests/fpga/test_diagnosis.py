@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from controller.fpga import frames
 from controller.fpga.diagnosis import BITS, diagnose
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import Status, pack_status
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import Status, pack_status
 
 SENT = bytearray(FRAME_BYTES)
 frames.pack_nop(SENT, 0, 77)

@@ -7,8 +7,6 @@ from hypothesis import strategies as st
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES, HEADER
-from controller.fpga.status import Status, pack_status, parse_status
-from controller.fpga.upload_image import UploadImage, upload_slices
 from controller.fpga.registers import (
     CRC_RESIDUE,
     IDENTITY_MAGIC,
@@ -22,6 +20,8 @@ from controller.fpga.registers import (
     Start,
     State,
 )
+from controller.fpga.status import Status, pack_status, parse_status
+from controller.fpga.upload_image import UploadImage, upload_slices
 from controller.gateware_model.decoder import decode
 
 u8, u16, u32 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32))

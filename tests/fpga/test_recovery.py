@@ -14,12 +14,12 @@ from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.build_parameters import Parameters
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
 from controller.fpga.recovery import Action, Recovery, action_for, arming_permitted, panel_state_after
 from controller.fpga.registers import Control, Fault, Register, Result, State
 from controller.fpga.session import Session
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink

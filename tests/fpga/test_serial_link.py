@@ -19,10 +19,10 @@ from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import parse_status
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
 from controller.fpga.session import Session
+from controller.fpga.status import parse_status
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel, decoded
 

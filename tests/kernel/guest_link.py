@@ -18,11 +18,11 @@ from controller.board.board import data_folder, find_board, load_board
 from controller.board.devices import LinkSettings, Temperature
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import FpgaReset
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
 from controller.service.doctor import examine_link, look

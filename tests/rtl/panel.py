@@ -36,8 +36,8 @@ from controller.bank.reader import Bank
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import parse_status
 from controller.fpga.registers import Control, Register, Result, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import (
     BAUD,
     READY_TICKS,

@@ -34,7 +34,6 @@ from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.configuration import LIMITS
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.status import parse_status
 from controller.fpga.registers import (
     FILTER_TICKS,
     IDENTITY_MAGIC,
@@ -53,6 +52,7 @@ from controller.fpga.registers import (
     Start,
     State,
 )
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.player import FETCH_TICKS
 

@@ -6,8 +6,8 @@ import cocotb
 from clocked import after_reset, clocks, pulse, reset
 
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES
-from controller.fpga.status import Status, pack_status
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import Status, pack_status
 
 NAMES = (
     "result_i",

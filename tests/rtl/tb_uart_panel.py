@@ -14,9 +14,9 @@ from uart import Wire
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES
+from controller.fpga.registers import Result, State
 from controller.fpga.status import parse_status
 from controller.fpga.upload_image import UploadImage
-from controller.fpga.registers import Result, State
 
 WORDS = np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32)
 WORDS[100:140] = 0
