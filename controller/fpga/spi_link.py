@@ -20,7 +20,7 @@ import spidev
 from controller.board.devices import LinkSettings
 from controller.errors import LinkError
 from controller.fpga.gpio_lines import GpioLines
-from controller.fpga.spi_messages import Messages
+from controller.fpga.spi_messages import SpiMessages
 
 BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
 BUFSIZ_UNLESS_SAID: Final = 4096
@@ -84,7 +84,7 @@ class SpiLink:
         self._asked_hz = settings.sck_hz
         self._now_s = now_s
         self._free_s = now_s()
-        self._messages: Messages | None = None
+        self._messages: SpiMessages | None = None
         self._spi: spidev.SpiDev | None = self._opened()
         try:
             self.lines = GpioLines(settings, now_s)
@@ -111,11 +111,11 @@ class SpiLink:
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
-            messages = self._messages = Messages(sent, received, self.bufsiz)
+            messages = self._messages = SpiMessages(sent, received, self.bufsiz)
         if self._spi is None:
             self._spi = self._opened_again()
         fd = self._spi.fileno()
-        pieces = messages.of(lengths)
+        pieces = messages.for_lengths(lengths)
         started_ns = time.perf_counter_ns()
         try:
             for request, transfers, size in pieces:

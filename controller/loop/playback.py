@@ -434,7 +434,7 @@ class Playback:
         else:
             counters.uploads += 1
         if prepared.count == ENDLESS:
-            self._running = _Repetition(fpga_s, self._session.actual_period_s(prepared.period_s))
+            self._running = _Repetition(fpga_s, self._session.timing.actual_period_s(prepared.period_s))
         if self._played is not None:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]

@@ -28,7 +28,7 @@ from controller.fpga import bring_up
 from controller.fpga.capture import Capture
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
-from controller.fpga.link_check import ClockedLink, counted, error_rate_bound, measured_sck_hz, proposed_sck_hz, sweep
+from controller.fpga.link_check import ClockedLink, bit_error_count, error_rate_bound, measured_sck_hz, proposed_sck_hz, sweep
 from controller.fpga.session import Session
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.scene.scene import load_scene
@@ -134,7 +134,7 @@ def examine_link(
         done = bring_up.check(session, board, clock, bits, channels, progress=progress, take_capture=take_capture)
     except ControllerError as error:
         return LinkExamined([*findings, Finding("link", False, str(error))], figures)
-    sent, errors = counted(done.bit_errors)
+    sent, errors = bit_error_count(done.bit_errors)
     bound = error_rate_bound(errors, sent)
     figures["bit_errors"] = asdict(done.bit_errors) | {"error_rate_at_most": bound, "confidence": 0.95}
     figures["registers"] = done.registers

@@ -260,9 +260,12 @@ def test_the_bit_clock_is_scaled_while_nothing_plays_and_kept_over_a_bring_up(bo
 
 
 def test_a_period_without_a_pause_is_one_at_any_bit_clock(board, armed):
-    assert armed.played_period_s(board.waveform.duration_s) == armed.emission_s
+    def emission_s():
+        return armed.timing.emission_ticks / board.link.clock_hz
+
+    assert armed.timing.actual_period_s(board.waveform.duration_s) == emission_s()
     assert armed.set_bit_period(0.99)
-    assert armed.played_period_s(board.waveform.duration_s) == armed.emission_s > board.waveform.duration_s
+    assert armed.timing.actual_period_s(board.waveform.duration_s) == emission_s() > board.waveform.duration_s
 
 
 def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board, armed):
