@@ -33,7 +33,7 @@ from controller.board.panel_state import Condition
 from controller.errors import ControllerError
 from controller.log import Priority, tell
 from controller.loop.commands import Outcome, PanelControl
-from controller.loop.scheduler import MOST_WAITING
+from controller.loop.scheduler import MAX_WAITING_COMMANDS
 from controller.touch.samples import TouchSample
 
 NOW = -math.inf
@@ -445,7 +445,7 @@ class CommandSocket:
     def _share_anew(self) -> None:
         """Where there are several users, what those of one have waiting never pushes out what another has on the plate."""
         users = len({client.peer.uid for client in self._clients if client.open})
-        self._share = math.inf if users < 2 else max(MOST_WAITING // users, 1)
+        self._share = math.inf if users < 2 else max(MAX_WAITING_COMMANDS // users, 1)
 
     def _answer_ticket(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
         holder = self._tickets.give_back(ticket)

@@ -9,14 +9,14 @@ from typing import Any
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import Clock
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.commands import CommandSource
 from controller.loop.event_loop import EventLoop
 from controller.loop.playback import Playback, Played
 from controller.loop.scene_source import SceneChange
-from controller.loop.scheduler import Performance
+from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.scene.scene import Scene
 from controller.touch.source import TrackedTouch
@@ -86,8 +86,8 @@ def assemble(
     def outcomes(ticket: int, *what: Any) -> None:
         running.outcome(ticket, *what)
 
-    performance = Performance(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
     running = EventLoop(
-        board, clock, session, source, performance, playback, clock_estimate, counters, commands=commands, change=change, **loop
+        board, clock, session, source, scheduler, playback, clock_estimate, counters, commands=commands, change=change, **loop
     )
     return Assembly(running, counters, selection)

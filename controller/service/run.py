@@ -84,11 +84,13 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             commands=commands,
             change=change,
             progress=housekeeping.progress,
+            emission_started=housekeeping.emission_started,
+            scene_changed=housekeeping.scene_changed,
         )
         if commands is not None and commands.disarmed:
             assembly.loop.switch(on=False)
         assembly.selection.prepare()
-        housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
+        housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
             tell(warning, Priority.WARNING)
         tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")

@@ -84,8 +84,20 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     notifier = Notifier("")
     housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
     try:
-        assembly = assemble(board, scene, bank, clock, session, source, commands=commands, change=change, progress=progress)
-        housekeeping.watch(assembly.loop, assembly.counters, None, commands.changed)
+        assembly = assemble(
+            board,
+            scene,
+            bank,
+            clock,
+            session,
+            source,
+            commands=commands,
+            change=change,
+            progress=progress,
+            emission_started=housekeeping.emission_started,
+            scene_changed=housekeeping.scene_changed,
+        )
+        housekeeping.watch(assembly.loop, None, commands.changed)
         assembly.loop.run(ready)
     finally:
         change.close()

@@ -17,7 +17,7 @@ from controller.application_socket.peers import Peer, Rights
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError
 from controller.loop.commands import Outcome
-from controller.loop.scheduler import MOST_WAITING
+from controller.loop.scheduler import MAX_WAITING_COMMANDS
 
 PLAY_GROUP, OPERATE_GROUP = [group for group in grp.getgrall() if group.gr_gid not in (0, os.getegid(), 65534)][:2]
 GROUPS = {"play_group": PLAY_GROUP.gr_name, "operate_group": OPERATE_GROUP.gr_name}
@@ -172,9 +172,9 @@ def test_commands_of_one_user_do_not_push_out_those_of_another(panel_with):
     hog, kiosk = [panel.connect(GUEST), panel.connect(GUEST)], panel.connect(KIOSK)
     panel.settle()
     told = [answer for client in hog for answer in panel.ask(client, *({**PLAY, "id": number} for number in range(50)))]
-    assert len(panel.control.plays) == MOST_WAITING // 2
-    assert Counter(answer["outcome"] for answer in told) == {"refused": 100 - MOST_WAITING // 2}
-    assert panel.ask(kiosk, *({**PLAY, "id": number} for number in range(MOST_WAITING // 2))) == []
+    assert len(panel.control.plays) == MAX_WAITING_COMMANDS // 2
+    assert Counter(answer["outcome"] for answer in told) == {"refused": 100 - MAX_WAITING_COMMANDS // 2}
+    assert panel.ask(kiosk, *({**PLAY, "id": number} for number in range(MAX_WAITING_COMMANDS // 2))) == []
     for ticket, *_ in panel.control.plays:
         panel.socket.outcome(ticket, Outcome.PLAYED, 0.0)
     panel.ask(hog[0], PLAY)
@@ -189,7 +189,7 @@ def test_a_share_is_not_had_anew_by_connecting_again(panel_with):
         panel.ask(hog, *[PLAY] * 20)
         hog.close()
         panel.settle()
-    assert len(panel.control.plays) == MOST_WAITING // 2
+    assert len(panel.control.plays) == MAX_WAITING_COMMANDS // 2
 
 
 def test_a_user_alone_has_all_of_it(panel_with):

@@ -23,11 +23,11 @@ from controller.fpga.frames import (
     pack_play,
     pack_store,
     pack_unlock,
-    parse_status,
 )
 from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink
+from controller.fpga.status import parse_status
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
 
