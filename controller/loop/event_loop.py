@@ -16,8 +16,8 @@ from typing import Any
 from controller.board.board import Board
 from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
-from controller.fpga.session import Session
 from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.session import Session
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
 from controller.loop.playback import ENDLESS, Playback
@@ -401,7 +401,9 @@ class EventLoop:
         )
         if wanted is None or self._session.wire_free_s() > now_s:
             return
-        soonest_s = min(self._clock_estimate.host_s(self._scheduler.next_s()), self._clock_estimate.host_s(self._scheduler.next_spot_s()))
+        soonest_s = min(
+            self._clock_estimate.host_s(self._scheduler.next_s()), self._clock_estimate.host_s(self._scheduler.next_spot_s())
+        )
         if soonest_s - self._lead_s > now_s + PREFETCH_SLACK_S:
             self._playback.prefetch(finger, *wanted)
 

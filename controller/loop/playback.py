@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from controller.clocks import NEVER
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.commands import Outcome
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters

@@ -9,9 +9,9 @@ from typing import Any
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import Clock
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
-from controller.fpga.clock_estimate import ClockEstimate
 from controller.loop.commands import CommandSource
 from controller.loop.event_loop import EventLoop
 from controller.loop.playback import Playback, Played

@@ -13,8 +13,8 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import BankError
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.loop.commands import Outcome
 from controller.loop.event_loop import BEAT_LEAD_S
 from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
