@@ -86,7 +86,7 @@ class Panel:
         began_s = self.clock.now_s()
         self.outputs.failed(error, began_s)
         self.come_on(began_s + give_up_s)
-        self.counters.emissions += 1  # so that stalls are not in a row
+        self.outputs.emission_started()  # so that stalls are not in a row
         return self.clock.now_s() - began_s
 
     def come_on(self, until_s):
