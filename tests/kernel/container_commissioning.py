@@ -1,4 +1,4 @@
-"""Runs in the container, as root: a panel of one's own put into service, word by word as boards/README.md and systemd/README.md say.
+"""Runs in the container, as root: a panel of one's own put into service, by the lines of boards/README.md and systemd/README.md.
 
 The board is a copy of the ULX3S's with another plate, other actuators and another kind of touch panel, whose axes lie
 otherwise; its FPGA is the model. Lines are taken from the documents; `editor` is a program that makes our changes.
