@@ -49,7 +49,9 @@ def explain(message: str, value: Any, kind: Any) -> str:
     str
         One line, such as "link.slots = 17: must be a whole number from 1 to 16".
     """
-    text, in_keys, where = _PARTS.fullmatch(message).groups()  # type: ignore[union-attr] - it matches anything
+    parts = _PARTS.fullmatch(message)
+    assert parts is not None  # it matches anything
+    text, in_keys, where = parts.groups()
     path: Path = tuple(int(index) if index else key for key, index in re.findall(r"\.([^.\[\]`]+)|\[(\d+)\]", where or ""))
     root = type_info(kind)
     if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", text, re.DOTALL):
