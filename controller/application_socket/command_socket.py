@@ -34,7 +34,7 @@ from controller.errors import ControllerError
 from controller.log import Priority, tell
 from controller.loop.commands import Outcome, PanelControl
 from controller.loop.scheduler import MOST_WAITING
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 NOW = -math.inf
 NEVER = math.inf

@@ -23,12 +23,12 @@ from controller.scene.trains import Train
 from controller.service.drivers import open_link, open_panel, open_session
 from controller.service.ghost_survey import KNOCK, Knocks, Overheard
 from controller.service.systemd import enter_realtime
-from controller.touch.board_lines import check_writable, value_line, write_value
+from controller.touch.event_capture import EventCapture, emission_event, recording_text, write_recording
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
-from controller.touch.kept_events import KeptEvents, emission_event, recording_text, store
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
+from controller.touch.touch_table import check_writable, value_line, write_value
 
 SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what the simulated board's panel does
 
@@ -44,7 +44,7 @@ def calibrate_ghosts(options: argparse.Namespace) -> int:
     else:
         text = _measured(options, board)
         if options.out:
-            store(Path(options.out), text)
+            write_recording(Path(options.out), text)
         recording = Recording(text, options.out or "this measurement")
     found = ghost_figures(recording, board)
     if options.write:
@@ -68,14 +68,14 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
         try:
             reader = _simulated_panel(board, link) if simulated else open_panel(board)
             try:
-                return _play(board, bank, clock, link, KeptEvents(reader))
+                return _play(board, bank, clock, link, EventCapture(reader))
             finally:
                 reader.close()
         finally:
             link.close()
 
 
-def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: KeptEvents) -> str:
+def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: EventCapture) -> str:
     session = open_session(link, board, clock.now_s)
     panel = Overheard(LiveSource(kept, board))
     emissions: list[Event] = []

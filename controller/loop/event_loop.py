@@ -28,8 +28,7 @@ from controller.loop.signals import Wakeup, signals
 from controller.metrics import Counters
 from controller.scene.finger_state import Emission
 from controller.scene.fingers import ROUNDING_S
-from controller.touch.samples import TouchSample
-from controller.touch.source import TrackedTouch
+from controller.touch.source import TouchSample, TrackedTouch
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_AFTER_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead

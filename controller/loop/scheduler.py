@@ -17,7 +17,7 @@ from controller.metrics import Counters
 from controller.scene.finger_state import Emission, FingerState, spot_emission
 from controller.scene.fingers import ROUNDING_S, anchored, ended, on_time, on_touch, start_effect, stopped, taken_over
 from controller.scene.scene import OUTSIDE, Scene, Spot
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 MOST_WAITING = 32  # commands; of more the oldest is skipped
 FORESEEN_M = 0.75e-3  # of a finger's way, should that take more than one report

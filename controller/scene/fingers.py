@@ -25,7 +25,7 @@ from controller.errors import ConfigError
 from controller.scene.finger_state import COMMAND, Emission, FingerState
 from controller.scene.scene import OUTSIDE, Scene
 from controller.scene.trains import Running, Train
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 ROUNDING_S = 1e-9
 

@@ -18,7 +18,7 @@ from controller.application_socket import command_socket
 from controller.application_socket.command_socket import ACCEPTS_A_TURN, LINES_A_CLIENT, LINES_A_TURN, WAITING_PER_CLIENT
 from controller.application_socket.messages import LINE_BYTES
 from controller.loop.commands import CommandSource, Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
 

@@ -7,7 +7,7 @@ from controller.loop.commands import Outcome
 from controller.loop.scheduler import MOST_WAITING, Performance
 from controller.metrics import Counters
 from controller.scene.scene import load_scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 SCENE = """
 [effects.tap]

@@ -7,7 +7,7 @@ from controller.scene.finger_state import Emission
 from controller.scene.fingers import on_time, on_touch, start_effect
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 REPORTS = 1000
 
