@@ -17,6 +17,7 @@ FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
 
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
 Extent = Annotated[int, Meta(ge=1, le=65535)]
+AxisMm = Annotated[float, Meta(ge=-1e5, le=1e5)]  # a raw axis may be many times as long as the plate
 Name = Annotated[str, Meta(min_length=1)]
 
 
@@ -28,8 +29,8 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     (0: the panel makes none).
     """
 
-    x_mm_from_axes: tuple[float, float, float]
-    y_mm_from_axes: tuple[float, float, float]
+    x_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
+    y_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
     lag_ms: Annotated[float, Meta(ge=0, le=200)] = 0.0
     max_size_mm: Positive = 30.0
     confirm_reports: Annotated[int, Meta(ge=1, le=10)] = 1

@@ -47,8 +47,7 @@ class Outputs:
         self._counters = counters
         self._recovery = Recovery(session, board)
         self._off_since_s = clock.now_s()
-        self._stalls = 0
-        self._emissions_at_stall = 0
+        self._stalls = 0  # without an emission in between
 
     @property
     def state(self) -> PanelState:
@@ -105,14 +104,17 @@ class Outputs:
         self.on = False
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
-            self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
-            self._emissions_at_stall = self._counters.emissions
+            self._stalls += 1
             if self._stalls > STALLS_IN_A_ROW:
                 raise FaultError(f"{error} ({self._stalls} times in a row: the machine is too slow or too busy)") from error
         else:
             self._counters.outages += 1
             self._counters.outage = str(error)
         self._recovery.begin(error, now_s)
+
+    def emission_started(self) -> None:
+        """Take note that something was played: the host is fast enough for that."""
+        self._stalls = 0
 
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""

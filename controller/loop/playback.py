@@ -11,6 +11,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from controller.clocks import NEVER
 from controller.errors import BankError
@@ -18,16 +19,17 @@ from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.fpga.time_base import TimeBase
+from controller.loop.commands import Outcome
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key, Selection
 
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
 HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
 ENDLESS = 0
-SURE = 2  # so many times in a row must have come true what was expected, before a waveform is sent ahead
+PREFETCH_AFTER_HITS = 2  # so many times in a row must have come true what was expected, before a waveform is sent ahead
 
 Where = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host."""
@@ -46,6 +48,24 @@ class Played:
     period_s: float
     resident: bool
     at_ticks: int | None = None
+
+
+class Attempt(NamedTuple):
+    """What became of a batch of emissions.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
+    start_s : float
+        FPGA time at which it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
+    started : bool
+        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
+    """
+
+    outcome: Outcome
+    start_s: float = math.nan
+    started: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +138,7 @@ class Playback:
         played: Callable[[Played], None] | None = None,
     ) -> None:
         self.free_s = -NEVER  # when the plate may play again
-        self.begins_s = -NEVER  # when what was started last begins: until then nothing else is handed over, or plays would pile up
+        self.last_start_s = -NEVER  # of the newest play; until then no other is handed over, or plays would pile up
         self.duration_s = duration_s
         self.upload_s = upload_s
         self._session = session
@@ -131,10 +151,10 @@ class Playback:
         self._busy_s = duration_s / max_duty
         self._counters = counters
         self._played = played
-        self._slots = SlotCache(slots, selection.lone)
+        self._slots = SlotCache(slots, selection.single_focus)
         self._latest: int | None = None  # slot of the last play
         self._expected: tuple[int, Key] | None = None  # who is to be played next, and what
-        self._came_true = 0  # of what was expected, in a row
+        self._prefetch_hits = 0  # of what was expected, in a row
         self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
         self._prepared: _Prepared | None = None
         self._running: _Repetition | None = None
@@ -150,7 +170,7 @@ class Playback:
         """Whether the FPGA repeats an emission by itself, or is about to."""
         return self._running is not None or (self._prepared is not None and self._prepared.count == ENDLESS)
 
-    def clear_s(self, now_s: float) -> float:
+    def free_after_next_s(self, now_s: float) -> float:
         """When the plate and the wire are free for a beat, if something else is uploaded now and played before it."""
         start_s = max(now_s + self.upload_s, self.free_s + MARGIN_S)
         return start_s + max(self._busy_s, self.upload_s + HANDOVER_S) + 2 * MARGIN_S
@@ -160,12 +180,12 @@ class Playback:
         if self._running is None:
             return NEVER
         next_s = self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
-        return max(next_s, self.begins_s)  # before the first it is that, whatever was rounded on the way
+        return max(next_s, self.last_start_s)  # before the first it is that, whatever was rounded on the way
 
     def stop_repeating(self, now_s: float) -> float | None:
         """End the endless repetition; when its last emission began, or None if its first one has yet to."""
         running = self._running
-        if running is None or now_s < self.begins_s:
+        if running is None or now_s < self.last_start_s:
             return None
         self.stop()
         return self._time_base.host_s(running.last_s(self._time_base.fpga_s(self._session.ready_s())))
@@ -179,8 +199,8 @@ class Playback:
         period_s: float = 0.0,
         at_s: float | None = None,
         ahead: bool = True,
-    ) -> float | None:
-        """Bring one emission, of one or several foci, to an accepted play command; None if it had to be left out.
+    ) -> Attempt:
+        """Bring one emission, of one or several foci, to an accepted play command.
 
         Parameters
         ----------
@@ -197,8 +217,7 @@ class Playback:
 
         Returns
         -------
-        float or None
-            When it starts, in FPGA time: to the clock if the FPGA starts it, else as expected.
+        Attempt
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
@@ -210,7 +229,7 @@ class Playback:
             if resident is not None:  # there, too, something may be resident: never is a key looked up but not this one
                 break
         if self._expected is not None and any(emission.finger == self._expected[0] for emission in emissions):
-            self._came_true = self._came_true + 1 if self._foreseen(emissions[0].finger, key) else 0
+            self._prefetch_hits = self._prefetch_hits + 1 if self._foreseen(emissions[0].finger, key) else 0
             self._expected = None
         start = Start.TRIGGER if at_s is None else Start.TIME
         when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
@@ -225,7 +244,7 @@ class Playback:
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
             self._counters.skipped.bad_entries += len(emissions)
             self._counters.bad_entry = self._counters.bad_entry or str(error)
-            return None
+            return Attempt(Outcome.SKIPPED)
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
@@ -233,7 +252,7 @@ class Playback:
             if resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot is dropped: sent anew
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
             self._counters.skipped.refused += len(emissions)
-            return None
+            return Attempt(Outcome.REFUSED)
         ready_s = session.ready_s()
         away_ns = session.away_ns - away_before_ns
         prepared = _Prepared(
@@ -252,16 +271,17 @@ class Playback:
         if at_s is not None:
             self._counters.scheduled += 1
             self._account(prepared, prepared.start_s, 0)
-            return when_ticks / self._time_base.clock_hz
+            return Attempt(Outcome.PLAYED, when_ticks / self._time_base.clock_hz, True)
         self._prepared = prepared
-        if prepared.start_s <= ready_s:
+        at_once = prepared.start_s <= ready_s
+        if at_once:
             self.trigger()
-        return self._time_base.fpga_s(prepared.start_s)
+        return Attempt(Outcome.PLAYED, self._time_base.fpga_s(prepared.start_s), at_once)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.
 
-        How certain is told by the record of what was expected before, sent or not: SURE in a row have come true.
+        How certain is told by the record of what was expected before, sent or not: PREFETCH_AFTER_HITS in a row have come true.
 
         Returns
         -------
@@ -270,9 +290,9 @@ class Playback:
         """
         key = self._selection.key(((x_m, y_m, amplitude),))
         if self._expected is not None and not self._foreseen(finger, key):
-            self._came_true = 0
+            self._prefetch_hits = 0
         self._expected = finger, key
-        if self._came_true < SURE or self._slots.slots == 1 or self._slots.find(key) is not None:
+        if self._prefetch_hits < PREFETCH_AFTER_HITS or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             words = self._selection.words(key)
@@ -304,7 +324,7 @@ class Playback:
     def reselect(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
-        self._slots = SlotCache(self._slots.slots, selection.lone)
+        self._slots = SlotCache(self._slots.slots, selection.single_focus)
         self._ahead.clear()
 
     def stop(self) -> None:
@@ -337,7 +357,7 @@ class Playback:
             self._counters.skipped.outputs_off += len(self._prepared.emissions)
         self._prepared = None
         self._running = None
-        self.free_s = self.begins_s = self._free_fpga_s = -NEVER
+        self.free_s = self.last_start_s = self._free_fpga_s = -NEVER
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
@@ -413,7 +433,7 @@ class Playback:
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
         time_base = self._time_base
-        self.begins_s = start_s
+        self.last_start_s = start_s
         if prepared.at_ticks is None:
             fpga_s = time_base.fpga_s(start_s)
             self.free_s = start_s + self._busy_s

@@ -16,7 +16,7 @@ from controller.loop.commands import CommandSource
 from controller.loop.event_loop import EventLoop
 from controller.loop.playback import Playback, Played
 from controller.loop.scene_source import SceneChange
-from controller.loop.scheduler import Performance
+from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.scene.scene import Scene
 from controller.touch.source import TrackedTouch
@@ -86,8 +86,8 @@ def assemble(
     def outcomes(ticket: int, *what: Any) -> None:
         running.outcome(ticket, *what)
 
-    performance = Performance(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
     running = EventLoop(
-        board, clock, session, source, performance, playback, time_base, counters, commands=commands, change=change, **loop
+        board, clock, session, source, scheduler, playback, time_base, counters, commands=commands, change=change, **loop
     )
     return Assembly(running, counters, selection)

@@ -29,7 +29,7 @@ from controller.board.devices import ApplicationSocket
 from controller.board.records import as_record
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import Priority, tell
+from controller.log import Priority, log
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
@@ -71,7 +71,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
-        tell(warning, Priority.WARNING)
+        log(warning, Priority.WARNING)
     drain_s = clock.now_s()
 
     def progress(now_s: float) -> None:
@@ -84,8 +84,20 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     notifier = Notifier("")
     housekeeping = Housekeeping(board, session, notifier, Watchdog(notifier, math.inf), None)
     try:
-        assembly = assemble(board, scene, bank, clock, session, source, commands=commands, change=change, progress=progress)
-        housekeeping.watch(assembly.loop, assembly.counters, None, commands.changed)
+        assembly = assemble(
+            board,
+            scene,
+            bank,
+            clock,
+            session,
+            source,
+            commands=commands,
+            change=change,
+            progress=progress,
+            emission_started=housekeeping.emission_started,
+            scene_changed=housekeeping.scene_changed,
+        )
+        housekeeping.watch(assembly.loop, None, commands.changed)
         assembly.loop.run(ready)
     finally:
         change.close()

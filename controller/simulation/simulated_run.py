@@ -29,7 +29,7 @@ from controller.loop.wiring import assemble
 from controller.metrics import STAGES, Counters, LatencyHistogram
 from controller.physics.field import OUTSIDE_M, Field, FocusMetrics
 from controller.physics.plate_twin import PlateTwin
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.scene.scene import Scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording, Track

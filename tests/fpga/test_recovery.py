@@ -86,7 +86,7 @@ class Panel:
         began_s = self.clock.now_s()
         self.outputs.failed(error, began_s)
         self.come_on(began_s + give_up_s)
-        self.counters.emissions += 1  # so that stalls are not in a row
+        self.outputs.emission_started()  # so that stalls are not in a row
         return self.clock.now_s() - began_s
 
     def come_on(self, until_s):
@@ -364,6 +364,14 @@ def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_af
             tried_s.append(recovery.next_s)
             assert not recovery.step(recovery.next_s)
         assert np.diff(tried_s) == pytest.approx([min(safe_s * 2**k, 2.0) for k in range(8)])
+
+
+def test_a_permit_is_asked_for_ten_times_a_second():
+    session = SimpleNamespace(fresh=True, heartbeat=lambda: SimpleNamespace(state=State.TEMPERATURE_GOOD))
+    recovery = Recovery(session, BOARD)
+    assert not recovery.step(5.0)
+    assert recovery.state is PanelState.NO_PERMIT
+    assert recovery.next_s == pytest.approx(5.1)
 
 
 def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():

@@ -196,6 +196,12 @@ def test_a_missing_permit_is_told_when_arming(board, clock, link):
     assert caught.value.result is Result.NO_PERMIT
 
 
+def test_an_fpga_that_did_not_arm_is_told_with_what_it_is(board, clock, link):
+    session = Session(link, board, BUILD, clock.now_s)
+    with pytest.raises(LinkError, match=r"its state is run permit, temperature good$"):
+        session.require_armed()
+
+
 def test_three_heartbeats_go_into_a_timeout(board, clock, link, armed):
     wait(clock, link, 0.0)
     armed.heartbeat()
@@ -251,6 +257,12 @@ def test_the_bit_clock_is_scaled_while_nothing_plays_and_kept_over_a_bring_up(bo
     assert armed.exchange.read(Register.BIT_PERIOD) == slow
     assert armed.set_bit_period(1.0)
     assert armed.exchange.read(Register.BIT_PERIOD) == board.bit_period
+
+
+def test_a_period_without_a_pause_is_one_at_any_bit_clock(board, armed):
+    assert armed.played_period_s(board.waveform.duration_s) == armed.emission_s
+    assert armed.set_bit_period(0.99)
+    assert armed.played_period_s(board.waveform.duration_s) == armed.emission_s > board.waveform.duration_s
 
 
 def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board, armed):

@@ -15,9 +15,10 @@ from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
 from controller.fpga.time_base import TimeBase
 from controller.fpga.upload_image import UploadImage
+from controller.loop.commands import Outcome
 from controller.loop.playback import Playback
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.service.drivers import open_session, open_simulated
 from controller.waveforms import selection as selection_module
 from controller.waveforms.selection import Selection
@@ -92,7 +93,7 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
         for x_m, y_m in [tuple(place) for place in bank.grid.points()[[60, 61, 62, 63, 64]]] * 2:  # of four slots none serves
             checked.clear()
             clock._now_s += 0.01
-            assert playback.prepare([Emission(0.0, x_m, y_m, None, "")], 0) is not None
+            assert playback.prepare([Emission(0.0, x_m, y_m, None, "")], 0).outcome is Outcome.PLAYED
             passes.append(sum(size > frames.FRAME_BYTES for size in checked))
     assert counters.uploads == 10
     assert passes == [8 + 1] * 5 + [8] * 5
