@@ -120,7 +120,7 @@ def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording]
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
-    start_s = session.ready_s() + board.limits.arming_s + PAUSE_S
+    start_s = session.earliest_trigger_s() + board.limits.arming_s + PAUSE_S
     source = tracked(Playlist(recordings, board, start_s, start_s + hours * HOUR_S), board)
     told: list[Hour] = []
     state = {"hour_s": start_s + HOUR_S, "capture_s": start_s, "emissions": 0, "wall_s": time.perf_counter()}

@@ -16,8 +16,8 @@ from typing import Any
 from controller.board.board import Board
 from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.outputs import Outputs
 from controller.loop.playback import ENDLESS, Playback
@@ -39,7 +39,7 @@ class EventLoop:
     Parameters
     ----------
     board : Board
-    clock, session, source, scheduler, playback, time_base
+    clock, session, source, scheduler, playback, clock_estimate
         The parts; each may be simulated.
     counters : Counters
         Shared with scheduler and playback.
@@ -63,7 +63,7 @@ class EventLoop:
         source: TrackedTouch,
         scheduler: Scheduler,
         playback: Playback,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         counters: Counters,
         *,
         commands: CommandSource | None = None,
@@ -77,14 +77,14 @@ class EventLoop:
         self._source = source
         self._scheduler = scheduler
         self._playback = playback
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._counters = counters
         self._commands = commands
         self._change = change
         self._progress = progress
         self._emission_started = emission_started
         self._scene_changed = scene_changed
-        self._outputs = Outputs(session, board, clock, time_base, counters)
+        self._outputs = Outputs(session, board, clock, clock_estimate, counters)
         self._lead_s = playback.upload_s + BEAT_LEAD_S
         self._moving: int | None = None
         self._quiet_until_s = -NEVER  # no emission begins before
@@ -168,7 +168,7 @@ class EventLoop:
             raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
+        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
     def switch(self, on: bool) -> None:
         """Have the outputs armed or disarmed from now on; see `PanelControl`."""
@@ -194,7 +194,7 @@ class EventLoop:
             self._commands.outcome(ticket, outcome, age_s)
 
     def _panel_s(self) -> float:
-        return self._time_base.fpga_s(self._clock.now_s())
+        return self._clock_estimate.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
         """The outputs are off, unasked."""
@@ -248,7 +248,7 @@ class EventLoop:
             self._commands.serve(now_s, self)
         if self._change is not None:
             self._change_scene(now_s)
-        panel_s = self._time_base.fpga_s(now_s)
+        panel_s = self._clock_estimate.fpga_s(now_s)
         self._scheduler.advance(panel_s + self._lead_s + ROUNDING_S)
         self._quiet_until_s = -NEVER
         if self._outputs.on:
@@ -273,7 +273,7 @@ class EventLoop:
         self._report_ns = -1
         if not samples:
             return
-        offset_s = self._time_base.offset_s
+        offset_s = self._clock_estimate.offset_s
         self._report_ns = round((now_s - samples[0].time_s) * 1e9)
         self._moving = None
         for sample in samples:
@@ -301,7 +301,7 @@ class EventLoop:
             if self._playback.repeating:  # the spots of the scene before
                 self._playback.stop()
                 self._source.emitted(now_s, now_s)
-            self._scheduler.change_scene(prepared.scene, self._time_base.fpga_s(now_s))
+            self._scheduler.change_scene(prepared.scene, self._clock_estimate.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
         else:
@@ -318,7 +318,7 @@ class EventLoop:
         """Prepare what comes next as one emission; spots alone are left to the FPGA to repeat."""
         scheduler, playback = self._scheduler, self._playback
         within_s = NEVER if self._listened else playback.duration_s  # what was held back has become due together
-        emissions = scheduler.next_batch(within_s, self._time_base.fpga_s(now_s))
+        emissions = scheduler.next_batch(within_s, self._clock_estimate.fpga_s(now_s))
         self._listened = False
         period_s = scheduler.common_period_s
         if period_s is not None and all(emission.owner == emission.region for emission in emissions):
@@ -326,7 +326,7 @@ class EventLoop:
             return
         if playback.repeating:  # the spots' repetition gives way, and takes part if it is due as well
             next_s = playback.next_repetition_s(now_s)
-            panel_s = self._time_base.fpga_s(next_s)
+            panel_s = self._clock_estimate.fpga_s(next_s)
             if next_s < now_s + playback.duration_s and period_s is not None:
                 emissions = scheduler.join_spots(emissions, panel_s + period_s)
             else:
@@ -336,7 +336,7 @@ class EventLoop:
 
     def _open_s(self) -> float:
         """Since or until when the next emission may be handed over: the wire is free, and the one before has begun."""
-        return max(self._session.free_s(), self._playback.last_start_s)
+        return max(self._session.wire_free_s(), self._playback.last_start_s)
 
     def _listen(self, now_s: float) -> None:
         """Let the panel have the silence that it asks for; what the FPGA repeats is stopped, and goes on in its beat."""
@@ -352,7 +352,7 @@ class EventLoop:
         last_s = playback.stop_repeating(now_s)
         if last_s is not None:
             self._source.emitted(last_s, last_s + playback.duration_s)
-            self._scheduler.restart_spots(self._time_base.fpga_s(next_s))
+            self._scheduler.restart_spots(self._clock_estimate.fpga_s(next_s))
 
     def _may_play(self, now_s: float) -> bool:
         """Whether something is due and held back neither for the panel nor for a beat."""
@@ -360,8 +360,8 @@ class EventLoop:
 
     def _held(self, now_s: float) -> bool:
         """Whether what is due is held back for a beat: the plate, or the wire, would not be free for it in time."""
-        panel_s = self._time_base.fpga_s(now_s)
-        return self._scheduler.must_defer(panel_s, self._time_base.fpga_s(self._playback.free_after_next_s(now_s)))
+        panel_s = self._clock_estimate.fpga_s(now_s)
+        return self._scheduler.must_defer(panel_s, self._clock_estimate.fpga_s(self._playback.free_after_next_s(now_s)))
 
     def _prepare(self, emissions: list[Emission], started_ns: int, **how: Any) -> None:
         repeating = self._playback.repeating
@@ -376,7 +376,7 @@ class EventLoop:
         if result.outcome is Outcome.PLAYED:
             if self._report_ns >= 0:
                 self._counters.report_latency.record(self._report_ns)
-            sounds_s = self._time_base.host_s(result.start_s)
+            sounds_s = self._clock_estimate.host_s(result.start_s)
             self._source.emitted(sounds_s, sounds_s + self._playback.duration_s, how.get("period_s", 0.0))
             self._scheduler.started(emissions, result.start_s)
             return
@@ -398,9 +398,11 @@ class EventLoop:
         wanted = self._scheduler.predict(
             finger, self._source.place, reported_s, self._source.report_s, self._playback.duration_s + RESIDENT_START_S
         )
-        if wanted is None or self._session.free_s() > now_s:
+        if wanted is None or self._session.wire_free_s() > now_s:
             return
-        soonest_s = min(self._time_base.host_s(self._scheduler.next_s()), self._time_base.host_s(self._scheduler.next_spot_s()))
+        soonest_s = min(
+            self._clock_estimate.host_s(self._scheduler.next_s()), self._clock_estimate.host_s(self._scheduler.next_spot_s())
+        )
         if soonest_s - self._lead_s > now_s + PREFETCH_SLACK_S:
             self._playback.prefetch(finger, *wanted)
 
@@ -414,16 +416,16 @@ class EventLoop:
         times = [at_s for at_s in (read_s, trigger_at_s) if at_s is not None]
         if self._outputs.on and trigger_at_s is None and self._may_play(now_s):
             open_s = max(now_s, self._open_s())
-            if open_s <= max(now_s, self._session.free_s()):
+            if open_s <= max(now_s, self._session.wire_free_s()):
                 return min(open_s, self._outputs.next_s())
             times.append(open_s)
         if next_s != NEVER:
-            times.append(self._time_base.host_s(next_s) - self._lead_s)
+            times.append(self._clock_estimate.host_s(next_s) - self._lead_s)
         if not times and self._source.fileno() is None and self._commands is None:
             # a replay that has ended: let the last emission sound
             return self._playback.free_s if now_s < self._playback.free_s else None
         if not self._playback.repeating and self._outputs.on:
-            times.append(self._time_base.host_s(self._scheduler.next_spot_s()) - self._lead_s)
+            times.append(self._clock_estimate.host_s(self._scheduler.next_spot_s()) - self._lead_s)
         if self._quiet_until_s > now_s:
             times.append(self._quiet_until_s)
             if self._playback.repeating:

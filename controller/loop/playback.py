@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from controller.clocks import NEVER
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import Outcome
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
@@ -106,7 +106,7 @@ class Playback:
         An armed FPGA.
     selection : Selection
         Drive words for points.
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         The FPGA's clock.
     where : callable
         Place of a finger at a time: an emission meets it where it will be at T.
@@ -126,7 +126,7 @@ class Playback:
         self,
         session: Session,
         selection: Selection,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         where: Where,
         *,
         slots: int,
@@ -143,7 +143,7 @@ class Playback:
         self.upload_s = upload_s
         self._session = session
         self._selection = selection
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._where = where
         self._command_s = command_s
         self._nominal_s = duration_s
@@ -179,7 +179,7 @@ class Playback:
         """When the endless repetition next starts an emission, after a time; never without one."""
         if self._running is None:
             return NEVER
-        next_s = self._time_base.host_s(self._running.last_s(self._time_base.fpga_s(at_s)) + self._running.period_s)
+        next_s = self._clock_estimate.host_s(self._running.last_s(self._clock_estimate.fpga_s(at_s)) + self._running.period_s)
         return max(next_s, self.last_start_s)  # before the first it is that, whatever was rounded on the way
 
     def stop_repeating(self, now_s: float) -> float | None:
@@ -188,7 +188,7 @@ class Playback:
         if running is None or now_s < self.last_start_s:
             return None
         self.stop()
-        return self._time_base.host_s(running.last_s(self._time_base.fpga_s(self._session.ready_s())))
+        return self._clock_estimate.host_s(running.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
 
     def prepare(
         self,
@@ -220,7 +220,7 @@ class Playback:
         Attempt
         """
         decided_ns = time.perf_counter_ns()
-        session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
+        session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
         for wire_s in (self._command_s, self.upload_s):  # an upload starts later, and so meets a finger elsewhere
             start_s = self._start_s(wire_s, at_s)
             points = self._aim(emissions, start_s, ahead)
@@ -232,7 +232,7 @@ class Playback:
             self._prefetch_hits = self._prefetch_hits + 1 if self._foreseen(emissions[0].finger, key) else 0
             self._expected = None
         start = Start.TRIGGER if at_s is None else Start.TIME
-        when_ticks = 0 if at_s is None else self._time_base.ticks(start_s)
+        when_ticks = 0 if at_s is None else self._clock_estimate.ticks(start_s)
         try:
             if resident is None:
                 self._upload(key, count, period_s, start, when_ticks)
@@ -253,8 +253,8 @@ class Playback:
                 return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
             self._counters.skipped.refused += len(emissions)
             return Attempt(Outcome.REFUSED)
-        ready_s = session.ready_s()
-        away_ns = session.away_ns - away_before_ns
+        ready_s = session.earliest_trigger_s()
+        blocked_ns = session.blocked_ns - blocked_before_ns
         prepared = _Prepared(
             emissions,
             points,
@@ -262,21 +262,21 @@ class Playback:
             period_s,
             resident is not None,
             ready_s,
-            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._time_base.host_s(start_s),
+            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(start_s),
             None if at_s is None else when_ticks,
             decided_ns - started_ns,
-            time.perf_counter_ns() - decided_ns - away_ns,
+            time.perf_counter_ns() - decided_ns - blocked_ns,
             session.wire_ns - wire_before_ns,
         )
         if at_s is not None:
             self._counters.scheduled += 1
             self._account(prepared, prepared.start_s, 0)
-            return Attempt(Outcome.PLAYED, when_ticks / self._time_base.clock_hz, True)
+            return Attempt(Outcome.PLAYED, when_ticks / self._clock_estimate.clock_hz, True)
         self._prepared = prepared
         at_once = prepared.start_s <= ready_s
         if at_once:
             self.trigger()
-        return Attempt(Outcome.PLAYED, self._time_base.fpga_s(prepared.start_s), at_once)
+        return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s(prepared.start_s), at_once)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.
@@ -345,9 +345,9 @@ class Playback:
         if prepared is None:
             return
         self._prepared = None
-        called_ns, away_ns = time.perf_counter_ns(), self._session.away_ns
+        called_ns, blocked_ns = time.perf_counter_ns(), self._session.blocked_ns
         trigger_s = self._session.trigger()
-        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.away_ns - away_ns))
+        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
 
     def forget(self) -> None:
         """Take it that the FPGA holds and plays nothing: after a fault."""
@@ -361,7 +361,7 @@ class Playback:
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._time_base.fpga_s(self._session.ready_s() + wire_s)
+        arrived_s = self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s)
         if at_s is not None:
             arrived_s += HANDOVER_S
         free_s = self._free_fpga_s
@@ -372,7 +372,7 @@ class Playback:
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
         """Where each emission meets its finger, at T or where it was, and how strong it is."""
-        focus_s = self._time_base.host_s(start_s) + self.duration_s
+        focus_s = self._clock_estimate.host_s(start_s) + self.duration_s
         points = []
         for emission in emissions:
             place = None if emission.finger is None or not ahead else self._where(emission.finger, focus_s)
@@ -424,23 +424,23 @@ class Playback:
     def _stopped(self) -> None:
         """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
         if self._running is not None:
-            time_base = self._time_base
-            last_s = self._running.last_s(time_base.fpga_s(self._session.ready_s()))
+            clock_estimate = self._clock_estimate
+            last_s = self._running.last_s(clock_estimate.fpga_s(self._session.earliest_trigger_s()))
             self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
-            self.free_s = max(self.free_s, time_base.host_s(last_s) + time_base.error_s + self._busy_s)
+            self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
             self._running = None
 
     def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
         """Something starts: the plate is busy, and it is counted."""
-        time_base = self._time_base
+        clock_estimate = self._clock_estimate
         self.last_start_s = start_s
         if prepared.at_ticks is None:
-            fpga_s = time_base.fpga_s(start_s)
+            fpga_s = clock_estimate.fpga_s(start_s)
             self.free_s = start_s + self._busy_s
-            self._free_fpga_s = fpga_s + self._busy_s + time_base.error_s
+            self._free_fpga_s = fpga_s + self._busy_s + clock_estimate.error_s
         else:
-            fpga_s = prepared.at_ticks / time_base.clock_hz
-            self.free_s = start_s + self._busy_s + time_base.error_s
+            fpga_s = prepared.at_ticks / clock_estimate.clock_hz
+            self.free_s = start_s + self._busy_s + clock_estimate.error_s
             self._free_fpga_s = fpga_s + self._busy_s
         counters = self._counters
         counters.emissions += 1
@@ -454,7 +454,7 @@ class Playback:
         else:
             counters.uploads += 1
         if prepared.count == ENDLESS:
-            self._running = _Repetition(fpga_s, self._session.played_period_s(prepared.period_s))
+            self._running = _Repetition(fpga_s, self._session.timing.actual_period_s(prepared.period_s))
         if self._played is not None:
             aimed = tuple(
                 [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]

@@ -1,6 +1,6 @@
 """What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
 
-All times are FPGA times (`fpga.time_base`). The scene decides what a finger feels; here it is kept until it
+All times are FPGA times (`fpga.clock_estimate`). The scene decides what a finger feels; here it is kept until it
 plays. Whatever a command asked for gets exactly one outcome.
 """
 

@@ -9,9 +9,9 @@ from typing import Any
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import Clock
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import CommandSource
 from controller.loop.event_loop import EventLoop
 from controller.loop.playback import Playback, Played
@@ -67,11 +67,11 @@ def assemble(
     """
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
-    time_base = TimeBase(board.link.clock_hz)
+    clock_estimate = ClockEstimate(board.link.clock_hz)
     playback = Playback(
         session,
         selection,
-        time_base,
+        clock_estimate,
         source.place,
         slots=board.link.slots if slots is None else slots,
         duration_s=board.waveform.duration_s,
@@ -88,6 +88,6 @@ def assemble(
 
     scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
     running = EventLoop(
-        board, clock, session, source, scheduler, playback, time_base, counters, commands=commands, change=change, **loop
+        board, clock, session, source, scheduler, playback, clock_estimate, counters, commands=commands, change=change, **loop
     )
     return Assembly(running, counters, selection)

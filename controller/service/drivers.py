@@ -12,9 +12,9 @@ from controller.board.board import Board, data_folder
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
-from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
+from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import GatewareFactory
@@ -80,7 +80,7 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
     """Link and session of an FPGA that may not be there yet; nothing is asked of it before `bring_up`."""
-    link = AwaitedLink(lambda: open_link(board, now_s), now_s)
+    link = LazyLink(lambda: open_link(board, now_s), now_s)
     return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
 
 

@@ -43,7 +43,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
     Raises
     ------
-    UnfitFpga
+    IncompatibleFpga
         If the FPGA is another one than this software and the board need. One that is absent is waited for, as is the panel.
     FaultError
         If the FPGA has switched off for a reason that the host may not clear.

@@ -117,7 +117,7 @@ def play(
     link = open_simulated(board, clock.now_s, gateware)
     session = open_session(link, board, clock.now_s)
     played: list[Played] = []
-    start_s = session.ready_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
+    start_s = session.earliest_trigger_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
     axes = recording.axes(board)
     tracks = recording.tracks(axes)
     if not tracks:  # without any touch nothing is played, spots included

@@ -13,8 +13,8 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import Outcome
 from controller.loop.event_loop import BEAT_LEAD_S
 from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
@@ -271,7 +271,7 @@ def by_hand(board, bank_file):
 
     with Bank.open(bank_file, board) as bank:
         done.playback = Playback(
-            session, Selection(bank, 1e-3, board.idle_word), TimeBase(link.clock_hz), where, slots=4, duration_s=T_S,
+            session, Selection(bank, 1e-3, board.idle_word), ClockEstimate(link.clock_hz), where, slots=4, duration_s=T_S,
             max_duty=DUTY, upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
         )  # fmt: skip
         yield done
