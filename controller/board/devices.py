@@ -312,19 +312,3 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50
     max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0
-
-
-__all__ = [
-    "ApplicationSocket",
-    "Ft5x06Touch",
-    "Gt911Touch",
-    "I2cTouch",
-    "LinkSettings",
-    "LinuxInputTouch",
-    "Realtime",
-    "RecordingTouch",
-    "SerialTouch",
-    "Temperature",
-    "Touch",
-    "TouchPanel",
-]

@@ -26,8 +26,7 @@ from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import ROUNDING_S, Scheduler
 from controller.metrics import Counters
 from controller.scene.emission import Emission
-from controller.touch.samples import TouchSample
-from controller.touch.source import TrackedTouch
+from controller.touch.source import TouchSample, TrackedTouch
 
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_SLACK_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead

@@ -17,7 +17,7 @@ from controller.metrics import Counters
 from controller.scene.emission import Emission, spot_emission
 from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import OUTSIDE, Scene, Spot
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
 PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than one report

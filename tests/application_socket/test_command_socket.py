@@ -20,7 +20,7 @@ from controller.application_socket.messages import LINE_BYTES
 from controller.application_socket.pending_commands import WAITING_PER_CLIENT
 from controller.application_socket.requests import FIGURES_S
 from controller.loop.commands import CommandSource, Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
 

@@ -20,9 +20,9 @@ from controller.metrics import Counters
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel, pins_of
+from controller.touch.event_codes import Protocol
 from controller.touch.ghost_guard import SHARE
 from controller.touch.live_source import LiveSource
-from controller.touch.panel import Protocol
 
 T_S, GHOST_S, UPLOAD_S = 2e-3, 30e-3, 1.4e-3
 TAP_S = 50e-3
