@@ -17,7 +17,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
-from controller.board.records import NotNegative, Positive, Record, Share, load_toml
+from controller.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm, load_toml
 from controller.errors import ConfigError
 
 CHANNELS = 32
@@ -64,9 +64,9 @@ class Actuator(Record, frozen=True):
     """A square piezo patch, its channel and the level (0 or 1) at which it waits while armed."""
 
     channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
-    x_mm: float
-    y_mm: float
-    size_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    size_mm: SizeMm
     idle: Annotated[int, Meta(ge=0, le=1)]
 
 
@@ -85,7 +85,7 @@ class Waveform(Record, frozen=True):
 
     band_low_hz: Positive
     band_high_hz: Positive
-    duration_ms: Positive
+    duration_ms: Annotated[float, Meta(gt=0, le=10)]
     bit_clock_hz: Annotated[float, Meta(ge=100e3, le=2e6)]
 
     def __post_init__(self) -> None:

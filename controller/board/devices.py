@@ -17,6 +17,7 @@ FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
 
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
 Extent = Annotated[int, Meta(ge=1, le=65535)]
+AxisMm = Annotated[float, Meta(ge=-1e5, le=1e5)]  # a raw axis may be many times as long as the plate
 Name = Annotated[str, Meta(min_length=1)]
 
 
@@ -28,8 +29,8 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     (0: the panel makes none).
     """
 
-    x_mm_from_axes: tuple[float, float, float]
-    y_mm_from_axes: tuple[float, float, float]
+    x_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
+    y_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
     lag_ms: Annotated[float, Meta(ge=0, le=200)] = 0.0
     max_size_mm: Positive = 30.0
     confirm_reports: Annotated[int, Meta(ge=1, le=10)] = 1
@@ -172,19 +173,3 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0  # of one client, in the long run
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50
     max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0  # 0.25: the least that can be asked for
-
-
-__all__ = [
-    "ApplicationSocket",
-    "Ft5x06Touch",
-    "Gt911Touch",
-    "I2cTouch",
-    "LinkSettings",
-    "LinuxInputTouch",
-    "Realtime",
-    "RecordingTouch",
-    "SerialTouch",
-    "Temperature",
-    "Touch",
-    "TouchPanel",
-]

@@ -60,7 +60,7 @@ class BitErrors:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class BringUpReport:
     """What bring-up found; `complaints` say what is wrong and what to do, one sentence each."""
 
     registers: dict[str, int]
@@ -81,7 +81,7 @@ def check(
     pause_s: float = 0.0,
     progress: Callable[[int, int], None] = lambda *_: None,
     take_capture: Callable[[], Capture] | None = None,
-) -> Checked:
+) -> BringUpReport:
     """All of bring-up, one thing after the other; outputs are off at the end.
 
     Parameters
@@ -115,7 +115,7 @@ def check(
     wrong = [channel for channel, pins in zip(chirped, moved, strict=False) if pins != [channel]]
     if wrong:
         complaints.append(f"channels {wrong} moved other pins than their own, or none: check the pin constraints")
-    return Checked(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
+    return BringUpReport(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
 
 
 def _moved(capture: Capture) -> list[int]:
@@ -154,7 +154,7 @@ def bit_errors(
         for number in range(TEST_FRAMES):
             payload = rng.bytes(LOAD_PAYLOAD_MAX_BYTES)
             end = frames.pack_test(exchange.sent, end, exchange.sequence + number, payload)
-        damaged += exchange.unchecked(lengths)
+        damaged += exchange.send_unchecked(lengths)
         there = np.frombuffer(exchange.sent[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
         here = np.frombuffer(exchange.received[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
         echo = here[:, FRAME_BYTES:]
@@ -242,7 +242,7 @@ def channel_self_test(
             for channel in channels:
                 before = session.heartbeat().emissions
                 session.play(0, CHIRP_REPETITIONS, period_s, stop=False, start=Start.NOW, mask=1 << channel)
-                rest(session.ready_s() + CHIRP_REPETITIONS * period_s + pause_s)
+                rest(session.earliest_trigger_s() + CHIRP_REPETITIONS * period_s + pause_s)
                 done = session.heartbeat().emissions - before & ALL_CHANNELS
                 if done != CHIRP_REPETITIONS:
                     raise LinkError(f"channel {channel}: {done} of {CHIRP_REPETITIONS} chirps ran to their end")

@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER, Status, pack_status
+from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
 from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
+from controller.fpga.status import Status, pack_status
 from controller.gateware_model.commands import Commands
-from controller.gateware_model.decoder import Frame, judge
+from controller.gateware_model.decoder import Frame, decode
 from controller.gateware_model.gate import PIN_TICKS, Gate
 from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, Port, UartTiming, sck_rise_tick
 from controller.gateware_model.lines import Lines
@@ -140,7 +141,7 @@ class GatewareModel:
         self._put_the_uart_off()
         if not len(sent):
             return
-        frame = judge(sent)
+        frame = decode(sent)
         commands = self._commands
         busy, live = commands.landing_busy, commands.landing_live
         if frame.loaded_words:

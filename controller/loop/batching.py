@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 
 MAX_FOCI = 10  # foci of one waveform
 MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from controller.clocks import NEVER, Clock
 from controller.errors import ControllerError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.playback import Playback
@@ -61,7 +61,7 @@ class Dispatcher:
     scheduler : Scheduler
         Says what is due.
     playback : Playback
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         The FPGA's clock on the host's.
     counters : Counters
 
@@ -80,7 +80,7 @@ class Dispatcher:
         source: TrackedTouch,
         scheduler: Scheduler,
         playback: Playback,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         counters: Counters,
     ) -> None:
         self.lead_s = playback.upload_s + BEAT_LEAD_S
@@ -91,7 +91,7 @@ class Dispatcher:
         self._scheduler = scheduler
         self._playback = playback
         self._occupancy = playback.occupancy
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._counters = counters
         self._delayed = False  # something waited for the panel's silence
         self._moving: int | None = None  # finger that moved in the newest report
@@ -142,7 +142,7 @@ class Dispatcher:
 
     def handover_s(self, now_s: float) -> float | None:
         """Host time at which what is due can be handed over; None if nothing is due, or it has to wait for something else."""
-        if self._playback.accepted is None and self._scheduler.due and self._may_play(now_s, self._time_base.fpga_s(now_s)):
+        if self._playback.accepted is None and self._scheduler.due and self._may_play(now_s, self._clock_estimate.fpga_s(now_s)):
             return max(now_s, self._open_s())
         return None
 
@@ -153,12 +153,12 @@ class Dispatcher:
         if repeating and next_s != NEVER:
             next_s = min(next_s, self._occupancy.next_repetition_s(now_s))
         if on and not repeating:
-            next_s = min(next_s, self._time_base.host_s(self._scheduler.spots.next_s()) - self.lead_s)
+            next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self.lead_s)
         return next_s
 
     def _open_s(self) -> float:
         """Host time from which the next batch may be handed over: the wire is free, and the play before has begun."""
-        return max(self._session.free_s(), self._occupancy.last_start_s)
+        return max(self._session.wire_free_s(), self._occupancy.last_start_s)
 
     def _listen(self, now_s: float, due: bool, repeating: bool) -> None:
         """Give the panel the silence that it asks for; a repetition is stopped for it, and goes on in its beat afterwards."""
@@ -172,14 +172,14 @@ class Dispatcher:
         last_s = self._playback.stop_repeating(now_s)
         if last_s is not None:
             self._source.emitted(last_s, last_s + occupancy.duration_s)
-            self._scheduler.spots.restart(self._time_base.fpga_s(next_s))
+            self._scheduler.spots.restart(self._clock_estimate.fpga_s(next_s))
 
     def _may_play(self, now_s: float, fpga_s: float) -> bool:
         """Whether what is due may be played: not if the panel listens, nor if plate or wire would not be free for the next beat."""
         if self.quiet_until_s > now_s:
             return False
         free_s = self._occupancy.free_after_next_s(now_s, self._playback.upload_s)
-        return not self._scheduler.must_defer(fpga_s, self._time_base.fpga_s(free_s))
+        return not self._scheduler.must_defer(fpga_s, self._clock_estimate.fpga_s(free_s))
 
     def _play(self, turn: Turn) -> bool:
         """Play what comes next as one batch; spots alone are left to the FPGA to repeat. Whether it started."""
@@ -192,7 +192,7 @@ class Dispatcher:
             return self._prepare(Batch(emissions, ENDLESS, period_s, emissions[0].time_s), turn)
         if self._playback.repeating:  # the repetition is replaced: spots take part if they are due as well
             next_s = occupancy.next_repetition_s(turn.now_s)
-            fpga_s = self._time_base.fpga_s(next_s)
+            fpga_s = self._clock_estimate.fpga_s(next_s)
             if next_s < turn.now_s + occupancy.duration_s and period_s is not None:
                 emissions = scheduler.join_spots(emissions, fpga_s + period_s)
             else:
@@ -208,19 +208,19 @@ class Dispatcher:
             attempt = playback.prepare(batch, turn.started_ns)
         except ControllerError:  # these emissions are lost; what sounds ends with the outputs
             self._counters.skipped.outputs_off += len(emissions)
-            self._scheduler.discarded(emissions, Outcome.REFUSED, self._time_base.fpga_s(self._clock.now_s()))
+            self._scheduler.discarded(emissions, Outcome.REFUSED, self._clock_estimate.fpga_s(self._clock.now_s()))
             raise
         if attempt.outcome is Outcome.PLAYED:
             if turn.report_ns >= 0:
                 self._counters.report_latency.record(turn.report_ns)
-            sounds_s = self._time_base.host_s(attempt.start_s)
+            sounds_s = self._clock_estimate.host_s(attempt.start_s)
             self._source.emitted(sounds_s, sounds_s + self._occupancy.duration_s, batch.period_s)
             self._scheduler.started(emissions, attempt.start_s)
             return attempt.started
         if repeating and not playback.repeating:
             now_s = self._clock.now_s()
             self._source.emitted(now_s, now_s)
-        self._scheduler.discarded(emissions, attempt.outcome, self._time_base.fpga_s(self._clock.now_s()))
+        self._scheduler.discarded(emissions, attempt.outcome, self._clock_estimate.fpga_s(self._clock.now_s()))
         return False
 
     def _send_ahead(self, turn: Turn) -> None:
@@ -230,8 +230,8 @@ class Dispatcher:
         reported_s = turn.now_s - max(turn.report_ns, 0) * 1e-9
         focus_after_s = self._occupancy.duration_s + RESIDENT_START_S
         wanted = self._scheduler.predict(finger, self._source.place, reported_s, self._source.report_s, focus_after_s)
-        if wanted is None or self._session.free_s() > turn.now_s:
+        if wanted is None or self._session.wire_free_s() > turn.now_s:
             return
-        next_s = self._time_base.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))
+        next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))
         if next_s - self.lead_s > turn.now_s + PREFETCH_SLACK_S:
             self._playback.prefetch(finger, *wanted)

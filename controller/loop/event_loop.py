@@ -16,8 +16,8 @@ from typing import Any
 from controller.board.board import Board
 from controller.clocks import NEVER, Clock
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.dispatcher import Dispatcher, Turn
 from controller.loop.outputs import Outputs
@@ -25,10 +25,9 @@ from controller.loop.playback import Playback
 from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
 from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
+from controller.loop.spots import ROUNDING_S
 from controller.metrics import Counters
-from controller.scene.fingers import ROUNDING_S
-from controller.touch.samples import TouchSample
-from controller.touch.source import TrackedTouch
+from controller.touch.source import TouchSample, TrackedTouch
 
 
 class EventLoop:
@@ -37,7 +36,7 @@ class EventLoop:
     Parameters
     ----------
     board : Board
-    clock, session, source, scheduler, playback, dispatcher, time_base
+    clock, session, source, scheduler, playback, dispatcher, clock_estimate
         The parts; each may be simulated.
     counters : Counters
         Shared with scheduler and playback.
@@ -62,7 +61,7 @@ class EventLoop:
         scheduler: Scheduler,
         playback: Playback,
         dispatcher: Dispatcher,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         counters: Counters,
         *,
         commands: CommandSource | None = None,
@@ -77,14 +76,14 @@ class EventLoop:
         self._scheduler = scheduler
         self._playback = playback
         self._dispatcher = dispatcher
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._counters = counters
         self._commands = commands
         self._change = change
         self._progress = progress
         self._emission_started = emission_started
         self._scene_changed = scene_changed
-        self._outputs = Outputs(session, board, clock, time_base, counters)
+        self._outputs = Outputs(session, board, clock, clock_estimate, counters)
         self._registered: dict[str, int] = {}
         self._wakeup: Wakeup | None = None
         self._reload = False
@@ -163,7 +162,7 @@ class EventLoop:
             raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
         if not self._outputs.on:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._time_base.fpga_s(now_s))
+        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 
     def switch(self, on: bool) -> None:
         """Have the outputs armed or disarmed from now on; see `PanelControl`."""
@@ -189,7 +188,7 @@ class EventLoop:
             self._commands.outcome(ticket, outcome, age_s)
 
     def _panel_s(self) -> float:
-        return self._time_base.fpga_s(self._clock.now_s())
+        return self._clock_estimate.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
         """The outputs are off, unasked."""
@@ -243,7 +242,7 @@ class EventLoop:
             self._commands.serve(now_s, self)
         if self._change is not None:
             self._change_scene(now_s)
-        fpga_s = self._time_base.fpga_s(now_s)
+        fpga_s = self._clock_estimate.fpga_s(now_s)
         self._scheduler.advance(fpga_s + self._dispatcher.lead_s + ROUNDING_S)
         if self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), self._outputs.on):
             self._outputs.emission_started()
@@ -256,7 +255,7 @@ class EventLoop:
         if not samples:
             return -1, None
         finger = None
-        offset_s = self._time_base.offset_s
+        offset_s = self._clock_estimate.offset_s
         for sample in samples:
             self._scheduler.touch(_at(sample, sample.time_s + offset_s))
             if sample.contact:
@@ -283,7 +282,7 @@ class EventLoop:
             if self._playback.repeating:  # the spots of the scene before
                 self._playback.stop()
                 self._source.emitted(now_s, now_s)
-            self._scheduler.change_scene(prepared.scene, self._time_base.fpga_s(now_s))
+            self._scheduler.change_scene(prepared.scene, self._clock_estimate.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
         else:
@@ -307,12 +306,12 @@ class EventLoop:
             times.append(playback.accepted.start_s)
         handover_s = dispatcher.handover_s(now_s) if outputs.on else None
         if handover_s is not None:
-            if handover_s <= max(now_s, self._session.free_s()):  # nothing else is read before
+            if handover_s <= max(now_s, self._session.wire_free_s()):  # nothing else is read before
                 return min(handover_s, outputs.next_s())
             times.append(handover_s)
         next_s = self._scheduler.next_s()
         if next_s != NEVER:
-            times.append(self._time_base.host_s(next_s) - dispatcher.lead_s)
+            times.append(self._clock_estimate.host_s(next_s) - dispatcher.lead_s)
         if not times and self._source.fileno() is None and self._commands is None:
             free_s = playback.occupancy.free_s  # a replay has ended: the last emission sounds to its end
             return free_s if now_s < free_s else None

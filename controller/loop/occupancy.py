@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from controller.clocks import NEVER
-from controller.fpga.time_base import TimeBase
+from controller.fpga.clock_estimate import ClockEstimate
 
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
 HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
@@ -32,7 +32,7 @@ class Occupancy:
 
     Parameters
     ----------
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         The FPGA's clock on the host's.
     duration_s : float
         Length of an emission at the board's bit clock.
@@ -53,18 +53,18 @@ class Occupancy:
 
     __slots__ = (
         "_busy_s",
+        "_clock_estimate",
         "_free_fpga_s",
         "_max_duty",
         "_nominal_s",
-        "_time_base",
         "duration_s",
         "free_s",
         "last_start_s",
         "repetition",
     )
 
-    def __init__(self, time_base: TimeBase, duration_s: float, max_duty: float) -> None:
-        self._time_base = time_base
+    def __init__(self, clock_estimate: ClockEstimate, duration_s: float, max_duty: float) -> None:
+        self._clock_estimate = clock_estimate
         self._nominal_s = duration_s
         self._max_duty = max_duty
         self.set_time_scale(1.0)
@@ -90,9 +90,9 @@ class Occupancy:
             When, in host time and in FPGA time.
         by_clock : bool
             Whether the FPGA starts it at `fpga_s`; else the trigger pin rises at `start_s`. The other one is known to
-            within the error of the time base.
+            within the error of the clock estimate.
         """
-        error_s = self._time_base.error_s
+        error_s = self._clock_estimate.error_s
         self.last_start_s = start_s
         self.free_s = start_s + self._busy_s + (error_s if by_clock else 0.0)
         self._free_fpga_s = fpga_s + self._busy_s + (0.0 if by_clock else error_s)
@@ -101,10 +101,10 @@ class Occupancy:
         """The FPGA was told at a time of the host to stop repeating: the emission that sounds then ends, and no other follows."""
         if self.repetition is None:
             return
-        time_base = self._time_base
-        last_s = self.repetition.last_s(time_base.fpga_s(at_s))
+        clock_estimate = self._clock_estimate
+        last_s = self.repetition.last_s(clock_estimate.fpga_s(at_s))
         self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
-        self.free_s = max(self.free_s, time_base.host_s(last_s) + time_base.error_s + self._busy_s)
+        self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
         self.repetition = None
 
     def earliest_start_s(self, arrived_s: float, at_s: float | None) -> float:
@@ -134,6 +134,6 @@ class Occupancy:
         """Host time at which the repetition next starts an emission after a time; inf without a repetition."""
         if self.repetition is None:
             return NEVER
-        time_base = self._time_base
-        next_s = time_base.host_s(self.repetition.last_s(time_base.fpga_s(at_s)) + self.repetition.period_s)
+        clock_estimate = self._clock_estimate
+        next_s = clock_estimate.host_s(self.repetition.last_s(clock_estimate.fpga_s(at_s)) + self.repetition.period_s)
         return max(next_s, self.last_start_s)  # the first one is due then, whatever was rounded on the way

@@ -13,17 +13,17 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 from controller.loop.prefetch import PrefetchRecord
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key, Selection
 
@@ -118,7 +118,7 @@ class Playback:
         An armed FPGA.
     selection : Selection
         Drive words for points.
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         The FPGA's clock on the host's.
     occupancy : Occupancy
         When the plate is free.
@@ -144,7 +144,7 @@ class Playback:
         self,
         session: Session,
         selection: Selection,
-        time_base: TimeBase,
+        clock_estimate: ClockEstimate,
         occupancy: Occupancy,
         locate: Locate,
         *,
@@ -159,7 +159,7 @@ class Playback:
         self.upload_s = upload_s
         self._session = session
         self._selection = selection
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._locate = locate
         self._command_s = command_s
         self._counters = counters
@@ -180,7 +180,7 @@ class Playback:
         if repetition is None or now_s < self.occupancy.last_start_s:
             return None
         self.stop()
-        return self._time_base.host_s(repetition.last_s(self._time_base.fpga_s(self._session.ready_s())))
+        return self._clock_estimate.host_s(repetition.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
 
     def prepare(self, batch: Batch, started_ns: int, *, predicted: bool = True) -> Attempt:
         """Have a batch accepted for playing, and start it if the plate is free.
@@ -199,13 +199,13 @@ class Playback:
             As the session says; nothing is left to play then.
         """
         decided_ns = time.perf_counter_ns()
-        session, wire_before_ns, away_before_ns = self._session, self._session.wire_ns, self._session.away_ns
+        session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
         emissions, count, period_s, at_s = batch
         plan = self._plan(batch, predicted)
         self._prefetch.compare(emissions, plan.key, self._selection)
         start, start_ticks = Start.TRIGGER, 0
         if at_s is not None:
-            start, start_ticks = Start.TIME, self._time_base.ticks(plan.start_s)
+            start, start_ticks = Start.TIME, self._clock_estimate.ticks(plan.start_s)
         try:
             if plan.resident is None:
                 self._upload(plan.key, count, period_s, start, start_ticks)
@@ -226,27 +226,27 @@ class Playback:
                 return self.prepare(batch, started_ns, predicted=predicted)
             self._counters.skipped.refused += len(emissions)
             return Attempt(Outcome.REFUSED)
-        ready_s = session.ready_s()
-        away_ns = session.away_ns - away_before_ns
+        ready_s = session.earliest_trigger_s()
+        blocked_ns = session.blocked_ns - blocked_before_ns
         accepted = Accepted(
             batch,
             plan,
             ready_s,
-            max(ready_s, self.occupancy.free_s + MARGIN_S) if at_s is None else self._time_base.host_s(plan.start_s),
+            max(ready_s, self.occupancy.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(plan.start_s),
             None if at_s is None else start_ticks,
             decided_ns - started_ns,
-            time.perf_counter_ns() - decided_ns - away_ns,
+            time.perf_counter_ns() - decided_ns - blocked_ns,
             session.wire_ns - wire_before_ns,
         )
         if at_s is not None:
             self._counters.scheduled += 1
             self._started(accepted, accepted.start_s, 0)
-            return Attempt(Outcome.PLAYED, start_ticks / self._time_base.clock_hz, True)
+            return Attempt(Outcome.PLAYED, start_ticks / self._clock_estimate.clock_hz, True)
         self.accepted = accepted
         at_once = accepted.start_s <= ready_s
         if at_once:
             self.trigger()
-        return Attempt(Outcome.PLAYED, self._time_base.fpga_s(accepted.start_s), at_once)
+        return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s(accepted.start_s), at_once)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Upload the waveform of a predicted emission without playing it, if predictions have come true of late.
@@ -315,9 +315,9 @@ class Playback:
         if accepted is None:
             return
         self.accepted = None
-        called_ns, away_ns = time.perf_counter_ns(), self._session.away_ns
+        called_ns, blocked_ns = time.perf_counter_ns(), self._session.blocked_ns
         trigger_s = self._session.trigger()
-        self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.away_ns - away_ns))
+        self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
 
     def forget(self) -> None:
         """The FPGA holds and plays nothing: after a fault."""
@@ -348,11 +348,11 @@ class Playback:
 
     def _start_s(self, wire_s: float, at_s: float | None) -> float:
         """Earliest start, in FPGA time, of what begins to go out now."""
-        return self.occupancy.earliest_start_s(self._time_base.fpga_s(self._session.ready_s() + wire_s), at_s)
+        return self.occupancy.earliest_start_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s), at_s)
 
     def _aim(self, emissions: Sequence[Emission], start_s: float, predicted: bool) -> list[Point]:
         """Where the focus of each emission is to be, and its amplitude."""
-        focus_s = self._time_base.host_s(start_s) + self.occupancy.duration_s
+        focus_s = self._clock_estimate.host_s(start_s) + self.occupancy.duration_s
         points = []
         for emission in emissions:
             place = self._locate(emission.finger, focus_s) if emission.finger is not None and predicted else None
@@ -402,13 +402,13 @@ class Playback:
     def _stopped(self) -> None:
         """The FPGA was told to end its repetition, whatever became of the play behind."""
         if self.occupancy.repetition is not None:
-            self.occupancy.stop_repetition(self._session.ready_s())
+            self.occupancy.stop_repetition(self._session.earliest_trigger_s())
 
     def _started(self, accepted: Accepted, start_s: float, trigger_ns: int) -> None:
         """Count a start, and what it took."""
         (emissions, count, period_s, _), plan = accepted.batch, accepted.plan
         ticks, resident = accepted.start_ticks, plan.resident is not None
-        fpga_s = self._time_base.fpga_s(start_s) if ticks is None else ticks / self._time_base.clock_hz
+        fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else ticks / self._clock_estimate.clock_hz
         self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)
         counters = self._counters
         counters.emissions += 1
@@ -422,7 +422,7 @@ class Playback:
         else:
             counters.uploads += 1
         if count == ENDLESS:
-            self.occupancy.repetition = Repetition(fpga_s, self._session.played_period_s(period_s))
+            self.occupancy.repetition = Repetition(fpga_s, self._session.timing.actual_period_s(period_s))
         if self._played is not None:
             aimed = [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(emissions, plan.points, strict=True)]
             self._played(Played(start_s, tuple(aimed), count, period_s, resident, ticks))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.waveforms.selection import Key, Selection
 
 PREFETCH_AFTER_HITS = 2  # so many predictions in a row have to come true, sent ahead or not, before one is sent

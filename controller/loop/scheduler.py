@@ -1,6 +1,6 @@
 """What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
 
-All times are FPGA times (`fpga.time_base`). The scene decides what a finger feels; here it is kept until it
+All times are FPGA times (`fpga.clock_estimate`). The scene decides what a finger feels; here it is kept until it
 plays. Whatever a command asked for gets exactly one outcome.
 """
 
@@ -15,10 +15,10 @@ from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
 from controller.loop.spots import Spots
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission, FingerState
-from controller.scene.fingers import anchored, ended, on_time, on_touch, start_effect, stopped, taken_over
+from controller.scene.emission import Emission
+from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import OUTSIDE, Scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
 PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than one report
@@ -56,29 +56,28 @@ class Scheduler:
         self._confirmed = confirmed
         self._unconfirmed_most = unconfirmed_most
         self._outcomes = outcomes
-        self._states: dict[Owner, FingerState] = {}  # fingers by number, commands at a point by their owner
+        self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
 
     def touch(self, sample: TouchSample) -> None:
         """A finger began, moved or was released."""
-        finger = sample.finger
-        before = self._states.get(finger)
-        state, emissions = on_touch(self.scene, before, sample)
-        if state is None:
-            self._end_commands(before, Outcome.SKIPPED, sample.time_s)
-            self._states.pop(finger, None)
+        finger, x_m, y_m, time_s, contact, _ = sample
+        active = self._active.get(finger)
+        if not contact:
+            self._release(finger, active, time_s)
+            return
+        if active is None:
+            active = self._active[finger] = ActiveEffects(self.scene, finger, x_m, y_m)
+            emissions = active.press(time_s)
         else:
-            self._states[finger] = state
+            emissions = active.move(x_m, y_m, time_s)
         if emissions:
             self._add(emissions)
-        elif state is not None and state.region == OUTSIDE:
+        elif active.region == OUTSIDE:
             self._counters.skipped.outside_region += 1
-        elif state is not None:
+        else:
             self._counters.skipped.between_emissions += 1
-        if state is None:
-            self._discard_waiting_of(finger, emissions, sample.time_s)
-            self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """A command plays an effect at a point, or for a finger.
@@ -88,26 +87,24 @@ class Scheduler:
         ConfigError
             If there is no such effect, or no such finger.
         """
-        if finger is not None and finger not in self._states:
-            raise ConfigError(f"finger {finger} is not on the panel")
-        before = None if finger is None else self._states[finger]
-        owner: Owner = f"command {ticket}" if finger is None else finger
-        state, emissions = start_effect(
-            self.scene, before, effect, x_m=x_m, y_m=y_m, finger=finger, amplitude=amplitude, time_s=now_s, ticket=ticket
-        )
-        if not ended(state) or finger is not None:
-            self._states[owner] = state
-        if finger is None:
-            self._make_room(emissions)
+        if finger is not None:
+            if finger not in self._active:
+                raise ConfigError(f"finger {finger} is not on the panel")
+            self._add(self._active[finger].start(effect, amplitude, now_s, ticket))
+            return
+        active = ActiveEffects(self.scene, f"command {ticket}", x_m, y_m)
+        emissions = active.start(effect, amplitude, now_s, ticket)
+        if not active.ended:
+            self._active[active.owner] = active
+        self._make_room(emissions)
         self._add(emissions)
 
     def advance(self, until_s: float) -> None:
         """Collect what becomes due by itself up to a time."""
         advanced = False
-        for owner, state in self._states.items():
-            if state.next_s <= until_s:
-                self._states[owner], emissions = on_time(self.scene, state, until_s)
-                self._add(emissions)
+        for active in self._active.values():
+            if active.next_s <= until_s:
+                self._add(active.advance(until_s))
                 advanced = True
         if advanced:
             self._drop_ended()
@@ -156,7 +153,7 @@ class Scheduler:
 
     def next_s(self) -> float:
         """When `advance` has something to do."""
-        return min([state.next_s for state in self._states.values()], default=NEVER)
+        return min([active.next_s for active in self._active.values()], default=NEVER)
 
     def predict(
         self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
@@ -177,14 +174,14 @@ class Scheduler:
         after_s : float
             From a report to the focus.
         """
-        state = self._states.get(finger)
+        active = self._active.get(finger)
         here, then = place(finger, now_s), place(finger, now_s + report_s)
-        if state is None or here is None or then is None:
+        if active is None or here is None or then is None:
             return None
         step_m = math.dist(here, then)
         if step_m < MIN_STEP_M:
             return None
-        way_m, amplitude = state.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
+        way_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
         if way_m > max(step_m, PREFETCH_DISTANCE_M):
             return None
         focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
@@ -195,14 +192,25 @@ class Scheduler:
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
-            if emission.period_s and emission.beat == 0 and emission.owner in self._states:
-                anchored(self._states[emission.owner], emission, start_s)
+            if emission.period_s and emission.beat == 0 and emission.owner in self._active:
+                self._active[emission.owner].shift(emission.time_s, start_s)
 
     def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: float) -> None:
         """These will not be played."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
+
+    def _release(self, finger: int, active: ActiveEffects | None, now_s: float) -> None:
+        """A finger was lifted."""
+        last: tuple[Emission, ...] = ()
+        if active is not None:
+            last = active.release(now_s)
+            self._end_commands(active, Outcome.SKIPPED, now_s)
+            del self._active[finger]
+        self._add(last)
+        self._discard_waiting_of(finger, last, now_s)
+        self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
 
     def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
         """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
@@ -212,11 +220,10 @@ class Scheduler:
             self._counters.skipped.lifted += 1
             self.discarded([waiting], Outcome.SKIPPED, now_s)
 
-    def _end_commands(self, state: FingerState | None, outcome: Outcome, now_s: float) -> None:
+    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: float) -> None:
         """Commands that end before their first emission."""
-        if state is not None:
-            for ticket, given_s in state.unfelt:
-                self._outcomes(ticket, outcome, now_s - given_s)
+        for ticket, given_s in active.unplayed_commands:
+            self._outcomes(ticket, outcome, now_s - given_s)
 
     def reset(self, now_s: float) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
@@ -224,9 +231,10 @@ class Scheduler:
         self._due.clear()
         self._counters.skipped.outputs_off += len(waiting)
         self.discarded(waiting, Outcome.REFUSED, now_s)
-        for state in self._states.values():
-            self._end_commands(state, Outcome.REFUSED, now_s)
-        self._states = {owner: stopped(state) for owner, state in self._states.items() if state.finger is not None}
+        for active in self._active.values():
+            self._end_commands(active, Outcome.REFUSED, now_s)
+            active.end_trains()
+        self._active = {owner: active for owner, active in self._active.items() if active.finger is not None}
         self.spots.restart(now_s)
 
     def change_scene(self, scene: Scene, now_s: float) -> None:
@@ -236,7 +244,8 @@ class Scheduler:
         self._counters.skipped.scene_changed += len(waiting)
         self.discarded(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
-        self._states = {owner: taken_over(scene, state) for owner, state in self._states.items()}
+        for active in self._active.values():
+            active.change_scene(scene)
         self.spots = Spots(scene.spots, now_s)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
@@ -274,9 +283,8 @@ class Scheduler:
                     self.discarded([oldest], Outcome.SKIPPED, new.time_s)
 
     def _drop_ended(self) -> None:
-        over = [owner for owner, state in self._states.items() if isinstance(owner, str) and ended(state)]
-        for owner in over:
-            del self._states[owner]
+        for owner in [owner for owner, active in self._active.items() if active.finger is None and active.ended]:
+            del self._active[owner]
 
 
 def _has_no_beat(emission: Emission) -> bool:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 from controller.clocks import NEVER
 from controller.loop.batching import select_batch
-from controller.scene.finger_state import Emission, spot_emission
-from controller.scene.fingers import ROUNDING_S
+from controller.scene.emission import Emission, spot_emission
 from controller.scene.scene import Spot
+
+ROUNDING_S = 1e-9  # a beat reached exactly is reached
 
 
 class Spots:

@@ -20,11 +20,11 @@ from controller.board.records import NotNegative, Record, as_record, load_toml
 from controller.errors import ConfigError
 
 LIBRARY = Path(__file__).with_name("effects.toml")
-WEAKEST = 0.25  # amplitude: below it the plate's response is not in proportion any more
+MIN_AMPLITUDE = 0.25  # amplitude: below it the plate's response is not in proportion any more
 ROUNDING = 1e-9
 
 When = Literal["press", "release", "enter", "leave", "move", "always", "command"]
-Amplitude = Annotated[float, Meta(ge=WEAKEST, le=1)]
+Amplitude = Annotated[float, Meta(ge=MIN_AMPLITUDE, le=1)]
 Rate = Annotated[float, Meta(ge=0.1, le=1000)]  # the FPGA counts periods in 32 bits of its clock
 EnvelopePoint = tuple[NotNegative, Annotated[float, Meta(ge=0, le=1)]]
 
@@ -207,8 +207,8 @@ def _wrong_envelope(effect: EffectTable) -> str:
     for index, (at_ms, amplitude) in enumerate(points):
         if index and at_ms <= points[index - 1][0]:
             return f".envelope[{index}] = {[at_ms, amplitude]} is not later than the point before, at {points[index - 1][0]:g} ms"
-        if 0 < amplitude < WEAKEST:
-            return f".envelope[{index}] = {[at_ms, amplitude]}: an amplitude is 0 (silence) or {WEAKEST:g} to 1"
+        if 0 < amplitude < MIN_AMPLITUDE:
+            return f".envelope[{index}] = {[at_ms, amplitude]}: an amplitude is 0 (silence) or {MIN_AMPLITUDE:g} to 1"
     if points[-1][0] > effect.end_ms * (1 + ROUNDING):
         return f".envelope goes on to {points[-1][0]:g} ms, but the train ends at {effect.end_ms:g} ms"
     if not any(amplitude for _, amplitude in points):

@@ -97,3 +97,25 @@ def test_whatever_stands_somewhere_is_taken_or_refused_in_one_line_with_its_key(
         refusal = str(error)
     assert refusal.startswith("file: ")
     assert "\n" not in refusal
+
+
+POLYGON = next(index for index, region in enumerate(SCENE["regions"]) if region["shape"] == "polygon")
+LENGTHS = [
+    *((SCENE, SceneTable, ("regions", POLYGON, "corners_mm", 1, axis)) for axis in (0, 1)),
+    *((SCENE, SceneTable, ("regions", 0, key)) for key in ("x_mm", "y_mm", "width_mm", "height_mm")),
+    *((BOARD, Board, ("actuators", 0, key)) for key in ("x_mm", "y_mm", "size_mm")),
+    (BOARD, Board, ("waveform", "duration_ms")),
+    *((BOARD, Board, ("touch", f"{axis}_mm_from_axes", 2)) for axis in "xy"),
+]
+
+
+@pytest.mark.parametrize("value", [1.8e308, 1e300, -1e300, 1e154, 10**400, float("nan"), float("inf"), -float("inf")])
+@pytest.mark.parametrize(
+    ("tables", "kind", "path"), LENGTHS, ids=lambda value: ".".join(map(str, value)) if type(value) is tuple else ""
+)
+def test_a_length_that_no_plate_has_is_refused_with_its_key(tables, kind, path, value):
+    with pytest.raises(ConfigError) as caught:
+        as_record("file: ", changed(tables, *path, to=value), kind)
+    shown = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
+    assert str(caught.value).startswith(f"file: {shown} = ")
+    assert "\n" not in str(caught.value)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.loop.batching import MAX_FOCI, MERGE_RADIUS_M, SEPARATION_M, select_batch
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 
 T_S = 2e-3
 

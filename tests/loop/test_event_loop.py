@@ -172,7 +172,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
-    monkeypatch.setattr(Session, "away_ns", property(lambda _: next(ages_ns)))
+    monkeypatch.setattr(Session, "blocked_ns", property(lambda _: next(ages_ns)))
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.counters.upload_latency.host.count == 1
     assert run.counters.upload_latency.host.worst_ns == 0
@@ -706,7 +706,7 @@ def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, t
             return wanted[-1]
 
         def sending(*what):
-            ahead_s.append(loop._time_base.host_s(loop._scheduler.next_s()) - clock.now_s())
+            ahead_s.append(loop._clock_estimate.host_s(loop._scheduler.next_s()) - clock.now_s())
             return prefetch(*what)
 
         loop._playback.prefetch, loop._scheduler.predict = sending, noting
@@ -728,7 +728,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         loop._dispatcher.quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2
         occupancy = loop._playback.occupancy
-        occupancy.last_start_s, occupancy.repetition = 10.1, Repetition(loop._time_base.fpga_s(10.1), 0.025)
+        occupancy.last_start_s, occupancy.repetition = 10.1, Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()
 
@@ -737,7 +737,7 @@ def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, c
     """Which has run for 100 s when this host begins."""
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
-        loop._time_base.offset_s, given = 100.0, []
+        loop._clock_estimate.offset_s, given = 100.0, []
         loop._scheduler.touch = given.append
         loop._read(loop._source.next_time_s())
         link.close()

@@ -13,8 +13,8 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import BankError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
-from controller.fpga.time_base import TimeBase
 from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.dispatcher import BEAT_LEAD_S
@@ -22,7 +22,7 @@ from controller.loop.occupancy import HANDOVER_S, MARGIN_S, Occupancy
 from controller.loop.playback import Playback
 from controller.loop.wiring import assemble
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.touch.recording import Recording
@@ -272,9 +272,9 @@ def by_hand(board, bank_file):
         return done.place
 
     with Bank.open(bank_file, board) as bank:
-        time_base = TimeBase(link.clock_hz)
+        clock_estimate = ClockEstimate(link.clock_hz)
         done.playback = Playback(
-            session, Selection(bank, 1e-3, board.idle_word), time_base, Occupancy(time_base, T_S, DUTY), where, slots=4,
+            session, Selection(bank, 1e-3, board.idle_word), clock_estimate, Occupancy(clock_estimate, T_S, DUTY), where, slots=4,
             upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
         )  # fmt: skip
         yield done

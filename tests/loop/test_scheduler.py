@@ -9,7 +9,7 @@ from controller.loop.commands import Outcome
 from controller.loop.scheduler import MAX_WAITING_COMMANDS, Scheduler
 from controller.metrics import Counters
 from controller.scene.scene import load_scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 SCENE = """
 [effects.tap]

@@ -179,31 +179,31 @@ def test_regions_that_overlap_in_part_or_only_hold_a_spot_are_accepted(scene_of)
     spot = square('"always"', "spot", 60, 10)
     partly = square(CLICK, "partly", 85, 10)
     corner = 'name = "c"\nshape = "circle"\nx_mm = 70\ny_mm = 70\nradius_mm = 21\neffects = ["click"]'
-    assert len(scene_of(square(CLICK), spot, partly, corner).areas) == 4
+    assert len(scene_of(square(CLICK), spot, partly, corner).regions) == 4
 
 
 def test_trains_of_different_occasions_do_not_add_up(scene_of):
     fast = "rate_hz = 400, count = 2"
-    assert scene_of(square(f'{{ when = "press", {fast} }}, {{ when = "enter", {fast} }}')).areas[0].trains_hz == 400
+    assert scene_of(square(f'{{ when = "press", {fast} }}, {{ when = "enter", {fast} }}')).regions[0].train_rate_hz == 400
 
 
 def test_a_name_a_table_that_builds_on_it_and_the_primitives_mean_the_same(scene_of):
     for effect in ('"double_click"', '{ effect = "double_click" }', f"{{ {PRESS}, rate_hz = 8, count = 2 }}"):
-        assert scene_of(square(effect)).areas[0].press == (Train(1.0, 2, 0.125),)
+        assert scene_of(square(effect)).regions[0].press == (Train(1.0, 2, 0.125),)
 
 
 def test_what_an_effect_builds_on_gives_way_to_what_is_given(scene_of):
-    quick = scene_of(square('{ effect = "buzz", count = 3, when = "enter", amplitude = 0.5 }')).areas[0]
+    quick = scene_of(square('{ effect = "buzz", count = 3, when = "enter", amplitude = 0.5 }')).regions[0]
     assert quick.press == ()
     assert quick.enter == (Train(0.5, 3, 1 / 120),)
-    longer = scene_of(square('{ effect = "double_click", duration_ms = 1000 }')).areas[0]
+    longer = scene_of(square('{ effect = "double_click", duration_ms = 1000 }')).regions[0]
     assert longer.press == (Train(1.0, 8, 0.125),)
 
 
 def test_a_scenes_own_effects_build_on_those_above_them_and_may_take_a_library_name(scene_of):
     effects = "[effects.click]\neffect = 'click'\namplitude = 0.5\n[effects.soft]\neffect = 'click'\nwhen = 'release'\n"
     scene = scene_of(square('"click", "soft"'), effects=effects)
-    assert scene.areas[0].press == scene.areas[0].release == (Train(0.5),)
+    assert scene.regions[0].press == scene.regions[0].release == (Train(0.5),)
     assert scene.effects["click"] == scene.effects["soft"] == Train(0.5)
     with pytest.raises(ConfigError, match=r"effects\.early\.effect = 'late' is no effect"):
         scene_of(square(CLICK), effects="[effects.early]\neffect = 'late'\n[effects.late]\nwhen = 'press'\n")
@@ -224,8 +224,8 @@ def test_every_effect_of_the_library_can_be_named_by_a_region_or_a_command_of_ev
     if library()[effect].occasions == ("command",):
         assert effect in scene_of(square(CLICK), board=board).effects
     else:
-        (area,) = scene_of(square(f'"{effect}"'), board=board).areas
-        assert area.felt or area.spot
+        (region,) = scene_of(square(f'"{effect}"'), board=board).regions
+        assert region.felt or region.spot
 
 
 def test_the_library_scene_names_every_effect_that_a_region_can():
@@ -246,5 +246,5 @@ def test_the_readme_has_an_example_of_every_key():
 
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_every_example_of_the_readme_is_felt(scene_of, example):
-    (area,) = scene_of(square(example)).areas
-    assert area.felt or area.spot
+    (region,) = scene_of(square(example)).regions
+    assert region.felt or region.spot
