@@ -7,7 +7,8 @@ import pytest
 
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene.effects import EffectTable, library
+from controller.scene.effects import EffectTable
+from controller.scene.library import library
 from controller.scene.scene import load_scene
 from controller.scene.trains import Train
 
@@ -87,33 +88,79 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         ("{ spacing_mm = 3 }", ".when is missing"),
         ('{ when = "now" }', ".when = 'now'"),
         ('{ when = ["press", "press"] }', ".when = ['press', 'press'] has one of them twice"),
-        ('{ when = ["press", "move"], spacing_mm = 3 }', "'move' and 'always' stand alone"),
+        (
+            '{ when = ["press", "move"], spacing_mm = 3 }',
+            ".when = ['press', 'move']: 'move' does not go with 'press': a single emission takes press, release, enter, ",
+        ),
         ('{ when = "command" }', 'when = "command": an application plays it'),
         ('"boom"', " = 'boom' is no effect; known: always, buzz, click, detent, double_click, edge, grating, notification, te"),
         (f"{{ {PRESS}, amplitude = 0.2 }}", ".amplitude = 0.2"),
         (f"{{ {PRESS}, amplitude = 1.1 }}", ".amplitude = 1.1"),
-        (f"{{ {BUZZ} }}", "a train needs its end: count or duration_ms"),
-        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", "count = 3 and duration_ms = 30 both say how long"),
+        (
+            f"{{ {BUZZ} }}",
+            ": count or duration_ms is missing: one of them is needed for a train (rate_hz; count or duration_ms; when = ",
+        ),
+        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", ": count = 3 and duration_ms = 30 exclude each other: give one of them"),
         (f"{{ {BUZZ}, count = 0 }}", ".count = 0"),
-        (f"{{ {PRESS}, count = 3 }}", ".count needs a train"),
-        (f"{{ {PRESS}, envelope = [[0, 1]] }}", ".envelope needs a train"),
-        (f"{{ {PRESS}, phase = 0.5 }}", ".phase = 0.5 needs a rate_hz, or lines"),
+        (
+            f"{{ {PRESS}, count = 3 }}",
+            '.count = 3 does not go with when = "press", a single emission; it belongs to a train (rate_hz; ',
+        ),
+        (
+            f"{{ {PRESS}, envelope = [[0, 1]] }}",
+            '.envelope does not go with when = "press", a single emission; it belongs to a train',
+        ),
+        (f"{{ {PRESS}, phase = 0.5 }}", '.phase = 0.5 does not go with when = "press", a single emission; it belongs to a train ('),
         (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
         (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
-        ('{ when = "release", rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        (f"{{ {PRESS}, spacing_mm = 3 }}", '.spacing_mm = 3.0 needs when = "move"'),
-        (f'{{ {PRESS}, along = "x" }}', ".along = 'x' needs when = \"move\""),
-        ('{ when = "move" }', ".spacing_mm is missing"),
+        (
+            '{ when = "release", rate_hz = 100, count = 3 }',
+            '.rate_hz = 100 does not go with when = "release", a single emission',
+        ),
+        ('{ when = "release", phase = 0.5 }', '.phase = 0.5 does not go with when = "release", a single emission'),
+        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', '.rate_hz = 100 does not go with when = "release"'),
+        (
+            '{ when = ["leave", "release"], rate_hz = 100, count = 3 }',
+            "'release' does not go with 'leave': a train takes press, enter, lea",
+        ),
+        (
+            f"{{ {PRESS}, spacing_mm = 3 }}",
+            '.spacing_mm = 3 does not go with when = "press", a single emission; it belongs to a grid of lines (',
+        ),
+        (
+            f'{{ {PRESS}, along = "x" }}',
+            ".along = 'x' does not go with when = \"press\", a single emission; it belongs to a grid of lines (spacing_mm",
+        ),
+        (f'{{ {PRESS}, along = "path" }}', ".along = 'path' does not go with"),
+        ('{ when = "move" }', ".spacing_mm is missing: it is needed for a spacing along the path (spacing_mm; when = move)"),
+        (
+            '{ when = "move", along = "x" }',
+            ".spacing_mm is missing: it is needed for a grid of lines (spacing_mm; along; when = move)",
+        ),
         ('{ when = "move", spacing_mm = 0.05 }', ".spacing_mm = 0.05"),
         ('{ when = "move", spacing_mm = 3, along = "z" }', ".along = 'z'"),
-        ('{ when = "move", spacing_mm = 3, phase = 0.5 }', ".phase = 0.5 needs a rate_hz, or lines along x or y"),
-        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move"'),
-        ('{ when = "move", spacing_mm = 3, count = 2 }', ".count needs a train"),
-        ('{ when = "always" }', ".rate_hz is missing"),
-        ('{ when = "always", rate_hz = 20, count = 3 }', ".count needs a train with an end"),
-        ('{ when = "always", rate_hz = 20, envelope = [[0, 1]] }', ".envelope needs a train with an end"),
-        (f"{{ {PRESS}, x_mm = 3 }}", '.x_mm = 3 needs when = "always"'),
+        (
+            '{ when = "move", spacing_mm = 3, phase = 0.5 }',
+            '.phase = 0.5 does not go with when = "move", a spacing along the path; it',
+        ),
+        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move", a'),
+        (
+            '{ when = "move", spacing_mm = 3, count = 2 }',
+            '.count = 2 does not go with when = "move", a spacing along the path; it belongs',
+        ),
+        ('{ when = "always" }', ".rate_hz is missing: it is needed for a spot (rate_hz; when = always)"),
+        (
+            '{ when = "always", rate_hz = 20, count = 3 }',
+            '.count = 3 does not go with when = "always", a spot; it belongs to a train (',
+        ),
+        (
+            '{ when = "always", rate_hz = 20, envelope = [[0, 1]] }',
+            '.envelope does not go with when = "always", a spot; it belongs to',
+        ),
+        (
+            f"{{ {PRESS}, x_mm = 3 }}",
+            '.x_mm = 3 does not go with when = "press", a single emission; it belongs to a spot (rate_hz; when = always)',
+        ),
         (f"{{ {BUZZ}, count = 3, envelope = [] }}", ".envelope"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [0, 0.5]] }}", ".envelope[1] = [0.0, 0.5] is not later than the point before"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [9, 0.5], [8, 1]] }}", ".envelope[2] = [8.0, 1.0] is not later"),

@@ -1,0 +1,98 @@
+"""An effect as a table of a TOML file: when it is felt, how strong, how often in time or how densely in space.
+
+Which keys go together is in `primitives`; what stands behind a name is in `library`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta
+
+from controller.board.records import NotNegative, Record
+
+MIN_AMPLITUDE = 0.25  # below it the plate's response is not proportional to the amplitude any more
+ROUNDING = 1e-9
+
+When = Literal["press", "release", "enter", "leave", "move", "always", "command"]
+Amplitude = Annotated[float, Meta(ge=MIN_AMPLITUDE, le=1)]
+Rate = Annotated[float, Meta(ge=0.1, le=1000)]  # the FPGA counts periods in 32 bits of its clock
+EnvelopePoint = tuple[NotNegative, Annotated[float, Meta(ge=0, le=1)]]
+
+
+class EffectTable(Record, frozen=True):
+    """An effect as it stands in a file; None: the key is not given.
+
+    Attributes
+    ----------
+    effect : str or None
+        Name of the effect that this one builds on.
+    when : str or tuple of str
+        One occasion or several.
+    amplitude : float
+    rate_hz, count, duration_ms : float, int, float
+        A train: `count` emissions, or as many as fit into `duration_ms`.
+    phase : float
+        Delay of a train in periods, or offset of grid lines in spacings.
+    spacing_mm : float
+        From one emission to the next as the finger moves.
+    along : str
+        "path": the spacing is of the distance travelled; "x" or "y": of grid lines across that axis, from the region's lower
+        end on.
+    envelope : tuple of (float, float)
+        Points (ms, amplitude) over the train.
+    x_mm, y_mm : float
+        Where a spot is.
+    """
+
+    effect: str | None = None
+    when: When | tuple[When, ...] | None = None
+    amplitude: Amplitude | None = None
+    rate_hz: Rate | None = None
+    count: Annotated[int, Meta(ge=1, le=1_000_000)] | None = None
+    duration_ms: Annotated[float, Meta(gt=0, le=3.6e6)] | None = None
+    phase: Annotated[float, Meta(ge=0, lt=1)] | None = None
+    spacing_mm: Annotated[float, Meta(ge=0.1, le=1000)] | None = None
+    along: Literal["path", "x", "y"] | None = None
+    envelope: Annotated[tuple[EnvelopePoint, ...], Meta(min_length=1, max_length=1000)] | None = None
+    x_mm: NotNegative | None = None
+    y_mm: NotNegative | None = None
+
+    @property
+    def occasions(self) -> tuple[When, ...]:
+        """Occasions on which it is felt."""
+        return (self.when,) if isinstance(self.when, str) else self.when or ()
+
+    @property
+    def strength(self) -> float:
+        """Its amplitude; 1 if none is given."""
+        return 1.0 if self.amplitude is None else self.amplitude
+
+    @property
+    def first_s(self) -> float:
+        """Time from the start of a train to its first emission."""
+        return 0.0 if self.rate_hz is None else (self.phase or 0.0) / self.rate_hz
+
+    @property
+    def emissions(self) -> int:
+        """Number of emissions of a train; 1 without a rate."""
+        if self.rate_hz is None or self.duration_ms is None:
+            return self.count or 1
+        return math.ceil((self.duration_ms * 1e-3 - self.first_s - ROUNDING) * self.rate_hz)
+
+    @property
+    def end_ms(self) -> float:
+        """Time from the start of a train to where its next emission would be, or to its given duration."""
+        if self.duration_ms is not None:
+            return self.duration_ms
+        return 0.0 if self.rate_hz is None else (self.first_s + self.emissions / self.rate_hz) * 1e3
+
+    def over(self, base: EffectTable) -> EffectTable:
+        """Another effect, with the keys that this one gives in place of its own."""
+        given = {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
+        given.pop("effect", None)
+        if "count" in given or "duration_ms" in given:  # either key says how long the train is
+            base = msgspec.structs.replace(base, count=None, duration_ms=None)
+        return msgspec.structs.replace(base, **given)
