@@ -18,7 +18,7 @@ from controller.bank.grid import Grid
 from controller.bank.packing import WORD, edges
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.work_precision import emit, random_points, spread
+from controller.benchmark.focus_figures import emit, random_points, spread
 from controller.board.board import Board
 from controller.physics.plate_twin import PlateTwin
 from controller.waveforms.composition import Composer

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.benchmark.work_precision import emit, idling_low, random_points, spread
+from controller.benchmark.focus_figures import emit, idling_low, random_points, spread
 from controller.board.board import Board
 from controller.gateware_model.pins import ramp_bits
 from controller.physics.audible import surface_energy

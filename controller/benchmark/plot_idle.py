@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from controller.benchmark.focus_figures import emit, idling_low, random_points
 from controller.benchmark.idle import NOTHING, RAMPS_MS, first_order_bits, ramp_samples, ramp_words
-from controller.benchmark.work_precision import emit, idling_low, random_points
 from controller.board.board import Board
 from controller.errors import ConfigError
 from controller.gateware_model.pins import ramp_bits

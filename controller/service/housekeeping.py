@@ -9,7 +9,7 @@ from typing import Protocol
 from controller.board.board import Board
 from controller.board.panel_state import Condition, PanelState
 from controller.fpga.session import Session
-from controller.log import Priority, tell
+from controller.log import Priority, log
 from controller.loop.scene_source import PreparedScene
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
@@ -180,7 +180,7 @@ class Housekeeping:
             self._scene = None
         if self._reloads != self._reloads_told and not loop.reloading:  # else another is on its way, and waited for too
             self._reloads_told = self._reloads
-            self._reload_file.tell(self._reloads, self._reload_refused)
+            self._reload_file.write(self._reloads, self._reload_refused)
         if self._read_s <= now_s and loop.outputs.on:  # an FPGA that is lost takes no other bit clock
             self._follow_temperature(loop, now_s)
 
@@ -188,9 +188,9 @@ class Housekeeping:
         """Tell that a scene was taken over, or why not."""
         self._scene_stays = f"the scene stays as it was: {prepared.reason}" if prepared.scene is None else ""
         if self._scene_stays:
-            tell(self._scene_stays, Priority.WARNING)
+            log(self._scene_stays, Priority.WARNING)
         else:
-            tell("another scene is played, or the same read again")
+            log("another scene is played, or the same read again")
         self._notifier.status(self._status)
         if not prepared.ticket:
             self._reloads += 1
@@ -233,15 +233,15 @@ class Housekeeping:
         """What of a new condition is for the log: not whether something is being played."""
         now = self.condition
         if now.outputs_on != before.outputs_on and now.outputs_on:
-            tell("the outputs are on")
+            log("the outputs are on")
         if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
             asked = now.state is PanelState.DISARMED
             said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
-            tell(said, Priority.INFO if asked else Priority.WARNING)
+            log(said, Priority.INFO if asked else Priority.WARNING)
         if now.panel_present and not before.panel_present:
-            tell("the touch panel is back")
+            log("the touch panel is back")
         elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):
-            tell(f"{now.state.value}: {now.cause}", Priority.WARNING)
+            log(f"{now.state.value}: {now.cause}", Priority.WARNING)
 
     @property
     def _status(self) -> str:
@@ -260,9 +260,9 @@ class Housekeeping:
         if self._thermometer.cause != self._temperature_cause:
             self._temperature_cause = self._thermometer.cause
             if self._temperature_cause:
-                tell(self._temperature_cause, Priority.WARNING)
+                log(self._temperature_cause, Priority.WARNING)
             else:
-                tell("the temperature sensor is read again")
+                log("the temperature sensor is read again")
         if scale == self.scale:
             return
         if self._session.set_bit_period(scale):  # else something plays: the next turn but one

@@ -10,7 +10,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import LOG, Priority, tell
+from controller.log import LOG, Priority, log
 from controller.loop.wiring import Assembly, assemble
 from controller.scene.scene import Scene
 from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
@@ -92,8 +92,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            tell(warning, Priority.WARNING)
-        tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
+            log(warning, Priority.WARNING)
+        log(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
         try:
             assembly.loop.run()
         except ControllerError as error:

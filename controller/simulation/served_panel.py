@@ -29,7 +29,7 @@ from controller.board.devices import ApplicationSocket
 from controller.board.records import as_record
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import Priority, tell
+from controller.log import Priority, log
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
@@ -71,7 +71,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
     source = tracked(RecordingSource(recording, recording.axes(board), clock.now_s() + 0.2), board)
     change = SceneChanger(board, board.scene, bank)
     for warning in enter_realtime(board.realtime):
-        tell(warning, Priority.WARNING)
+        log(warning, Priority.WARNING)
     drain_s = clock.now_s()
 
     def progress(now_s: float) -> None:

@@ -14,9 +14,11 @@ from alone import alone
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from controller.application_socket import command_socket
-from controller.application_socket.command_socket import ACCEPTS_A_TURN, LINES_A_CLIENT, LINES_A_TURN, WAITING_PER_CLIENT
+from controller.application_socket.clients import ACCEPTS_A_TURN, LEAVE_S, PAUSE_S
+from controller.application_socket.command_socket import LINES_A_CLIENT, LINES_A_TURN
 from controller.application_socket.messages import LINE_BYTES
+from controller.application_socket.pending_commands import WAITING_PER_CLIENT
+from controller.application_socket.requests import FIGURES_S
 from controller.loop.commands import CommandSource, Outcome
 from controller.touch.samples import TouchSample
 
@@ -172,7 +174,7 @@ def test_figures_are_told_and_not_counted_anew_for_each_who_asks(panel):
     assert answers[0]["figures"].items() >= {"emissions": 7, "nothing": None}.items()
     assert [answer["figures"]["application_socket"]["lines"] for answer in answers] == list(range(1, 21))
     assert panel.control.times_told == 1
-    panel.now_s += command_socket.FIGURES_S
+    panel.now_s += FIGURES_S
     panel.ask(client, {"kind": "figures"})
     assert panel.control.times_told == 2
 
@@ -230,7 +232,7 @@ def test_a_flood_is_refused_line_by_line_and_read_no_faster_than_the_loop_can_be
     played = 10 + (panel.now_s - started_s) * 100
     assert len(panel.control.plays) == pytest.approx(played, abs=1)
     assert turns >= 1000 / LINES_A_CLIENT
-    assert panel.now_s - started_s >= 1000 / LINES_A_CLIENT * command_socket.PAUSE_S * 0.8
+    assert panel.now_s - started_s >= 1000 / LINES_A_CLIENT * PAUSE_S * 0.8
     assert panel.socket.counters.over_rate == len(refused)
 
 
@@ -394,7 +396,7 @@ def test_one_that_does_not_read_is_told_to_go_and_then_gone_within_a_second(pane
     assert panel.socket.counters.told_to_go == 1
     before_s, files = panel.now_s, open_files()
     panel.settle()
-    assert panel.now_s - before_s <= command_socket.LEAVE_S
+    assert panel.now_s - before_s <= LEAVE_S
     assert open_files() == files - 1
     panel.socket.touches(samples)
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from controller.application_socket.client import PanelClient
-from controller.application_socket.command_socket import WAITING_PER_CLIENT
 from controller.application_socket.peers import Peer, Rights
+from controller.application_socket.pending_commands import WAITING_PER_CLIENT
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError
 from controller.loop.commands import Outcome
@@ -150,7 +150,7 @@ def test_an_operator_always_finds_a_place(panel):
     operator = panel.connect(OPERATOR)
     assert panel.ask(operator, {"kind": "disarm", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
     assert panel.socket.counters.gave_way == 1
-    assert panel.socket._subscribers == 7
+    assert panel.socket._clients.touch_subscribers == 7
 
 
 def test_when_one_gives_way_while_it_speaks_nothing_is_mixed_up(panel):
@@ -318,8 +318,8 @@ class Clients(RuleBasedStateMachine):
         waiting = panel.socket.waiting
         answered = counters.played + counters.merged + counters.skipped + counters.refused + counters.done
         assert counters.lines == answered + waiting
-        assert sum(panel.socket._waiting_of.values()) == waiting
-        there = [client for client in panel.socket._clients if client.open]
+        assert sum(panel.socket._pending.of_user.values()) == waiting
+        there = list(panel.socket._clients)
         of = Counter(client.peer.uid for client in there if "operate" not in client.rights)
         assert all(count <= 2 for count in of.values())
         assert STRANGER.uid not in of

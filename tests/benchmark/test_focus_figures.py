@@ -2,7 +2,7 @@
 
 import pytest
 
-from controller.benchmark.work_precision import MARGIN_M, figures, random_points, spread
+from controller.benchmark.focus_figures import MARGIN_M, figures, random_points, spread
 from controller.board.board import find_board, load_board
 
 BOARD = load_board(find_board("simulated"))
