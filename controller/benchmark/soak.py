@@ -27,10 +27,9 @@ from controller.metrics import Counters, Stages
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_session, open_simulated, tracked
-from controller.touch.panel import Counts
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.samples import TouchSample
+from controller.touch.source import Counts, TouchSample
 
 PAUSE_S = 0.5  # between recordings
 HOUR_S = 3600.0
