@@ -20,7 +20,7 @@ from controller.board.board import Board
 from controller.board.devices import ApplicationSocket
 from controller.board.panel_state import Condition
 from controller.loop.commands import Outcome, PanelControl
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 LINES_A_TURN = 16  # of all clients
 LINES_A_CLIENT = 8  # of these, of one client

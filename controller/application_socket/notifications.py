@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from controller.application_socket import messages
 from controller.application_socket.clients import Clients
 from controller.board.panel_state import Condition
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 
 class Notifications:

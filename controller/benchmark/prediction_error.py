@@ -25,9 +25,8 @@ from controller.errors import ControllerError
 from controller.physics.plot import check_picture
 from controller.service.drivers import tracked
 from controller.touch.prediction import PAUSE_S, SHORTEST_STEP_S, Motion
-from controller.touch.recording import Recording
+from controller.touch.recording import Recording, Track
 from controller.touch.replay import RecordingSource
-from controller.touch.tracks import Track
 
 HORIZONS_MS = (5.0, 10.0, 20.0, 30.0)
 PERIOD_S, SPEED, SIGMA_M = 8e-3, 0.3, 0.05e-3  # of the fingers made here; resolution 0.1 mm

@@ -27,10 +27,9 @@ from controller.metrics import Counters, Stages
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_session, open_simulated, tracked
-from controller.touch.panel import Counts
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.samples import TouchSample
+from controller.touch.source import Counts, TouchSample
 
 PAUSE_S = 0.5  # between recordings
 HOUR_S = 3600.0
@@ -121,7 +120,7 @@ def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording]
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
-    start_s = session.ready_s() + board.limits.arming_s + PAUSE_S
+    start_s = session.earliest_trigger_s() + board.limits.arming_s + PAUSE_S
     source = tracked(Playlist(recordings, board, start_s, start_s + hours * HOUR_S), board)
     told: list[Hour] = []
     state = {"hour_s": start_s + HOUR_S, "capture_s": start_s, "emissions": 0, "wall_s": time.perf_counter()}

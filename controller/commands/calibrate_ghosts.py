@@ -23,9 +23,9 @@ from controller.scene.trains import Train
 from controller.service.drivers import open_link, open_panel, open_session
 from controller.service.ghost_survey import KNOCK, Knocks, Overheard
 from controller.service.systemd import enter_realtime
+from controller.touch.event_capture import EventCapture, emission_event, recording_text
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
-from controller.touch.kept_events import KeptEvents, emission_event, recording_text
 from controller.touch.live_source import LiveSource
 
 SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what the simulated board's panel does
@@ -51,14 +51,14 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
         try:
             reader = _simulated_panel(board, link) if simulated else open_panel(board)
             try:
-                return _play(board, bank, clock, link, KeptEvents(reader))
+                return _play(board, bank, clock, link, EventCapture(reader))
             finally:
                 reader.close()
         finally:
             link.close()
 
 
-def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: KeptEvents) -> str:
+def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: EventCapture) -> str:
     session = open_session(link, board, clock.now_s)
     panel = Overheard(LiveSource(kept, board))
     emissions: list[Event] = []

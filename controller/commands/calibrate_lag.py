@@ -13,8 +13,8 @@ from controller.clocks import MonotonicClock
 from controller.commands.calibrate_value import calibrate_value
 from controller.errors import ConfigError
 from controller.service.drivers import open_panel
+from controller.touch.event_capture import EventCapture, recording_text
 from controller.touch.event_reader import Event
-from controller.touch.kept_events import KeptEvents, recording_text
 from controller.touch.lag_figures import LagFigures, lag_figures
 
 if TYPE_CHECKING:
@@ -40,20 +40,19 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
 
         print(f"haptic-panel: a simulated panel: its lag is {SIMULATED_LAG_S * 1e3:g} ms", file=sys.stderr)
         return simulated_strokes(board, lag_s=SIMULATED_LAG_S)
-    from controller.touch.mouse import Mouse
 
     reader = open_panel(board)
     try:
         mouse = Mouse(options.reference)
         try:
-            return _watched(KeptEvents(reader), mouse, options.seconds or SECONDS)
+            return _watched(EventCapture(reader), mouse, options.seconds or SECONDS)
         finally:
             mouse.close()
     finally:
         reader.close()
 
 
-def _watched(panel: KeptEvents, mouse: Mouse, seconds: float) -> str:
+def _watched(panel: EventCapture, mouse: Mouse, seconds: float) -> str:
     print(
         f"haptic-panel: hold the mouse to the finger and slide both 5 cm to and fro, twice a second, for {seconds:g} s from now on",
         file=sys.stderr,

@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 
 from controller.board.board import Board, find_board, load_board
 from controller.commands.output import show
-from controller.touch.board_lines import check_writable, value_line, write_value
-from controller.touch.kept_events import store
+from controller.touch.event_capture import write_recording
 from controller.touch.recording import Recording
+from controller.touch.touch_table import check_writable, value_line, write_value
 
 T = TypeVar("T")
 
@@ -55,7 +55,7 @@ def calibrate_value(
     else:
         text = measure(options, board)
         if options.out:
-            store(Path(options.out), text)
+            write_recording(Path(options.out), text)
         recording = Recording(text, options.out or "this measurement")
     found = judge(recording, board)
     value = getattr(found, key)

@@ -24,7 +24,6 @@ from controller.fpga.registers import (
     CHANNELS,
     LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
-    READ_QUEUE,
     REGISTERS,
     Register,
     Start,
@@ -60,7 +59,7 @@ class BitErrors:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class BringUpReport:
     """What bring-up found; `complaints` say what is wrong and what to do, one sentence each."""
 
     registers: dict[str, int]
@@ -81,7 +80,7 @@ def check(
     pause_s: float = 0.0,
     progress: Callable[[int, int], None] = lambda *_: None,
     take_capture: Callable[[], Capture] | None = None,
-) -> Checked:
+) -> BringUpReport:
     """All of bring-up, one thing after the other; outputs are off at the end.
 
     Parameters
@@ -115,7 +114,7 @@ def check(
     wrong = [channel for channel, pins in zip(chirped, moved, strict=False) if pins != [channel]]
     if wrong:
         complaints.append(f"channels {wrong} moved other pins than their own, or none: check the pin constraints")
-    return Checked(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
+    return BringUpReport(registers, errors, board.link.slots, damaged, chirped, moved if take_capture else None, complaints)
 
 
 def _moved(capture: Capture) -> list[int]:
@@ -154,7 +153,7 @@ def bit_errors(
         for number in range(TEST_FRAMES):
             payload = rng.bytes(LOAD_PAYLOAD_MAX_BYTES)
             end = frames.pack_test(exchange.sent, end, exchange.sequence + number, payload)
-        damaged += exchange.unchecked(lengths)
+        damaged += exchange.send_unchecked(lengths)
         there = np.frombuffer(exchange.sent[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
         here = np.frombuffer(exchange.received[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
         echo = here[:, FRAME_BYTES:]
@@ -177,12 +176,6 @@ def read_slot(session: Session, slot: int, length_words: int) -> bytes:
     """
     words = [session.exchange.read_address(READ_MEMORY + 1024 * slot + word) for word in range(length_words)]
     return np.array(words, "<u4").tobytes()
-
-
-def read_queue(session: Session) -> list[tuple[int, ...]]:
-    """The words of every play that waits, head first."""
-    queued = session.exchange.read(Register.QUEUE)
-    return [tuple(session.exchange.read_address(READ_QUEUE + 8 * number + word) for word in range(6)) for number in range(queued)]
 
 
 def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> int:
@@ -242,7 +235,7 @@ def channel_self_test(
             for channel in channels:
                 before = session.heartbeat().emissions
                 session.play(0, CHIRP_REPETITIONS, period_s, stop=False, start=Start.NOW, mask=1 << channel)
-                rest(session.ready_s() + CHIRP_REPETITIONS * period_s + pause_s)
+                rest(session.earliest_trigger_s() + CHIRP_REPETITIONS * period_s + pause_s)
                 done = session.heartbeat().emissions - before & ALL_CHANNELS
                 if done != CHIRP_REPETITIONS:
                     raise LinkError(f"channel {channel}: {done} of {CHIRP_REPETITIONS} chirps ran to their end")

@@ -41,14 +41,14 @@ class ClockedLink(Link, Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Speed:
+class SpeedResult:
     """What random bits met at one SCK."""
 
     asked_hz: int
     sck_hz: float
     bits: int
     errors: int
-    trouble: str  # why it could not even be counted; empty if it could
+    trouble: str  # why it could not be measured; empty if it was
 
     @property
     def good(self) -> bool:
@@ -77,7 +77,7 @@ def error_rate_bound(errors: int, bits: int, confidence: float = CONFIDENCE) -> 
     return min(high / bits, 1.0)
 
 
-def counted(found: BitErrors) -> tuple[int, int]:
+def bit_error_count(found: BitErrors) -> tuple[int, int]:
     """(bits, errors): one damaged bit may show twice, in a refused frame and in its echo."""
     return found.bits or 8 * LOAD_FRAME_BYTES * found.frames, max(found.wrong_bits, found.frames_refused + found.answers_damaged)
 
@@ -89,7 +89,7 @@ def sweep(
     bits: float,
     rng: np.random.Generator,
     progress: Callable[[int, int], None] = lambda *_: None,
-) -> list[Speed]:
+) -> list[SpeedResult]:
     """Send random bits at each step up to `limit_hz`; the link is left at the slowest.
 
     Parameters
@@ -103,15 +103,15 @@ def sweep(
         sck_hz = link.set_sck_hz(asked_hz)
         try:
             found = bit_errors(session, bits, rng)
-            speeds.append(Speed(asked_hz, sck_hz, *counted(found), trouble=""))
+            speeds.append(SpeedResult(asked_hz, sck_hz, *bit_error_count(found), trouble=""))
         except LinkError as error:
-            speeds.append(Speed(asked_hz, sck_hz, 0, 1, trouble=str(error)))
+            speeds.append(SpeedResult(asked_hz, sck_hz, 0, 1, trouble=str(error)))
         progress(number + 1, len(SWEEP_STEPS))
     link.set_sck_hz(speeds[0].asked_hz)
     return speeds
 
 
-def proposed_hz(speeds: Sequence[Speed]) -> int | None:
+def proposed_sck_hz(speeds: Sequence[SpeedResult]) -> int | None:
     """The SCK to ask for: the fastest without an error at it or below, and at most 0.8 of the slowest that had one.
 
     None if even the slowest had one.
@@ -120,7 +120,7 @@ def proposed_hz(speeds: Sequence[Speed]) -> int | None:
     return max((speed.asked_hz for speed in speeds if speed.good and speed.asked_hz <= MARGIN * failed_hz), default=None)
 
 
-def measured_hz(session: Session, link: Link) -> float:
+def measured_sck_hz(session: Session, link: Link) -> float:
     """SCK by the clock on the wall: what a long frame takes more than a short one; the system call itself falls out.
 
     Right where a transfer is not delayed by other work: the median of a few is taken.
@@ -134,7 +134,7 @@ def measured_hz(session: Session, link: Link) -> float:
             else:
                 frames.pack_test(exchange.sent, 0, exchange.sequence, bytes(LOAD_PAYLOAD_MAX_BYTES))
             before_ns = link.wire_ns
-            exchange.unchecked([size])
+            exchange.send_unchecked([size])
             times.append(link.wire_ns - before_ns)
     more_ns = median(taken_ns[LOAD_FRAME_BYTES]) - median(taken_ns[FRAME_BYTES])
     return 8e9 * (LOAD_FRAME_BYTES - FRAME_BYTES) / more_ns if more_ns > 0 else math.inf

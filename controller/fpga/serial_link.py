@@ -63,7 +63,7 @@ class SerialLink:
     def __init__(self, device: str, baud: int, now_s: Callable[[], float], latency_s: float = LATENCY_S) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0
-        self.away_ns = 0
+        self.blocked_ns = 0
         self._device = device
         self._baud = baud
         self._now_s = now_s
@@ -108,7 +108,7 @@ class SerialLink:
             self.close()
             raise LinkError(f"{self._device} failed ({error}): is it still plugged in, and does nothing else use it?") from error
         finally:
-            self.away_ns += time.perf_counter_ns() - started_ns
+            self.blocked_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
         """Send the command that does what the trigger pin would; when it has arrived.
@@ -128,7 +128,7 @@ class SerialLink:
         self._sequence = sequence
         return self._free_s
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When what was sent so far has gone."""
         return self._free_s
 

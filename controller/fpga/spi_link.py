@@ -20,7 +20,7 @@ import spidev
 from controller.board.devices import LinkSettings
 from controller.errors import LinkError
 from controller.fpga.gpio_lines import GpioLines
-from controller.fpga.spi_messages import Messages
+from controller.fpga.spi_messages import SpiMessages
 
 BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
 BUFSIZ_UNLESS_SAID: Final = 4096
@@ -65,7 +65,7 @@ class SpiLink:
     ----------
     sck_hz : float
         What SCK really is: by the divider of `settings.spi_source_hz` where that is given, else what spidev was asked for.
-    wire_ns, away_ns : int
+    wire_ns, blocked_ns : int
         Both are the time in the kernel, which returns when the last bit has gone.
 
     Raises
@@ -77,14 +77,14 @@ class SpiLink:
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0
-        self.away_ns = 0
+        self.blocked_ns = 0
         self.sck_hz = 0.0
         self.bufsiz = read_bufsiz()
         self._settings = settings
         self._asked_hz = settings.sck_hz
         self._now_s = now_s
         self._free_s = now_s()
-        self._messages: Messages | None = None
+        self._messages: SpiMessages | None = None
         self._spi: spidev.SpiDev | None = self._opened()
         try:
             self.lines = GpioLines(settings, now_s)
@@ -111,11 +111,11 @@ class SpiLink:
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
-            messages = self._messages = Messages(sent, received, self.bufsiz)
+            messages = self._messages = SpiMessages(sent, received, self.bufsiz)
         if self._spi is None:
             self._spi = self._opened_again()
         fd = self._spi.fileno()
-        pieces = messages.of(lengths)
+        pieces = messages.for_lengths(lengths)
         started_ns = time.perf_counter_ns()
         try:
             for request, transfers, size in pieces:
@@ -129,14 +129,14 @@ class SpiLink:
         finally:
             elapsed_ns = time.perf_counter_ns() - started_ns
             self.wire_ns += elapsed_ns
-            self.away_ns += elapsed_ns
+            self.blocked_ns += elapsed_ns
             self._free_s = self._now_s()
 
     def trigger(self) -> float:
         """Pulse the trigger line; the time of its edge."""
         return self.lines.pulse()
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When the last message had gone."""
         return self._free_s
 

@@ -21,9 +21,9 @@ from controller.service.scene_reload import SceneChanger
 from controller.service.systemd import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
+from controller.touch.reports import describe_warnings
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
-from controller.touch.warnings import in_words
 
 REPLAY_AFTER_S = 0.3  # beyond the ramp
 
@@ -43,7 +43,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
     Raises
     ------
-    UnfitFpga
+    IncompatibleFpga
         If the FPGA is another one than this software and the board need. One that is absent is waited for, as is the panel.
     FaultError
         If the FPGA has switched off for a reason that the host may not clear.
@@ -109,7 +109,7 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "state": housekeeping.condition.state.value,
         "cause": housekeeping.condition.cause,
         "log_lines_lost": LOG.lost,
-        "warnings": in_words(source.warnings),
+        "warnings": describe_warnings(source.warnings),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),
     }

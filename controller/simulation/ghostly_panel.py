@@ -14,8 +14,8 @@ from itertools import count
 from controller.board.board import Board
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.touch import event_codes as ev
+from controller.touch.event_codes import Protocol
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
-from controller.touch.panel import Protocol
 
 Place = tuple[float, float]  # mm on the plate
 Finger = tuple[float, float, Place | Callable[[float], Place]]  # from, until, and where it is, or where at a time

@@ -32,10 +32,9 @@ from controller.physics.plate_twin import PlateTwin
 from controller.scene.emission import Emission
 from controller.scene.scene import Scene
 from controller.service.drivers import open_session, open_simulated, tracked
-from controller.touch.recording import Recording
+from controller.touch.recording import Recording, Track
 from controller.touch.replay import RecordingSource
-from controller.touch.tracks import Track
-from controller.touch.warnings import in_words
+from controller.touch.reports import describe_warnings
 
 SETTLE_S = 50e-3  # between arming and the first event of the recording
 REAL_SETTLE_S = 0.3  # in real time, on a busy machine
@@ -118,7 +117,7 @@ def play(
     link = open_simulated(board, clock.now_s, gateware)
     session = open_session(link, board, clock.now_s)
     played: list[Played] = []
-    start_s = session.ready_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
+    start_s = session.earliest_trigger_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
     axes = recording.axes(board)
     tracks = recording.tracks(axes)
     if not tracks:  # without any touch nothing is played, spots included
@@ -264,7 +263,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
             "contacts": counts.contacts,
             "max_fingers": counts.max_fingers,
         },
-        "warnings": [f"{run.recording.name}: {warning}" for warning in in_words(run.source.warnings)]
+        "warnings": [f"{run.recording.name}: {warning}" for warning in describe_warnings(run.source.warnings)]
         + ([f"{counters.skipped.bad_entries} × no emission: {counters.bad_entry}"] if counters.bad_entry else []),
         "emissions": int(run.capture.focus_ticks.size),
         "triggers": counters.emissions,

@@ -6,8 +6,8 @@ import numpy as np
 
 from controller.board.board import Board
 from controller.touch import event_codes as ev
+from controller.touch.event_capture import EV_REL, REL_X, REL_Y, recording_text
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
-from controller.touch.kept_events import EV_REL, REL_X, REL_Y, recording_text
 
 UNITS_PER_MM = 20
 

@@ -13,7 +13,7 @@ from controller.application_socket.client import PanelClient, main
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError, LinkError
 from controller.loop.commands import Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 
 @pytest.fixture

@@ -4,9 +4,9 @@ import pytest
 from pin_script import Script
 
 from controller.fpga import frames
-from controller.fpga.frames import parse_status
 from controller.fpga.register_table import reset_value, used_bits
 from controller.fpga.registers import REGISTERS, Register, Result
+from controller.fpga.status import parse_status
 
 ASIDE = {Register.CONTROL}  # a command, whose words are no values
 

@@ -21,8 +21,8 @@ from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
-from controller.loop.event_loop import PREFETCH_SLACK_S
-from controller.loop.playback import _Repetition
+from controller.loop.dispatcher import PREFETCH_SLACK_S
+from controller.loop.occupancy import Repetition
 from controller.loop.scene_source import PreparedScene
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
@@ -172,7 +172,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
-    monkeypatch.setattr(Session, "away_ns", property(lambda _: next(ages_ns)))
+    monkeypatch.setattr(Session, "blocked_ns", property(lambda _: next(ages_ns)))
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.counters.upload_latency.host.count == 1
     assert run.counters.upload_latency.host.worst_ns == 0
@@ -706,7 +706,7 @@ def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, t
             return wanted[-1]
 
         def sending(*what):
-            ahead_s.append(loop._time_base.host_s(loop._scheduler.next_s()) - clock.now_s())
+            ahead_s.append(loop._clock_estimate.host_s(loop._scheduler.next_s()) - clock.now_s())
             return prefetch(*what)
 
         loop._playback.prefetch, loop._scheduler.predict = sending, noting
@@ -715,7 +715,7 @@ def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, t
     assert counters.emissions > 80
     during = [at_s for at_s in ahead_s if at_s < 1.0]  # the train goes on
     assert len(during) > 5
-    assert min(during) > loop._lead_s + PREFETCH_SLACK_S
+    assert min(during) > loop._dispatcher.lead_s + PREFETCH_SLACK_S
     assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
 
 
@@ -725,9 +725,10 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {}), (1.0, {})], evemu_text, CLICK)
         loop._outputs = SimpleNamespace(on=True, wanted=True, next_s=lambda: 10.5)
         loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
-        loop._quiet_until_s = 10.2
+        loop._dispatcher.quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2
-        loop._playback.last_start_s, loop._playback._running = 10.1, _Repetition(loop._time_base.fpga_s(10.1), 0.025)
+        occupancy = loop._playback.occupancy
+        occupancy.last_start_s, occupancy.repetition = 10.1, Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()
 
@@ -736,7 +737,7 @@ def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, c
     """Which has run for 100 s when this host begins."""
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
-        loop._time_base.offset_s, given = 100.0, []
+        loop._clock_estimate.offset_s, given = 100.0, []
         loop._scheduler.touch = given.append
         loop._read(loop._source.next_time_s())
         link.close()

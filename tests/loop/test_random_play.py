@@ -302,7 +302,7 @@ class Judge:
     def watch(self, assembly):
         self._playback = assembly.loop._playback
         self._scheduler = assembly.loop._scheduler
-        self._time_base = assembly.loop._time_base
+        self._clock_estimate = assembly.loop._clock_estimate
         self._words = {}
 
         take = self._scheduler.next_batch
@@ -312,7 +312,7 @@ class Judge:
             for emission in emissions:
                 released_s = self._released.get(emission.finger)
                 if released_s is not None:
-                    due_s = self._time_base.host_s(emission.time_s)
+                    due_s = self._clock_estimate.host_s(emission.time_s)
                     assert due_s >= released_s - 1e-6, f"{emission} is played after its finger was lifted at {released_s}"
             return emissions
 
@@ -341,7 +341,7 @@ class Judge:
                 self._felt.add(name)
 
     def waiting(self):
-        return len(self._scheduler._due) + (len(p.emissions) if (p := self._playback._prepared) else 0)
+        return len(self._scheduler._due) + (len(a.batch.emissions) if (a := self._playback.accepted) else 0)
 
     def turn(self, _):
         """The slot cache is consistent in itself and with what the FPGA holds."""

@@ -24,7 +24,7 @@ from controller.scene.trains import Train
 from controller.service.scene_message import pack_scene, unpack_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 from controller.waveforms.selection import LATTICE_M
 
 BOARD = load_board(data_folder("boards") / "simulated")

@@ -7,7 +7,7 @@ from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 REPORTS = 1000
 

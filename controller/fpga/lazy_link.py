@@ -1,4 +1,4 @@
-"""A link whose device may be absent when the service starts: opened by the first message that finds it."""
+"""A link whose device may be absent when the service starts: the first message that finds the device opens it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from controller.errors import LinkError
 from controller.fpga.link import Link
 
 
-class AwaitedLink:
-    """`Link` by another one, made as soon as that can be done.
+class LazyLink:
+    """`Link` that is opened by the first exchange for which the device is there.
 
     Parameters
     ----------
     open_link : callable
-        Makes it, or raises LinkError.
+        Returns the open link, or raises LinkError.
     now_s : callable
         The loop's clock.
     """
@@ -26,21 +26,21 @@ class AwaitedLink:
 
     @property
     def bytes_sent(self) -> int:
-        """Frame bytes since the link was opened."""
+        """Bytes of frames sent since the link was opened."""
         return self._link.bytes_sent if self._link is not None else 0
 
     @property
     def wire_ns(self) -> int:
-        """Time those bytes took on the wire."""
+        """Time in ns that those bytes took on the wire."""
         return self._link.wire_ns if self._link is not None else 0
 
     @property
-    def away_ns(self) -> int:
-        """Time spent inside the link."""
-        return self._link.away_ns if self._link is not None else 0
+    def blocked_ns(self) -> int:
+        """Time in ns spent inside the link."""
+        return self._link.blocked_ns if self._link is not None else 0
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames, and store what comes back.
+        """Send frames and store the answers; opens the link first if necessary. Parameters as in `Link.exchange`.
 
         Raises
         ------
@@ -52,16 +52,22 @@ class AwaitedLink:
         self._link.exchange(sent, lengths, received)
 
     def trigger(self) -> float:
-        """Pulse the trigger pin; the time of its edge."""
+        """Pulse the trigger pin; returns the time of its edge in s, on the loop's clock.
+
+        Raises
+        ------
+        LinkError
+            If the link is not open yet.
+        """
         if self._link is None:
             raise LinkError("the link to the FPGA is not open yet")
         return self._link.trigger()
 
-    def free_s(self) -> float:
-        """When the wire is free."""
-        return self._link.free_s() if self._link is not None else self._now_s()
+    def wire_free_s(self) -> float:
+        """When everything sent so far has left the wire, on the loop's clock; now, before the link is open."""
+        return self._link.wire_free_s() if self._link is not None else self._now_s()
 
     def close(self) -> None:
-        """Let go of the device."""
+        """Release the device, if it was opened."""
         if self._link is not None:
             self._link.close()

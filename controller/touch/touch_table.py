@@ -1,4 +1,4 @@
-"""The lines of a board.toml that calibration changes, and nothing else of the file."""
+"""Changes single lines of the [touch] table of a board.toml, and nothing else of the file."""
 
 from __future__ import annotations
 
@@ -15,61 +15,101 @@ from controller.board.board import load_board
 from controller.errors import CalibrationError
 from controller.touch.calibration import Calibration, Row
 
-KEYS = ("x_mm_from_axes", "y_mm_from_axes")
+AXIS_KEYS = ("x_mm_from_axes", "y_mm_from_axes")
 
 
 def board_lines(calibration: Calibration) -> tuple[str, str]:
-    """The lines as they belong into [touch]."""
-    return _line(KEYS[0], calibration.x_mm_from_axes), _line(KEYS[1], calibration.y_mm_from_axes)
+    """The two axis lines for [touch].
+
+    Parameters
+    ----------
+    calibration : Calibration
+        Gives their values.
+    """
+    return _line(AXIS_KEYS[0], calibration.x_mm_from_axes), _line(AXIS_KEYS[1], calibration.y_mm_from_axes)
 
 
 def with_calibration(text: str, calibration: Calibration) -> str:
-    """Text of a board.toml with its two lines changed; comments, order and line ends stay.
+    """Replace the two axis lines in the text of a board.toml; comments, order and line ends stay.
+
+    Parameters
+    ----------
+    text : str
+        Content of the board.toml.
+    calibration : Calibration
+        Gives the new values.
 
     Raises
     ------
     CalibrationError
-        If the lines are not there, each once and on one line, below [touch].
+        If each key does not stand exactly once, on one line, in [touch].
     """
     changed = text
-    for key, line in zip(KEYS, board_lines(calibration), strict=True):
+    for key, line in zip(AXIS_KEYS, board_lines(calibration), strict=True):
         changed, count = re.subn(rf"^([ \t]*){key}[ \t]*=[ \t]*\[[^\]\r\n]*\]", rf"\g<1>{line}", changed, flags=re.M)
         if count != 1:
-            raise CalibrationError(f"{key} stands on {count} lines of its own, not on one: write the lines into [touch] by hand")
+            raise CalibrationError(f"{key} stands on {count} lines instead of one: write the lines into [touch] by hand")
     if _without(tomllib.loads(text)) != _without(tomllib.loads(changed)):
-        raise CalibrationError("the lines are not those of [touch]: write them by hand")
+        raise CalibrationError("the axis lines found are not those of [touch]: write them by hand")
     return changed
 
 
 def check_writable(file: Path) -> None:
-    """Refuse a board.toml that could not be changed, before anybody touches five marks for it.
+    """Refuse a board.toml that cannot be changed, before a measurement is made for it.
+
+    Parameters
+    ----------
+    file : Path
+        The board.toml.
 
     Raises
     ------
     CalibrationError
-        If its folder takes no new file from this user.
+        If this user may not create files in its folder.
     """
     if not os.access(file.resolve().parent, os.W_OK | os.X_OK):
-        raise CalibrationError(f"{file}: cannot be written (Permission denied): do it as root, or without --write")
+        raise CalibrationError(f"{file}: cannot be written (Permission denied): run this as root, or without --write")
 
 
 def write_calibration(file: Path, calibration: Calibration) -> None:
-    """Change the two lines of a board.toml in place; see `_rewrite`."""
+    """Change the two axis lines of a board.toml in place.
+
+    Parameters
+    ----------
+    file : Path
+        The board.toml.
+    calibration : Calibration
+        Gives the new values.
+
+    Raises
+    ------
+    CalibrationError, ConfigError
+        See `_rewrite`; the file is unchanged then.
+    """
     _rewrite(file, lambda text: with_calibration(text, calibration))
 
 
 def value_line(key: str, value: float) -> str:
-    """A line for [touch] with one number."""
+    """Line for [touch] that sets `key` to `value`, to 0.1."""
     return f"{key} = {round(value, 3) + 0.0:.1f}"
 
 
 def with_value(text: str, key: str, value: float) -> str:
-    """Text of a board.toml with one number of [touch] changed, or put first in it; all else stays.
+    """Change one number of [touch] in the text of a board.toml, or insert it as its first line; all else stays.
+
+    Parameters
+    ----------
+    text : str
+        Content of the board.toml.
+    key : str
+        Key of [touch].
+    value : float
+        Written to 0.1.
 
     Raises
     ------
     CalibrationError
-        If there is no table [touch], or it is not written as one.
+        If there is no table [touch], or it is not written as one line for each key.
     """
     line = value_line(key, value)
     table = re.search(r"^[ \t]*\[touch\][^\r\n]*(?P<end>\r?\n)(?P<lines>(?:(?![ \t]*\[)[^\n]*(?:\n|\Z))*)", text, flags=re.M)
@@ -85,24 +125,39 @@ def with_value(text: str, key: str, value: float) -> str:
     except tomllib.TOMLDecodeError:
         right = False
     if not right:
-        raise CalibrationError(f"[touch] is written in a way that is not understood: write {line!r} by hand")
+        raise CalibrationError(f"[touch] is not written as one line for each key: write {line!r} by hand")
     return new
 
 
 def write_value(file: Path, key: str, value: float) -> None:
-    """Change one number of [touch] in place; see `_rewrite`."""
+    """Change one number of [touch] in place.
+
+    Parameters
+    ----------
+    file : Path
+        The board.toml.
+    key : str
+        Key of [touch].
+    value : float
+        Written to 0.1.
+
+    Raises
+    ------
+    CalibrationError, ConfigError
+        See `_rewrite`; the file is unchanged then.
+    """
     _rewrite(file, lambda text: with_value(text, key, value))
 
 
 def _rewrite(file: Path, change: Callable[[str], str]) -> None:
-    """Change a board.toml in place: all of it or nothing, whatever interrupts.
+    """Replace a board.toml atomically.
 
     Raises
     ------
     CalibrationError
-        If the file cannot be written, or its lines are not found; it is as it was then.
+        If the file cannot be written, or `change` does not find its lines; the file is unchanged then.
     ConfigError
-        If the board would not be valid with the new lines; it is as it was then.
+        If the board would not be valid with the new lines; the file is unchanged then.
     """
     file = file.resolve()  # a link stays a link
     temporary = None
@@ -135,7 +190,7 @@ def _line(key: str, row: Row) -> str:
 
 
 def _without(tables: dict[str, Any]) -> dict[str, Any]:
-    touch = {key: value for key, value in tables.get("touch", {}).items() if key not in KEYS}
+    touch = {key: value for key, value in tables.get("touch", {}).items() if key not in AXIS_KEYS}
     return tables | {"touch": touch}
 
 
