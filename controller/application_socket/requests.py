@@ -18,6 +18,8 @@ from controller.application_socket.pending_commands import PendingCommands
 from controller.application_socket.switched_off import SwitchedOff
 from controller.application_socket.tickets import FULL
 from controller.board.board import Board
+from controller.board.descriptions import type_info
+from controller.board.validation import explain
 from controller.errors import ControllerError
 from controller.log import log
 from controller.loop.commands import PanelControl
@@ -61,6 +63,7 @@ class Requests:
         self._switched_off = switched_off
         self._counters = counters
         self._decoder = messages.request_decoder()
+        type_info(AnyRequest)  # made now: it takes a millisecond, and the first invalid line comes between two turns of the loop
         self._ids = msgspec.json.Decoder(messages.Numbered)
         self._figures: dict[str, Any] = {}
         self._figures_until_s = -float("inf")
@@ -122,7 +125,7 @@ class Requests:
             self._refuse_invalid(client, self._id_of(line), "not UTF-8")
             return
         except (msgspec.DecodeError, RecursionError) as error:
-            self._refuse_invalid(client, self._id_of(line), str(error)[:REASON_CHARACTERS])
+            self._refuse_invalid(client, self._id_of(line), _why_invalid(line, error)[:REASON_CHARACTERS])
             return
         if isinstance(request, Play):
             self._play(client, request, now_s, control)
@@ -254,3 +257,12 @@ class Requests:
             return self._ids.decode(line).id
         except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return None
+
+
+def _why_invalid(line: memoryview, error: Exception) -> str:
+    """What is wrong with a line that is no request."""
+    try:
+        value = msgspec.json.decode(line)  # also what follows the place at which the typed decoder stopped
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as malformed:
+        return f"not valid JSON: {malformed}"
+    return explain(str(error), value, AnyRequest) if isinstance(value, dict) else "must be a JSON object"

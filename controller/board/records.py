@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeVar
 import msgspec
 from msgspec import Meta
 
-from controller.board.validation import dotted, in_words
+from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
 
 T = TypeVar("T")
@@ -60,7 +60,7 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
     try:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
-        raise ConfigError(f"{before}{in_words(str(error), tables, kind)}") from error
+        raise ConfigError(f"{before}{explain(str(error), tables, kind)}") from error
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:

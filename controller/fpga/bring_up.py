@@ -24,7 +24,6 @@ from controller.fpga.registers import (
     CHANNELS,
     LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
-    READ_QUEUE,
     REGISTERS,
     Register,
     Start,
@@ -177,12 +176,6 @@ def read_slot(session: Session, slot: int, length_words: int) -> bytes:
     """
     words = [session.exchange.read_address(READ_MEMORY + 1024 * slot + word) for word in range(length_words)]
     return np.array(words, "<u4").tobytes()
-
-
-def read_queue(session: Session) -> list[tuple[int, ...]]:
-    """The words of every play that waits, head first."""
-    queued = session.exchange.read(Register.QUEUE)
-    return [tuple(session.exchange.read_address(READ_QUEUE + 8 * number + word) for word in range(6)) for number in range(queued)]
 
 
 def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> int:

@@ -7,16 +7,17 @@ plays. Whatever a command asked for gets exactly one outcome.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from controller.clocks import NEVER
 from controller.errors import ConfigError
-from controller.loop.batching import common_period_s, select_batch
+from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
+from controller.loop.spots import Spots
 from controller.metrics import Counters
-from controller.scene.emission import Emission, spot_emission
+from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
-from controller.scene.scene import OUTSIDE, Scene, Spot
+from controller.scene.scene import OUTSIDE, Scene
 from controller.touch.source import TouchSample
 
 MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
@@ -24,7 +25,6 @@ PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than o
 MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
 MAX_DEFERRAL_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
 COMMAND_MERGE_RADIUS_M = 1e-3  # commands for the same effect nearer than this are one
-ROUNDING_S = 1e-9
 
 Owner = int | str
 Confirmed = Callable[[int], bool]
@@ -51,6 +51,7 @@ class Scheduler:
 
     def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
         self.scene = scene
+        self.spots = Spots(scene.spots, 0.0)
         self._counters = counters
         self._confirmed = confirmed
         self._unconfirmed_most = unconfirmed_most
@@ -58,10 +59,6 @@ class Scheduler:
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
-        self._spots_start_s = 0.0
-        self._spot_beats: dict[Spot, int] = {}  # the next one of each
-        self.common_period_s: float | None = None  # of spots that the FPGA can repeat together
-        self._set_spots(0.0)
 
     def touch(self, sample: TouchSample) -> None:
         """A finger began, moved or was released."""
@@ -114,25 +111,15 @@ class Scheduler:
 
     def add_spots(self, now_s: float, until_s: float) -> None:
         """Collect the spots whose beat comes up to a time."""
-        for spot, beat in self._spot_beats.items():
-            emission = spot_emission(spot, self._spots_start_s, beat)
-            if emission.time_s <= until_s + ROUNDING_S:
-                self._add((emission,))
-                missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
-                self._spot_beats[spot] = beat + missed + 1
+        for emission in self.spots.due(now_s, until_s):
+            self._add((emission,))
 
     def join_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
-        self.restart_spots(next_s)
-        spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
-        played = list(select_batch([*emissions, *spots], NEVER)[0])
+        self.spots.restart(next_s)
+        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
         self._counters.due += len(played) - len(emissions)
         return played
-
-    def restart_spots(self, start_s: float) -> None:
-        """The spots' beat begins anew."""
-        self._spots_start_s = start_s
-        self._spot_beats = dict.fromkeys(self._spot_beats, 0)
 
     @property
     def due(self) -> bool:
@@ -168,12 +155,6 @@ class Scheduler:
         """When `advance` has something to do."""
         return min([active.next_s for active in self._active.values()], default=NEVER)
 
-    def next_spot_s(self) -> float:
-        """When the next spot's beat comes."""
-        return min(
-            [spot_emission(spot, self._spots_start_s, beat).time_s for spot, beat in self._spot_beats.items()], default=NEVER
-        )
-
     def predict(
         self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
     ) -> tuple[float, float, float] | None:
@@ -206,7 +187,7 @@ class Scheduler:
         focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
         return None if focus is None else (*focus, amplitude)
 
-    def started(self, emissions: list[Emission], start_s: float) -> None:
+    def started(self, emissions: Sequence[Emission], start_s: float) -> None:
         """These were started; trains that began with them keep their beat from there."""
         for emission in emissions:
             if emission.ticket:
@@ -214,7 +195,7 @@ class Scheduler:
             if emission.period_s and emission.beat == 0 and emission.owner in self._active:
                 self._active[emission.owner].shift(emission.time_s, start_s)
 
-    def discarded(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
+    def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: float) -> None:
         """These will not be played."""
         for emission in emissions:
             if emission.ticket:
@@ -254,7 +235,7 @@ class Scheduler:
             self._end_commands(active, Outcome.REFUSED, now_s)
             active.end_trains()
         self._active = {owner: active for owner, active in self._active.items() if active.finger is not None}
-        self.restart_spots(now_s)
+        self.spots.restart(now_s)
 
     def change_scene(self, scene: Scene, now_s: float) -> None:
         """Go on with another scene: fingers that are down feel it from their next move on."""
@@ -265,12 +246,7 @@ class Scheduler:
         self.scene = scene
         for active in self._active.values():
             active.change_scene(scene)
-        self._set_spots(now_s)
-
-    def _set_spots(self, now_s: float) -> None:
-        self.common_period_s = common_period_s(self.scene.spots)
-        self._spots_start_s = now_s
-        self._spot_beats = dict.fromkeys(self.scene.spots, 0)
+        self.spots = Spots(scene.spots, now_s)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         self._counters.due += len(emissions)

@@ -112,16 +112,25 @@ def test_the_very_edges_are_accepted(panel, edge):
         ({"kind": "play", "effect": "click", "x_mm": 3}, "either x_mm and y_mm, or finger"),
         ({"kind": "play", "effect": "click", "y_mm": 3}, "either x_mm and y_mm, or finger"),
         ({"kind": "play", "effect": "click"}, "either x_mm and y_mm, or finger"),
-        ({"kind": "play", "effect": "click", "finger": -1}, "Expected `int` >= 0 - at `$.finger`"),
-        (POINT | {"x_mm": "100"}, "Expected `float | null`, got `str` - at `$.x_mm`"),
-        (POINT | {"amplitud": 1}, "Object contains unknown field `amplitud`"),
-        (POINT | {"effect": ""}, "Expected `str` of length >= 1 - at `$.effect`"),
+        ({"kind": "play", "effect": "click", "finger": -1}, "finger = -1: must be a whole number from 0 to 9007199254740992"),
+        (POINT | {"x_mm": "100"}, "x_mm = '100': must be a number in mm"),
+        (POINT | {"amplitud": 1}, "amplitud = 1: unknown key; did you mean amplitude?"),
+        (POINT | {"effect": ""}, "effect = '': must be a text of 1 to 64 characters"),
         (POINT | {"effect": "no such"}, "effect 'no such' is unknown"),
-        ({"kind": "stop"}, "Invalid value 'stop' - at `$.kind`"),
-        ({"effect": "click"}, "Object missing required field `kind`"),
+        (
+            {"kind": "stop"},
+            "kind = 'stop': must be one of 'play', 'subscribe', 'unsubscribe', 'arm', 'disarm', 'load_scene', 'figures', 'state',"
+            " 'hello'",
+        ),
+        ({"kind": "subscribe", "to": ["touch"]}, "to[0] = 'touch': must be one of 'state', 'touches'; did you mean touches?"),
+        (
+            {"effect": "click"},
+            "kind is missing: one of 'play', 'subscribe', 'unsubscribe', 'arm', 'disarm', 'load_scene', 'figures', 'state',"
+            " 'hello'",
+        ),
         (
             {"kind": "load_scene", "name": "../../etc/passwd"},
-            "Expected `str` matching regex '^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$' - at `$.name`",
+            "name = '../../etc/passwd': must be a text that matches ^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$",
         ),
         ({"kind": "load_scene", "name": "broken"}, "broken.toml: not valid TOML"),
     ],

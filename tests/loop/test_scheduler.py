@@ -215,9 +215,9 @@ def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(boar
         for x_mm in (60, 66)
     )
     (tmp_path / "spots.toml").write_text(spots)
-    assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).common_period_s is None
+    assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).spots.common_period_s is None
     (tmp_path / "spots.toml").write_text(spots.replace("66", "80"))
-    assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).common_period_s == 0.04
+    assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).spots.common_period_s == 0.04
 
 
 @pytest.mark.parametrize(("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 1), (100, "alternate", 1)])
@@ -230,7 +230,7 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
     scheduler.touch(TouchSample(3, finger_mm * 1e-3, 0.07, 1.0, True))
     emissions = scheduler.join_spots(scheduler.next_batch(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
-    assert scheduler.next_spot_s() == 1.05
+    assert scheduler.spots.next_s() == 1.05
 
 
 def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
@@ -239,9 +239,9 @@ def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
     )
     scene = load_scene(tmp_path / "spot.toml", board)
     scheduler = scheduler_of(scene, told)
-    assert scheduler.next_spot_s() == 0.0
+    assert scheduler.spots.next_s() == 0.0
     scheduler.change_scene(scene, 5.0)
-    assert scheduler.next_spot_s() == 5.0
+    assert scheduler.spots.next_s() == 5.0
 
 
 def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_do_not(scheduler):
