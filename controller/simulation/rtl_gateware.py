@@ -72,7 +72,7 @@ class RtlGateware:
         self._library.panel_set(self._panel, TRIGGER, tick + high_ticks, False)
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """Exchange a frame, with SCK evenly spaced between two edges of chip select; computed up to `release_tick`. See `Gateware`."""
+        """Exchange a frame, SCK evenly spaced between two edges of chip select; computed up to `release_tick`."""
         self._not_past("chip select falls", select_tick)
         sent = np.frombuffer(mosi, np.uint8) if len(mosi) else np.empty(0, np.uint8)
         self._timing.frame(select_tick, release_tick, sent.size)
