@@ -329,7 +329,7 @@ class Commands:
         if sounding and player.end == tick + 1:
             player.finish(tick, self.registers.bit_ticks)
             self.gate.idle(tick + 1)
-            self.gate.limits.emission(tick + 1, sounding=False)
+            self.gate.limits.emission(tick + 1, playing=False)
             self.gate.limits.activity(tick + 1, active=False)
         settled_from = player.end + self.registers.bit_ticks - 1 if player.playing else player.free_from
         self.drop(tick)

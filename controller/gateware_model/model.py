@@ -403,7 +403,7 @@ class GatewareModel:
                 self._expect(_Event(tick + PIN_TICKS, _Kind.ENDED))
             player.finish(tick, self._registers.bit_ticks)
             self._gate.idle(tick + 1)
-            self._gate.limits.emission(tick + 1, sounding=False)
+            self._gate.limits.emission(tick + 1, playing=False)
             self._gate.limits.activity(tick + 1, active=False)
         if begins is not None:
             player.begin(begins, tick)
@@ -418,7 +418,7 @@ class GatewareModel:
         player.sound(tick, self._registers.bit_period)
         assert player.running
         self._telemetry.emission_tick = tick + DECISION_TICKS
-        gate.limits.emission(tick + 1, sounding=True)
+        gate.limits.emission(tick + 1, playing=True)
         gate.limits.activity(tick + 1, active=True)
         if not player.running.live:
             waveform = self._buffers.waveform(player.running.buffer)

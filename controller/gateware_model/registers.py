@@ -19,7 +19,7 @@ from controller.fpga.registers import (
     Register,
     Result,
 )
-from controller.gateware_model.limits import LimitSettings
+from controller.gateware_model.limit_settings import LimitSettings
 
 _ALL_ONES = 0xFFFFFFFF
 HARD_LIMITS = (

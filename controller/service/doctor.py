@@ -275,7 +275,7 @@ def _touch(board: Board) -> str:
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     panel = open_panel(board)
     try:
-        return f"{type(touch).__name__.removesuffix('Touch').lower()} answers"
+        return f"{touch.__struct_config__.tag} answers"
     finally:
         panel.close()
 

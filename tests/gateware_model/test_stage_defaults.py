@@ -10,7 +10,7 @@ from controller.clocks import VirtualClock
 from controller.errors import FaultError
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import Control, Fault, Register
-from controller.gateware_model.limits import PARTS, part_ticks
+from controller.gateware_model.edge_counts import PARTS, part_ticks
 from controller.gateware_model.pins import ramp_bits
 from controller.service.drivers import open_session, open_simulated
 
