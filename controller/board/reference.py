@@ -57,6 +57,8 @@ def reference(title: str, kind: type, named: dict[str, type] | None = None) -> s
     for section in _sections(root, "", named or {}):
         if section.heading:
             lines += [f"## {section.heading}", "", section.summary, ""]
+        if not section.keys:
+            continue
         lines += ["| key | value | default | meaning |", "|---|---|---|---|"]
         for field, cls in section.keys:
             name = field.encode_name
