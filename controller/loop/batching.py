@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from controller.clocks import FpgaTime
 from controller.scene.emission import Emission
+from controller.waveforms.composition import MAX_FOCI
 
 MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place
 SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
