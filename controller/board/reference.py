@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -29,7 +29,7 @@ class _Section:
     keys: list[tuple[Field, type]]
 
 
-def reference(title: str, kind: type, named: dict[str, type] | None = None) -> str:
+def reference(title: str, kind: type, named: Mapping[str, type] | None = None) -> str:
     """Describe every key that a file may give.
 
     Parameters
@@ -68,7 +68,7 @@ def reference(title: str, kind: type, named: dict[str, type] | None = None) -> s
     return "\n".join(lines)
 
 
-def schema(kind: type, named: dict[str, type] | None = None) -> dict[str, Any]:
+def schema(kind: type, named: Mapping[str, type] | None = None) -> dict[str, Any]:
     """JSON schema of a file, for editors that check TOML by one.
 
     Parameters
@@ -111,7 +111,7 @@ def attributes(cls: type) -> dict[str, str]:
     return found
 
 
-def _sections(struct: StructType, heading: str, named: dict[str, type]) -> Iterator[_Section]:
+def _sections(struct: StructType, heading: str, named: Mapping[str, type]) -> Iterator[_Section]:
     """A table and, behind it, the tables within it."""
     plain = [field for field in fields_of(struct) if not _tables(field) and field.encode_name not in named]
     yield _checked(_Section(heading, _summary(struct.cls), [(field, struct.cls) for field in plain]))

@@ -29,7 +29,7 @@ def shell_files() -> dict[str, str]:
     completed = parser()
     for action in arguments(completed):
         if action.metavar in ("FILE", "F"):
-            action.complete = shtab.FILE  # type: ignore[attr-defined] - shtab's way to say so
+            setattr(action, "complete", shtab.FILE)  # noqa: B010 - argparse does not declare what shtab reads
     found = {name: shtab.complete(completed, shell=shell) for shell, name in COMPLETIONS.items()}
     data = {
         "prog": "haptic-panel",
