@@ -396,7 +396,7 @@ class EventLoop:
         assert finger is not None
         reported_s = now_s - max(self._report_ns, 0) * 1e-9
         wanted = self._scheduler.predict(
-            finger, self._source.place, reported_s, self._source.report_s, self._playback.duration_s + RESIDENT_START_S
+            finger, self._source.predict, reported_s, self._source.report_s, self._playback.duration_s + RESIDENT_START_S
         )
         if wanted is None or self._session.wire_free_s() > now_s:
             return

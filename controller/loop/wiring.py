@@ -72,7 +72,7 @@ def assemble(
         session,
         selection,
         clock_estimate,
-        source.place,
+        source.predict,
         slots=board.link.slots if slots is None else slots,
         duration_s=board.waveform.duration_s,
         max_duty=board.limits.max_duty if max_duty is None else max_duty,
