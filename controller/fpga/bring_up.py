@@ -25,7 +25,6 @@ from controller.fpga.registers import (
     LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
     READ_QUEUE,
-    REGISTERS,
     Register,
     Start,
 )
@@ -126,7 +125,7 @@ def _moved(capture: Capture) -> list[int]:
 
 def identify(session: Session) -> dict[str, int]:
     """Every register that can be read, by its name."""
-    return {register.name.lower(): session.exchange.read(register) for register in Register if REGISTERS[register].access != "WO"}
+    return {register.name.lower(): session.exchange.read(register) for register in Register if register.access != "WO"}
 
 
 def bit_errors(
