@@ -61,10 +61,26 @@ def random_script(seed, actions=25):
             run.control(Control.CLEAR)
             run.arm()
     run.wait(300)
-    if rng.random() < 0.5:
+    ending = rng.randrange(4)
+    if ending == 0:
+        too_many_edges(run, rng)
+    elif ending == 1:
         run.permit(False, which=rng.choice(list(Permit)))
     read_all(run)
     return run
+
+
+def too_many_edges(run, rng):
+    """An emission that a limit cuts off, whose channels are read before CLEAR."""
+    for command in (Control.STOP, Control.DISARM):
+        run.control(command)
+    run.wait(1500)
+    run.control(Control.CLEAR)
+    run.send(frames.pack_write, Register.CHANNEL_EDGES, 20)
+    run.arm()
+    run.upload(0, random_words(rng, 100))
+    run.send(frames.pack_play, 0, start=Start.NOW)
+    run.wait(2000)
 
 
 def read_all(run):
