@@ -1,30 +1,30 @@
-"""The one tree of errors: what a user's mistake, a bad file or a lost device is called.
+"""The package's exceptions, each with the exit code of the command line.
 
 The command line prints the message as one line and exits with `exit_code`
-(sysexits.h: 78 EX_CONFIG, 69 EX_UNAVAILABLE). A message says what, where and what to do.
+(sysexits.h: 78 EX_CONFIG, 69 EX_UNAVAILABLE). A message says what is wrong, where, and what to do.
 """
 
 
 class ControllerError(Exception):
-    """Anything this package refuses; never shown with a traceback."""
+    """Base of all errors that this package raises on purpose; shown to users without a traceback."""
 
     exit_code = 1
 
 
 class UsageError(ControllerError):
-    """Options of a command that do not go together."""
+    """Command-line options that cannot be combined."""
 
     exit_code = 2
 
 
 class ConfigError(ControllerError):
-    """A board, scene or setting that cannot be meant."""
+    """An invalid board, scene or setting."""
 
     exit_code = 78
 
 
 class BankError(ControllerError):
-    """A bank file that is damaged, foreign, or of another board."""
+    """A bank file that is missing, damaged, or built for another board."""
 
     exit_code = 78
 
@@ -36,13 +36,19 @@ class TouchError(ControllerError):
 
 
 class LinkError(ControllerError):
-    """The FPGA does not answer, or answers what it should not."""
+    """The FPGA is unreachable, does not answer, or answers incorrectly."""
 
     exit_code = 69
 
 
 class FaultError(ControllerError):
-    """The FPGA has shut its outputs off and says why; `faults` are its fault bits (registers.Fault), 0 if they are not known."""
+    """The FPGA has switched its outputs off because of a fault.
+
+    Attributes
+    ----------
+    faults : int
+        Its fault bits (`fpga.registers.Fault`); 0 if unknown.
+    """
 
     def __init__(self, message: str, faults: int = 0) -> None:
         super().__init__(message)
@@ -50,8 +56,4 @@ class FaultError(ControllerError):
 
 
 class CalibrationError(ControllerError):
-    """Measurements from which no calibration follows."""
-
-
-class UpdateError(ControllerError):
-    """An update that was refused."""
+    """Measurements that do not determine a calibration."""

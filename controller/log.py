@@ -1,7 +1,7 @@
-"""One line to the log, without ever waiting for it: what finds it full is left out and counted.
+"""Log lines on standard error, written without blocking: a line that finds the log full is dropped and counted.
 
-Standard error is the log. Where it is the journal's ($JOURNAL_STREAM, systemd.exec(5)), each line begins with its
-priority, as sd-daemon(3) has it; elsewhere people read it.
+Where standard error is connected to the journal ($JOURNAL_STREAM, systemd.exec(5)), each line begins with its priority as
+sd-daemon(3) defines it; elsewhere it is plain text.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ import select
 import sys
 from enum import IntEnum
 
-LONGEST_BYTES = 2048  # whatever can be written to takes so much at once: the kernel's least is a page
+MAX_LINE_BYTES = 2048  # a pipe that polls writable takes at least a page in one write
 
 
 class Priority(IntEnum):
-    """Of syslog(3)."""
+    """Priority of a line, as numbered by syslog(3)."""
 
     ERROR = 3
     WARNING = 4
@@ -29,36 +29,45 @@ class Log:
     Attributes
     ----------
     lost : int
-        Lines that found it full, or gone.
+        Lines dropped so far because standard error was full or closed.
     """
 
     def __init__(self) -> None:
         self.lost = 0
-        self._untold = 0
+        self._unreported = 0
 
-    def tell(self, sentence: str, priority: Priority = Priority.INFO) -> None:
-        """Write one line, if the log takes it at once; one that was full is told how much it has missed."""
-        if self._untold and _written(f"{self._untold} lines before this one were lost: the log was full", Priority.WARNING):
-            self._untold = 0
-        if not _written(sentence, priority):
+    def write(self, message: str, priority: Priority = Priority.INFO) -> None:
+        """Write one line if standard error accepts it at once, else drop it.
+
+        The first line accepted after a loss is preceded by one that states how many were dropped.
+
+        Parameters
+        ----------
+        message : str
+            Line breaks are replaced by spaces; what exceeds `MAX_LINE_BYTES` is cut off.
+        """
+        if self._unreported and _written(f"{self._unreported} lines before this one were lost: the log was full", Priority.WARNING):
+            self._unreported = 0
+        if not _written(message, priority):
             self.lost += 1
-            self._untold += 1
+            self._unreported += 1
 
 
-def line(sentence: str, priority: Priority = Priority.INFO) -> str:
-    """A sentence as one line of the log, without its end."""
-    return f"{f'<{priority:d}>' if _is_journal() else ''}haptic-panel: {' '.join(sentence.splitlines())}"
+def line(message: str, priority: Priority = Priority.INFO) -> str:
+    """Format a message as one line of the log, without a newline at its end."""
+    return f"{f'<{priority:d}>' if _is_journal() else ''}haptic-panel: {' '.join(message.splitlines())}"
 
 
-def _written(sentence: str, priority: Priority) -> bool:
-    whole = line(sentence, priority).encode(errors="backslashreplace")[: LONGEST_BYTES - 1] + b"\n"
+def _written(message: str, priority: Priority) -> bool:
+    """Whether standard error took the whole line at once."""
+    whole = line(message, priority).encode(errors="backslashreplace")[: MAX_LINE_BYTES - 1] + b"\n"
     poll = select.poll()
     try:
         fd = sys.stderr.fileno()
-    except io.UnsupportedOperation:  # no file, but something that takes all
+    except io.UnsupportedOperation:  # a stream without a file, such as a test's: it never blocks
         sys.stderr.write(whole.decode(errors="replace"))
         return True
-    except (AttributeError, ValueError):  # none at all, or closed
+    except (AttributeError, ValueError):  # no standard error, or closed
         return False
     poll.register(fd, select.POLLOUT)
     try:
@@ -68,7 +77,7 @@ def _written(sentence: str, priority: Priority) -> bool:
 
 
 def _is_journal() -> bool:
-    """Whether standard error goes to the journal, with nothing in between."""
+    """Whether standard error is the journal's own stream, not a pipe to another program."""
     named = os.environ.get("JOURNAL_STREAM", "")
     try:
         at = os.fstat(sys.stderr.fileno())
@@ -78,4 +87,4 @@ def _is_journal() -> bool:
 
 
 LOG = Log()
-tell = LOG.tell
+log = LOG.write

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from controller.log import LONGEST_BYTES, Log, Priority, line
+from controller.log import MAX_LINE_BYTES, Log, Priority, line
 
 
 class Pipe:
@@ -41,12 +41,12 @@ def test_a_log_that_is_full_loses_lines_and_is_told_how_many(pipe):
     log = Log()
     pipe.fill()
     with contextlib.redirect_stderr(pipe.near):
-        log.tell("one")
-        log.tell("two", Priority.WARNING)
+        log.write("one")
+        log.write("two", Priority.WARNING)
         assert log.lost == 2
         assert not pipe.read().strip(b"x")
-        log.tell("three")
-        log.tell("four")
+        log.write("three")
+        log.write("four")
     assert log.lost == 2
     assert pipe.read().decode().splitlines() == [
         "haptic-panel: 2 lines before this one were lost: the log was full",
@@ -60,7 +60,7 @@ def test_a_log_that_is_gone_is_no_reason_to_stop(pipe):
     pipe.far.close()
     for stderr in (pipe.near, None):
         with contextlib.redirect_stderr(stderr):
-            log.tell("one")
+            log.write("one")
     assert log.lost == 2
 
 
@@ -77,9 +77,9 @@ def test_only_the_journal_is_given_priorities(tmp_path, monkeypatch, priority):
 
 def test_one_sentence_is_one_line_however_it_is_written_and_however_long(pipe):
     with contextlib.redirect_stderr(pipe.near):
-        Log().tell("scene\n<0>haptic-panel: not really\r\n" + "é" * LONGEST_BYTES)
+        Log().write("scene\n<0>haptic-panel: not really\r\n" + "é" * MAX_LINE_BYTES)
     said = pipe.read()
     assert said.count(b"\n") == 1
     assert said.endswith(b"\n")
-    assert len(said) <= LONGEST_BYTES
+    assert len(said) <= MAX_LINE_BYTES
     assert said.startswith(b"haptic-panel: scene <0>haptic-panel: not really")

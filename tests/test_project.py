@@ -111,7 +111,7 @@ def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
         assert f"{data}/{wanted}" in names
     assert any(name.startswith(f"{data}/systemd/") for name in names)
     assert {"controller/cli.py", "controller/scene/effects.toml"} <= set(names)
-    assert not any(name.startswith("tests/") for name in names)
+    assert not any(name.startswith("tests/") or name.endswith(".sh") for name in names)
 
 
 def test_every_command_of_every_readme_works(tmp_path, state_folder):
@@ -123,16 +123,84 @@ def test_every_command_of_every_readme_works(tmp_path, state_folder):
     assert "$ .venv/bin/haptic-panel run" in done.stdout
 
 
-def test_the_three_lines_of_the_readme_are_whole():
-    text = (ROOT / "README.md").read_text()
-    lines = [line for line in text.splitlines() if "python3 -m venv .venv" in line]
-    assert len(lines) == 3
-    assert all("apt-get" in line and "build-essential" in line for line in lines)
-    assert all(line.startswith("echo 'haptic-panel: ") and "minutes" in line for line in lines), "what happens, and how long"
-    assert all("--no-install-recommends" in line and "pip install -q" not in line for line in lines)
-    assert lines[0].endswith(".venv/bin/haptic-panel run")
-    assert lines[1].endswith(".venv/bin/pytest")
-    assert lines[2] == f"{lines[1]} -m kernel"
+def test_the_three_lines_of_the_readme_are_short_and_whole():
+    lines = [line for line in (ROOT / "README.md").read_text().splitlines() if "set_up.sh" in line and not line.startswith("`")]
+    assert lines == [
+        "sh controller/set_up.sh offline && .venv/bin/haptic-panel run",
+        "sh controller/set_up.sh test && .venv/bin/pytest",
+        "sh controller/set_up.sh test && .venv/bin/pytest -m kernel",
+    ]
+
+
+def set_up(folder, extra, missing=False, user=0, programs=("apt-get",)):
+    """Lines that `set_up.sh` prints, with `dpkg`, `apt-get` and Python replaced by programs that print how they are called."""
+    said = "#!/bin/sh\necho $(basename $0) $@\n"
+    own = {"dpkg": f"#!/bin/sh\nexit {int(missing)}\n", "id": f"#!/bin/sh\necho {user}\n", "sudo": said, "python3": said}
+    for name, text in (own | dict.fromkeys(programs, said)).items():
+        (folder / "bin").mkdir(exist_ok=True)
+        (folder / "bin" / name).write_text(text)
+        (folder / "bin" / name).chmod(0o755)
+    for name in ("sh", "basename", "dirname"):
+        (folder / "bin" / name).symlink_to(shutil.which(name))
+    (folder / "controller").mkdir()
+    shutil.copy(ROOT / "controller" / "set_up.sh", folder / "controller")
+    (folder / ".venv" / "bin").mkdir(parents=True)
+    (folder / ".venv" / "bin" / "pip").write_text(said)
+    (folder / ".venv" / "bin" / "pip").chmod(0o755)
+    command = ["sh", folder / "controller" / "set_up.sh", *extra]
+    return subprocess.run(command, env={"PATH": str(folder / "bin")}, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(
+    ("user", "prefix", "extra", "more"),
+    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace")],
+)
+def test_what_is_missing_is_installed_and_then_the_package_into_venv(tmp_path, user, prefix, extra, more):
+    done = set_up(tmp_path, [extra], missing=True, user=user)
+    first, *lines = done.stdout.splitlines()
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "minutes" in first
+    assert "MB" in first
+    assert lines == [
+        f"{prefix}apt-get update -q",
+        f"{prefix}apt-get install -y -q --no-install-recommends build-essential python3-dev python3-venv{more}",
+        "python3 -m venv .venv",
+        f"pip install --disable-pip-version-check -e .[{extra}]",
+    ]
+
+
+def test_nothing_is_asked_of_apt_where_nothing_is_missing(tmp_path):
+    assert "apt-get" not in set_up(tmp_path, ["test"]).stdout
+
+
+def test_a_system_without_apt_is_told_what_is_needed(tmp_path):
+    done = set_up(tmp_path, ["offline"], programs=())
+    assert "no apt-get here; needed are a C compiler" in done.stderr
+    assert done.stdout.endswith("pip install --disable-pip-version-check -e .[offline]\n")
+
+
+def test_set_up_without_an_extra_says_which_there_are(tmp_path):
+    done = set_up(tmp_path, [])
+    assert done.returncode == 2
+    assert "usage: sh controller/set_up.sh offline | test" in done.stderr
+    assert done.stdout == ""
+
+
+def anchors(path):
+    """Those that a page's host makes of its headings."""
+    headings = re.findall(r"^#+ (.*)$", path.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_every_link_of_every_readme_leads_somewhere():
+    broken = []
+    for page in (page for page in ROOT.rglob("README.md") if not any(part.startswith(".") for part in page.parts)):
+        for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+            place, _, anchor = link.partition("#")
+            target = page.parent / place if place else page
+            if not re.match(r"\w+:", link) and not (target.exists() and (not anchor or anchor in anchors(target))):
+                broken.append(f"{page}: {link}")
+    assert not broken
 
 
 def test_no_line_that_is_shown_installs_by_a_name_that_may_be_a_strangers():

@@ -1,7 +1,7 @@
 """Boards: everything about one panel, from `boards/<name>/board.toml` to frozen, checked records.
 
-Files speak millimetres and milliseconds; properties give SI. A key that is unknown, of the wrong
-type or impossible is a ConfigError naming file, key and value.
+Files use mm and ms; properties return SI units. An unknown key, a wrong type or an impossible value is a ConfigError that
+names file, key and value. The reference for users (reference.md) is generated from these records and their docstrings.
 """
 
 from __future__ import annotations
@@ -17,17 +17,39 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
-from controller.board.records import NotNegative, Positive, Record, Share, load_toml
+from controller.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm, load_toml
 from controller.errors import ConfigError
 
 CHANNELS = 32
-LONGEST_FRAME_BYTES = 512  # of the frames: frames.LOAD_FRAME_MAX_BYTES
-FEWEST_BIT_TICKS = 4  # of the gateware: registers.BIT_TICKS_MIN
+MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
+MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
 
 
 class Plate(Record, frozen=True):
-    """Material and edge of the plate; origin at a corner, x along the length."""
+    """The plate: size, material and support; its origin is a corner, x runs along the length.
+
+    Attributes
+    ----------
+    length_mm
+        Extent along x.
+    width_mm
+        Extent along y.
+    thickness_mm
+        Thickness.
+    young_modulus_pa
+        Young's modulus.
+    poisson_ratio
+        Poisson's ratio.
+    density_kg_m3
+        Density.
+    edge
+        How the edge is supported.
+    decay_time_ms
+        Time in which a free vibration falls to 1/e.
+    theory
+        Plate theory that the model uses.
+    """
 
     length_mm: Annotated[float, Meta(ge=20, le=2000)]
     width_mm: Annotated[float, Meta(ge=20, le=2000)]
@@ -61,17 +83,43 @@ class Plate(Record, frozen=True):
 
 
 class Actuator(Record, frozen=True):
-    """A square piezo patch, its channel and the level (0 or 1) at which it waits while armed."""
+    """A square piezo patch and the output that drives it.
+
+    Attributes
+    ----------
+    channel
+        Output of the FPGA, and bit of a drive word.
+    x_mm, y_mm
+        Centre of the patch.
+    size_mm
+        Edge length of the patch.
+    idle
+        Level, 0 or 1, at which its output rests while the panel is armed.
+    """
 
     channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
-    x_mm: float
-    y_mm: float
-    size_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    size_mm: SizeMm
     idle: Annotated[int, Meta(ge=0, le=1)]
 
 
 class Driver(Record, frozen=True):
-    """The push-pull stage of one channel and the series R-L into the piezo's C (paper, fig. 4)."""
+    """The push-pull stage of one channel, with the series R and L into the piezo's C (paper, fig. 4).
+
+    Attributes
+    ----------
+    supply_v
+        Supply of the stages.
+    resistance_ohm
+        Series resistance.
+    inductance_h
+        Series inductance.
+    capacitance_f
+        Capacitance of a patch.
+    moment_n_per_v
+        Bending moment per length of a patch's edge, per volt.
+    """
 
     supply_v: Annotated[float, Meta(gt=0, le=60)]
     resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)]
@@ -81,11 +129,23 @@ class Driver(Record, frozen=True):
 
 
 class Waveform(Record, frozen=True):
-    """What one emission is made of."""
+    """The waveform of one emission.
+
+    Attributes
+    ----------
+    band_low_hz
+        Lower edge of the band.
+    band_high_hz
+        Upper edge of the band, below half of `bit_clock_hz`.
+    duration_ms
+        T, the length of one emission: 1 to 1000 samples of `bit_clock_hz`.
+    bit_clock_hz
+        Drive words a second.
+    """
 
     band_low_hz: Positive
     band_high_hz: Positive
-    duration_ms: Positive
+    duration_ms: Annotated[float, Meta(gt=0, le=10)]
     bit_clock_hz: Annotated[float, Meta(ge=100e3, le=2e6)]
 
     def __post_init__(self) -> None:
@@ -113,14 +173,50 @@ class Waveform(Record, frozen=True):
 
 
 class Bank(Record, frozen=True):
-    """How the board's own bank is built and used."""
+    """How the board's bank of precomputed waveforms is built and used.
+
+    Attributes
+    ----------
+    pitch_mm
+        Distance of the bank's cells.
+    snap_mm
+        A single finger at most this far from a cell's centre plays that cell without interpolation.
+    """
 
     pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
     snap_mm: NotNegative
 
 
 class Limits(Record, frozen=True):
-    """What the panel may be asked for, and the resistors it follows from; the FPGA keeps all that has to do with time."""
+    """Limits of what the panel plays, and the resistor ratings they follow from. The FPGA enforces those of time and edges.
+
+    Attributes
+    ----------
+    heartbeat_timeout_ms
+        The FPGA switches its outputs off when the host was silent for this long.
+    ramp_ms
+        Time in which outputs ramp up on arming and down on disarming.
+    max_duty
+        Largest share of time with emissions.
+    duty_budget_ms
+        Emission time that may run ahead of `max_duty`.
+    longest_emission_ms
+        Longest single emission.
+    hv_settle_us
+        From switching the supply on (hv_enable) to the first edge of a ramp.
+    min_pulse_us
+        Shortest pulse of an output; at most one sample of the waveform.
+    max_channel_edge_rate_hz
+        Edges a second of one channel that the FPGA allows.
+    max_total_edge_rate_hz
+        Edges a second of all channels together that the FPGA allows; protects the supply.
+    max_edge_rate_hz
+        Largest edge rate of a channel within any waveform of the bank; a bank with more is not built.
+    resistor_rating_w
+        Power rating of a stage's resistor.
+    derating
+        Share of that rating that may be used.
+    """
 
     heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
     ramp_ms: Annotated[float, Meta(gt=0, le=100)]
@@ -142,7 +238,39 @@ class Limits(Record, frozen=True):
 
 
 class Board(Record, frozen=True):
-    """One panel. `folder` holds its board.toml; scene and recording names are relative to it."""
+    """One panel: the whole board.toml. Names of scenes and recordings are relative to its folder.
+
+    Attributes
+    ----------
+    name
+        Name of the board: lower case letters, digits, - and _.
+    scene
+        Scene that is played unless another is asked for: a name beside board.toml, or a path.
+    plate
+        The plate.
+    actuators
+        The piezo patches; each channel at most once, each patch on the plate.
+    driver
+        The driver stages.
+    waveform
+        The waveform of one emission.
+    bank
+        The bank of precomputed waveforms.
+    touch
+        The touch panel.
+    link
+        The link to the FPGA.
+    limits
+        Limits.
+    temperature
+        The temperature sensor; left out: the plate is taken to be as warm as the bank assumes.
+    realtime
+        Scheduling of the event loop.
+    application_socket
+        The socket for user interfaces; left out: there is none.
+    folder
+        Folder of the board.toml; set on reading, not a key of the file.
+    """
 
     name: Annotated[str, Meta(pattern="^[a-z0-9][a-z0-9_-]{0,63}$")]
     scene: str
@@ -251,10 +379,10 @@ def load_board(path: Path) -> Board:
     """
     file = path / "board.toml" if path.is_dir() else path
     board = load_toml(file, Board)
-    if board.link.clock_hz < FEWEST_BIT_TICKS * board.waveform.bit_clock_hz:
+    if board.link.clock_hz < MIN_BIT_TICKS * board.waveform.bit_clock_hz:
         raise ConfigError(
             f"{file}: waveform.bit_clock_hz = {board.waveform.bit_clock_hz} is above"
-            f" a {FEWEST_BIT_TICKS}th of link.clock_hz = {board.link.clock_hz}"
+            f" a {MIN_BIT_TICKS}th of link.clock_hz = {board.link.clock_hz}"
         )
     if board.limits.min_pulse_us * 1e-6 * board.waveform.bit_clock_hz > 1:
         raise ConfigError(
@@ -266,7 +394,7 @@ def load_board(path: Path) -> Board:
             f"{file}: waveform.duration_ms = {board.waveform.duration_ms:g} is longer than"
             f" limits.longest_emission_ms = {board.limits.longest_emission_ms:g}"
         )
-    frame_ms = LONGEST_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
+    frame_ms = MAX_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
     if frame_ms > board.limits.heartbeat_timeout_ms / 2:
         raise ConfigError(
             f"{file}: limits.heartbeat_timeout_ms = {board.limits.heartbeat_timeout_ms:g} is less than twice the {frame_ms:.3g} ms"

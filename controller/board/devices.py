@@ -1,7 +1,7 @@
 """Tables of board.toml that name devices: touch panel, link to the FPGA, temperature sensor, socket, scheduling.
 
-Devices are named by what stays the same over a restart and over kernels: paths below /dev/input/by-path or
-/dev/serial/by-id, chips by label, lines by name.
+Name devices by what does not change from one boot or kernel to the next: paths below /dev/input/by-path or /dev/serial/by-id,
+GPIO chips by label, lines by name.
 """
 
 from __future__ import annotations
@@ -13,29 +13,44 @@ from msgspec import Meta
 from controller.board.records import Positive, Record
 
 SERIAL_BITS_PER_BYTE = 10  # 8N1
-FEWEST_SCK_TICKS = 2  # of the gateware: gateware.SCK_TICKS
+MIN_SCK_TICKS = 2  # gateware.SCK_TICKS
 
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
 Extent = Annotated[int, Meta(ge=1, le=65535)]
+AxisMm = Annotated[float, Meta(ge=-1e5, le=1e5)]  # a raw axis may be many times as long as the plate
 Name = Annotated[str, Meta(min_length=1)]
 
 
 class TouchPanel(Record, frozen=True, kw_only=True):
-    """What all touch panels have: where their axes lie on the plate, and what is known of their reports.
+    """A touch panel: how its axes map to the plate, and how its reports are to be understood.
 
-    A position is that of the finger `lag_ms` before its report; contacts wider than `max_size_mm` are palms;
-    a contact is played from its `confirm_reports`th report on. Ghosts of an emission are gone `ghost_ms` after it
-    (0: the panel makes none).
+    Attributes
+    ----------
+    x_mm_from_axes, y_mm_from_axes
+        Map from the panel's axes, each scaled to 0…1, to the plate: factor of the first axis, factor of the second, offset.
+    lag_ms
+        Age of a position when it is reported; `calibrate-touch --lag` measures it.
+    max_size_mm
+        A wider contact is a palm, and is ignored.
+    confirm_reports
+        A contact counts as a finger from this report on.
+    max_emissions_unconfirmed
+        Emissions that a contact may trigger before it is confirmed.
+    ghost_ms
+        After an emission, until false contacts that it caused have gone; 0: it causes none. `calibrate-touch --ghosts`
+        measures it.
+    recording
+        Recording that `run` replays on a board without devices.
     """
 
-    x_mm_from_axes: tuple[float, float, float]
-    y_mm_from_axes: tuple[float, float, float]
+    x_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
+    y_mm_from_axes: tuple[AxisMm, AxisMm, AxisMm]
     lag_ms: Annotated[float, Meta(ge=0, le=200)] = 0.0
     max_size_mm: Positive = 30.0
     confirm_reports: Annotated[int, Meta(ge=1, le=10)] = 1
     max_emissions_unconfirmed: Annotated[int, Meta(ge=1, le=100)] = 1
     ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 30.0
-    recording: str = ""  # what `run` replays on a board without devices
+    recording: str = ""
 
     @property
     def lag_s(self) -> float:
@@ -60,25 +75,55 @@ class RecordingTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", ta
 
 
 class LinuxInputTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="linux_input"):
-    """A panel with a kernel driver: by a path such as /dev/input/by-path/..., or by its name."""
+    """A touch panel with a kernel driver (evdev).
+
+    Attributes
+    ----------
+    device
+        Path such as /dev/input/by-path/..., or the device's name.
+    grab
+        Whether to keep other programs from reading it.
+    """
 
     device: Name
     grab: bool = False
 
 
 class I2cTouch(TouchPanel, frozen=True, kw_only=True):
-    """What panels on an I2C bus have; the interrupt line falls when there is a report."""
+    """A touch panel on an I2C bus; its interrupt line falls when there is a report.
 
-    bus: Name  # such as /dev/i2c-1
-    interrupt_chip: Name  # label of the GPIO chip
+    Attributes
+    ----------
+    bus
+        I2C bus, such as /dev/i2c-1.
+    address
+        Address on the bus.
+    interrupt_chip
+        Label of the GPIO chip.
+    interrupt_line
+        Name of the interrupt line.
+    reset_line
+        Name of the reset line on the same chip; empty: the panel is not reset.
+    width, height
+        Largest raw x and y; left out: the panel is asked, where it can answer.
+    """
+
+    bus: Name
+    interrupt_chip: Name
     interrupt_line: Name
-    reset_line: str = ""  # on the same chip; none: it is not reset by us
-    width: Extent | None = None  # largest raw x and y; None: asked from the panel where it can say
+    reset_line: str = ""
+    width: Extent | None = None
     height: Extent | None = None
 
 
 class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft5x06"):
-    """FocalTech FT5x06, FT6x36, and EDT modules with them, M06 included."""
+    """FocalTech FT5x06 or FT6x36, and EDT modules with them, M06 included.
+
+    Attributes
+    ----------
+    width, height
+        Largest raw x and y: these panels cannot be asked.
+    """
 
     address: Address = 0x38
     width: Extent
@@ -86,13 +131,27 @@ class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft
 
 
 class Gt911Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="gt911"):
-    """Goodix GT911 and its kin (`gt911.PRODUCTS`); which address it takes is decided by the interrupt line at reset."""
+    """Goodix GT911 and related chips (`gt911.PRODUCTS`).
+
+    Attributes
+    ----------
+    address
+        Address on the bus; the interrupt line selects it at reset.
+    """
 
     address: Literal[0x14, 0x5D] = 0x5D
 
 
 class SerialTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="serial_panel"):
-    """A panel that speaks Elo SmartSet over a serial port."""
+    """A touch panel with the Elo SmartSet protocol on a serial port.
+
+    Attributes
+    ----------
+    device
+        Serial port, such as /dev/serial/by-id/...
+    baud
+        Baud rate.
+    """
 
     device: Name
     baud: Annotated[int, Meta(ge=1200, le=115200)] = 9600
@@ -102,23 +161,49 @@ Touch = RecordingTouch | LinuxInputTouch | Ft5x06Touch | Gt911Touch | SerialTouc
 
 
 class LinkSettings(Record, frozen=True, kw_only=True):
-    """How drive words reach the FPGA."""
+    """The link to the FPGA.
+
+    Attributes
+    ----------
+    kind
+        `simulated`: no FPGA, its gateware is computed; `serial`: UART; `spi`: SPI and GPIO lines.
+    clock_hz
+        Clock of the FPGA's logic.
+    sck_hz
+        SCK that is asked for; at most half of `clock_hz`.
+    slots
+        Waveforms that the FPGA's memory holds.
+    device
+        Serial port, or /dev/spidevB.C.
+    spi_source_hz
+        Clock of the SPI controller, which divides it by an even number: 400e6 on a Pi 3, 500e6 on a Pi 4, 200e6 on a Pi 5;
+        left out: SCK is taken to be as asked.
+    baud
+        Baud rate of a serial link.
+    gpio_chip
+        Label of the GPIO chip with the following lines.
+    trigger_line
+        Output: starts the waveform that was prepared.
+    configured_line
+        Input: high while the FPGA is configured, has its clock and is out of reset; may be left out.
+    permit_line
+        Output: run permit that this host gives while it plays; may be left out where a switch gives it.
+    """
 
     kind: Literal["simulated", "serial", "spi"]
     clock_hz: Annotated[int, Meta(ge=1_000_000, le=400_000_000)]
     sck_hz: Annotated[int, Meta(ge=100_000, le=100_000_000)]
     slots: Annotated[int, Meta(ge=1, le=16)]
-    device: str = ""  # serial port, or /dev/spidevB.C
-    # Clock of the SPI controller, which divides it by an even number: Pi 3 400e6, Pi 4 500e6, Pi 5 200e6; none: SCK is as asked
+    device: str = ""
     spi_source_hz: Annotated[int, Meta(ge=1_000_000, le=1_000_000_000)] | None = None
     baud: Annotated[int, Meta(ge=9600, le=12_000_000)] = 1_000_000
-    gpio_chip: str = ""  # label of the chip with the lines below
+    gpio_chip: str = ""
     trigger_line: str = ""
-    configured_line: str = ""  # input: high while the FPGA is configured, has its clock and is out of reset; may be left out
-    permit_line: str = ""  # output: run permit given by this host while it plays; may be left out where a switch gives it
+    configured_line: str = ""
+    permit_line: str = ""
 
     def __post_init__(self) -> None:
-        if self.sck_hz * FEWEST_SCK_TICKS > self.clock_hz:
+        if self.sck_hz * MIN_SCK_TICKS > self.clock_hz:
             raise ValueError(f"sck_hz = {self.sck_hz} is above half of clock_hz = {self.clock_hz}")
         if self.kind == "serial" and not self.device:
             raise ValueError("device is missing: the serial port of the FPGA, such as /dev/ttyUSB0")
@@ -133,58 +218,97 @@ class LinkSettings(Record, frozen=True, kw_only=True):
 
 
 class Temperature(Record, frozen=True, kw_only=True):
-    """A sensor of the plate's temperature, and how the plate's frequencies follow it.
+    """A sensor of the plate's temperature, and how the waves' speed depends on it.
 
-    The bit clock is scaled by 1 + coefficient_per_k * (temperature - reference_c): warm glass is softer, its
-    waves are slower, and the waveforms of a bank built at `reference_c` have to be played as much slower.
+    The bit clock is scaled by 1 + coefficient_per_k * (temperature - reference_c): warm glass is softer and its waves slower, so
+    that waveforms computed for `reference_c` have to be played as much slower.
+
+    Attributes
+    ----------
+    kind
+        `hwmon`: a sensor with a kernel driver; `lm75`: an LM75, TMP75 or TMP102 on an I2C bus.
+    device
+        hwmon: name of the chip, or path of a temp*_input; lm75: the bus, such as /dev/i2c-1.
+    address
+        Address of an lm75 on the bus.
+    reference_c
+        Temperature that the bank was built for.
+    coefficient_per_k
+        Relative change of the bit clock per kelvin.
+    period_s
+        Time between readings.
+    lowest_c, highest_c
+        A reading beyond these is a fault of the sensor.
     """
 
     kind: Literal["hwmon", "lm75"]
-    device: Name  # hwmon: name of the chip, or path of a temp*_input; lm75: the bus, such as /dev/i2c-1
-    address: Address = 0x48  # of an LM75, TMP75 or TMP102
+    device: Name
+    address: Address = 0x48
     reference_c: Annotated[float, Meta(ge=-40, le=100)] = 23.0
     coefficient_per_k: Annotated[float, Meta(ge=-1e-2, le=1e-2)]
     period_s: Annotated[float, Meta(ge=0.1, le=3600)] = 2.0
-    lowest_c: float = -20.0  # beyond these the reading is taken for a fault of the sensor
+    lowest_c: float = -20.0
     highest_c: float = 85.0
 
 
 class Realtime(Record, frozen=True, kw_only=True):
-    """What the loop asks of the kernel's scheduler; one warning where it is not permitted."""
+    """Scheduling of the event loop's thread; one warning where it is not permitted.
 
-    priority: Annotated[int, Meta(ge=0, le=98)] = 50  # of SCHED_FIFO; 0: an ordinary process
-    cpu: Annotated[int, Meta(ge=0, le=1023)] | None = None  # the core to stay on
+    Attributes
+    ----------
+    priority
+        Priority of SCHED_FIFO; 0: an ordinary process.
+    cpu
+        Core to run on; left out: any.
+    lock_memory
+        Whether to keep what the loop uses in memory.
+    """
+
+    priority: Annotated[int, Meta(ge=0, le=98)] = 50
+    cpu: Annotated[int, Meta(ge=0, le=1023)] | None = None
     lock_memory: bool = True
 
 
 class ApplicationSocket(Record, frozen=True, kw_only=True):
-    """The Unix socket through which a user interface drives the panel."""
+    """The Unix socket through which a user interface drives the panel.
+
+    Attributes
+    ----------
+    path
+        Path of the socket.
+    owner
+        User who owns it; empty: that of the service.
+    group
+        Its group; empty: that of the service.
+    mode
+        Its file mode, octal.
+    play_group
+        Group that may play; empty: whoever may connect.
+    operate_group
+        Group that may also arm, disarm and load scenes; empty: root and the service's own user only.
+    max_clients
+        Clients at a time.
+    clients_per_user
+        Clients of one user who may play and not operate.
+    idle_s
+        A client silent for this long gives way to one that finds no place.
+    commands_per_s
+        Commands a second of one client in the long run.
+    burst
+        Commands that a client may send at once.
+    max_amplitude
+        Largest amplitude that a client may ask for.
+    """
 
     path: Name = "/run/haptic-panel/panel.sock"
-    owner: str = ""  # empty: as the service
+    owner: str = ""
     group: str = ""
     mode: Annotated[str, Meta(pattern="^0?[0-7]{3}$")] = "660"
-    play_group: str = ""  # empty: whoever may connect may play
-    operate_group: str = ""  # who may arm, disarm and load scenes; empty: root and the service's own user only
+    play_group: str = ""
+    operate_group: str = ""
     max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
-    clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4  # of a user who may play and not operate
-    idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0  # silent for so long, a client gives way to one that finds no place
-    commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0  # of one client, in the long run
+    clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4
+    idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0
+    commands_per_s: Annotated[float, Meta(ge=1, le=10_000)] = 500.0
     burst: Annotated[int, Meta(ge=1, le=10_000)] = 50
-    max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0  # 0.25: the least that can be asked for
-
-
-__all__ = [
-    "ApplicationSocket",
-    "Ft5x06Touch",
-    "Gt911Touch",
-    "I2cTouch",
-    "LinkSettings",
-    "LinuxInputTouch",
-    "Realtime",
-    "RecordingTouch",
-    "SerialTouch",
-    "Temperature",
-    "Touch",
-    "TouchPanel",
-]
+    max_amplitude: Annotated[float, Meta(ge=0.25, le=1)] = 1.0

@@ -11,13 +11,15 @@ from typing import Annotated, Any, TypeVar
 import msgspec
 from msgspec import Meta
 
-from controller.board.validation import dotted, in_words
+from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
 
 T = TypeVar("T")
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
+PlaceMm = Annotated[float, Meta(ge=-1000, le=3000)]  # a plate has at most 2 m; what lies off it is refused with the plate's size
+SizeMm = Annotated[float, Meta(gt=0, le=3000)]
 Share = Annotated[float, Meta(gt=0, le=1)]
 
 
@@ -39,9 +41,6 @@ def load_toml(file: Path, kind: type[T]) -> T:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:
         raise ConfigError(f"{file}: not valid TOML: {error}") from error
-    for path, value in _leaves(tables, ()):
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ConfigError(f"{file}: {dotted(path)} = {value} is not a number one can work with")
     return as_record(f"{file}: ", tables, kind)
 
 
@@ -53,12 +52,15 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
     Raises
     ------
     ConfigError
-        Naming key and value.
+        Naming key and value; also for a number that is not finite.
     """
+    for path, value in _leaves(tables, ()):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ConfigError(f"{before}{dotted(path)} = {value}: must be a finite number")
     try:
         return msgspec.convert(tables, kind)
     except msgspec.ValidationError as error:
-        raise ConfigError(f"{before}{in_words(str(error), tables, kind)}") from error
+        raise ConfigError(f"{before}{explain(str(error), tables, kind)}") from error
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:

@@ -16,7 +16,8 @@ from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
 from controller.commands.tables import plain_table, power_table
 from controller.errors import BankError, ConfigError
-from controller.scene.scene import Scene, load_scene, reach
+from controller.scene.coverage import cells_needed
+from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.installation import missing_package
 
@@ -141,7 +142,7 @@ def _bank_file(options: argparse.Namespace) -> Path:
 
 
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
-    return reach(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
+    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
 
 
 def _build(

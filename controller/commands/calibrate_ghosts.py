@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 from typing import Any
 
 from controller.bank.reader import Bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board
 from controller.board.devices import RecordingTouch
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.bank import open_bank
-from controller.commands.output import progress_bar, show
+from controller.commands.calibrate_value import calibrate_value
+from controller.commands.output import progress_bar
 from controller.errors import ConfigError
 from controller.fpga.link import Link
 from controller.loop.playback import Played
@@ -23,34 +23,17 @@ from controller.scene.trains import Train
 from controller.service.drivers import open_link, open_panel, open_session
 from controller.service.ghost_survey import KNOCK, Knocks, Overheard
 from controller.service.systemd import enter_realtime
-from controller.touch.board_lines import check_writable, value_line, write_value
+from controller.touch.event_capture import EventCapture, emission_event, recording_text
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures
-from controller.touch.kept_events import KeptEvents, emission_event, recording_text, store
 from controller.touch.live_source import LiveSource
-from controller.touch.recording import Recording
 
 SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what the simulated board's panel does
 
 
 def calibrate_ghosts(options: argparse.Namespace) -> int:
     """Play, watch the panel, and print or write what follows; or judge a recording of that."""
-    board = load_board(find_board(options.board))
-    file = board.folder / "board.toml"
-    if options.write:
-        check_writable(file)
-    if options.replay:
-        recording = Recording.open(Path(options.replay))
-    else:
-        text = _measured(options, board)
-        if options.out:
-            store(Path(options.out), text)
-        recording = Recording(text, options.out or "this measurement")
-    found = ghost_figures(recording, board)
-    if options.write:
-        write_value(file, "ghost_ms", found.ghost_ms)
-    show(options, _figures(board, found, file if options.write else None), _table)
-    return 0
+    return calibrate_value(options, "ghost_ms", _measured, ghost_figures, _figures, _table)
 
 
 def _measured(options: argparse.Namespace, board: Board) -> str:
@@ -68,14 +51,14 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
         try:
             reader = _simulated_panel(board, link) if simulated else open_panel(board)
             try:
-                return _play(board, bank, clock, link, KeptEvents(reader))
+                return _play(board, bank, clock, link, EventCapture(reader))
             finally:
                 reader.close()
         finally:
             link.close()
 
 
-def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: KeptEvents) -> str:
+def _play(board: Board, bank: Bank, clock: Clock, link: Link, kept: EventCapture) -> str:
     session = open_session(link, board, clock.now_s)
     panel = Overheard(LiveSource(kept, board))
     emissions: list[Event] = []
@@ -115,10 +98,9 @@ def _simulated_panel(board: Board, link: Link) -> EventReader:
     )
 
 
-def _figures(board: Board, found: GhostFigures, written: Path | None) -> dict[str, Any]:
+def _figures(found: GhostFigures) -> dict[str, Any]:
     appears, gone, size = found.appears_ms, found.gone_ms, found.size_mm
     return {
-        "board": board.name,
         "emissions": found.emissions,
         "ghosts": found.ghosts,
         "rate": round(found.rate, 4),
@@ -127,23 +109,19 @@ def _figures(board: Board, found: GhostFigures, written: Path | None) -> dict[st
         "gone_ms": None if gone is None else dict(zip(("median", "p95", "longest"), (round(v, 2) for v in gone), strict=True)),
         "size_mm": None if size is None else {"median": round(size[0], 2), "largest": round(size[1], 2)},
         "ghost_ms": found.ghost_ms,
-        "lines": [value_line("ghost_ms", found.ghost_ms)],
-        "written": None if written is None else str(written),
     }
 
 
-def _table(figures: dict[str, Any]) -> str:
+def _table(figures: dict[str, Any]) -> list[str]:
     if not figures["ghosts"]:
-        told = [f"no ghost in {figures['emissions']} emissions: below {100 * figures['rate_below']:.1f} % of them, at 95 %"]
-    else:
-        gone, appears, size = figures["gone_ms"], figures["appears_ms"], figures["size_mm"]
-        told = [
-            f"{figures['ghosts']} ghosts, made by {100 * figures['rate']:.1f} % of {figures['emissions']} emissions",
-            f"first reported {appears['earliest']:.1f} to {appears['latest']:.1f} ms after the emission began",
-            f"gone {gone['median']:.1f} ms after its end, 95 % by {gone['p95']:.1f} ms, the longest {gone['longest']:.1f} ms;"
-            f" one in {figures['ghosts'] + 1} may be longer",
-        ]
-        if size is not None:
-            told.append(f"size {size['median']:.1f} mm, at most {size['largest']:.1f} mm")
-    where = f"written to {figures['written']}" if figures["written"] else "for [touch] of board.toml (--write puts it there)"
-    return "\n".join([*figures["lines"], *told, where])
+        return [f"no ghost in {figures['emissions']} emissions: below {100 * figures['rate_below']:.1f} % of them, at 95 %"]
+    gone, appears, size = figures["gone_ms"], figures["appears_ms"], figures["size_mm"]
+    lines = [
+        f"{figures['ghosts']} ghosts, made by {100 * figures['rate']:.1f} % of {figures['emissions']} emissions",
+        f"first reported {appears['earliest']:.1f} to {appears['latest']:.1f} ms after the emission began",
+        f"gone {gone['median']:.1f} ms after its end, 95 % by {gone['p95']:.1f} ms, the longest {gone['longest']:.1f} ms;"
+        f" one in {figures['ghosts'] + 1} may be longer",
+    ]
+    if size is not None:
+        lines.append(f"size {size['median']:.1f} mm, at most {size['largest']:.1f} mm")
+    return lines

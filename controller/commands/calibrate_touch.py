@@ -16,11 +16,19 @@ from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.errors import CalibrationError, UsageError
 from controller.service.drivers import open_touch
-from controller.touch.board_lines import board_lines, check_writable, write_calibration
-from controller.touch.calibration import MOST, Calibration, Point, calibrate, check_targets, default_targets
-from controller.touch.held_touches import HELD_S, HeldTouches
+from controller.touch.calibration import (
+    HOLD_S,
+    MAX_TARGETS,
+    Calibration,
+    Point,
+    StationaryTouches,
+    calibrate,
+    check_targets,
+    default_targets,
+)
 from controller.touch.recording import Recording
 from controller.touch.source import TouchSource
+from controller.touch.touch_table import board_lines, check_writable, write_calibration
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
@@ -67,7 +75,9 @@ def calibrate_touch(options: argparse.Namespace) -> int:
 
         return calibrate_lag(options)
     board = load_board(find_board(options.board))
-    targets = [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets or MOST)
+    targets = (
+        [(x_mm, y_mm) for x_mm, y_mm in options.at] if options.at else default_targets(board.plate, options.targets or MAX_TARGETS)
+    )
     check_targets(targets, board.plate)
     if options.write:
         check_writable(board.folder / "board.toml")
@@ -128,7 +138,7 @@ def _bare(board: Board) -> Board:
 def _touches(source: TouchSource, clock: Clock, targets: Sequence[Point], board: Board) -> list[Point]:
     """Where the axes say each target was touched, 0 to 1."""
     found: list[Point] = []
-    held = HeldTouches()
+    held = StationaryTouches()
     _ask(targets, 0)
     while len(found) < len(targets):
         source_s = source.next_time_s()
@@ -137,7 +147,7 @@ def _touches(source: TouchSource, clock: Clock, targets: Sequence[Point], board:
         if fileno is None and next_s == float("inf"):
             raise CalibrationError(
                 f"the recording ends after {len(found)} of {len(targets)} touches:"
-                f" it needs one finger at a time, held still for {HELD_S:g} s on each target"
+                f" it needs one finger at a time, held still for {HOLD_S:g} s on each target"
             )
         with selectors.DefaultSelector() as selector:
             if fileno is not None:

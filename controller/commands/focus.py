@@ -40,7 +40,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and say how good the focus is; or measure the figures of the README."""
-    from controller.benchmark.work_precision import figures, focus_on
+    from controller.benchmark.focus_figures import figures, focus_on
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))

@@ -15,7 +15,8 @@ from controller.commands.output import picture_path, progress_bar, show
 from controller.commands.tables import run_table, service_table
 from controller.errors import ConfigError
 from controller.log import Priority, line
-from controller.scene.scene import edge_warnings, load_scene
+from controller.scene.edge_rate import edge_warnings
+from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import recording_path
 from controller.touch.recording import Recording

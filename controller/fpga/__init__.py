@@ -1,1 +1,1 @@
-"""The FPGA as the host sees it: registers, frames, links, session, recovery and bring-up."""
+"""The host's side of the FPGA: registers, frames, links, session, recovery and bring-up."""

@@ -1,4 +1,4 @@
-"""What an FPGA has to be, and what it is told, before it may be armed."""
+"""Identity and limits that an FPGA must have, and the settings it is given, before it may be armed."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import Final
 from controller.board.board import Board
 from controller.errors import LinkError
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register
+from controller.fpga.exchange import Exchange, Refused
+from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register, Result
 
-LIMITS: Final = {  # fixed when the gateware is built, and the key of board.toml that each comes from
+LIMITS: Final = {  # built into the gateware, with the key of board.toml that each comes from
     Register.CHANNEL_MASK_MAX: "actuators",
     Register.HV_SETTLE_TICKS: "limits.hv_settle_us",
     Register.HEARTBEAT_TICKS_MAX: "limits.heartbeat_timeout_ms",
@@ -22,19 +23,29 @@ LIMITS: Final = {  # fixed when the gateware is built, and the key of board.toml
     Register.DUTY_SHARE_MAX: "limits.max_duty",
     Register.DUTY_TICKS_MAX: "limits.duty_budget_ms",
 }
+PERMANENT: Final = frozenset({Result.BAD_VALUE, Result.UNKNOWN_REGISTER, Result.READ_ONLY})  # refusals that a retry cannot change
+PIPELINE_SAMPLES: Final = 5  # margin of a ramp: current word, idle word, pipeline delay
 
 
-class UnfitFpga(LinkError):
-    """Another FPGA than this software and this board need: it says so itself, and waiting does not change it."""
+class IncompatibleFpga(LinkError):
+    """The FPGA is not the one that this software and this board need; waiting does not change it."""
 
 
 def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> None:
-    """Refuse any FPGA but the one this host was made for, with the limits of this board.
+    """Check that the FPGA has the gateware this host was made for, built with the limits of this board.
+
+    Parameters
+    ----------
+    read : callable
+        Reads one register.
+    board : Board
+    build_hash : int
+        Hash of the gateware expected.
 
     Raises
     ------
-    UnfitFpga
-        If it is another one, too small for the board, or built for another.
+    IncompatibleFpga
+        If its identity, protocol, gateware, clock, size or a limit is another.
     LinkError
         If it does not answer.
     """
@@ -47,13 +58,13 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     for register, value in expected.items():
         found = read(register)
         if found != value:
-            raise UnfitFpga(
+            raise IncompatibleFpga(
                 f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
             )
     geometry = read(Register.GEOMETRY)
     slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
     if slots < board.link.slots or depth < board.waveform.samples or channels != CHANNELS:
-        raise UnfitFpga(
+        raise IncompatibleFpga(
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
@@ -64,34 +75,58 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
         if found != value
     ]
     if other:
-        raise UnfitFpga(
+        raise IncompatibleFpga(
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"
             f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
         )
 
 
 def limits(board: Board) -> dict[Register, int]:
-    """Registers with the limits that the gateware has to be built with."""
+    """Limits that the board's gateware must be built with, by register."""
     parameters = Parameters.of(board, 0)
     return {register: getattr(parameters, register.name.lower()) for register in LIMITS}
 
 
 def settings(board: Board) -> dict[Register, int]:
-    """Registers as the board says, in the order in which they are written: the limits are those built in."""
+    """Settings of a board, by register, in the order in which they are written; limits are set to those built in."""
     built = Parameters.of(board, 0).verilog()
     after_reset = {register: register.reset for register in Register if register.access == "RW"}
     values = {register: reset if isinstance(reset, int) else built[reset] for register, reset in after_reset.items()}
     return values | {Register.IDLE_WORD: board.idle_word}
 
 
+def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
+    """Write the board's settings, and read each back.
+
+    Parameters
+    ----------
+    exchange : Exchange
+    board : Board
+    bit_period : int
+        In 65536ths of an FPGA clock, in place of the board's.
+
+    Raises
+    ------
+    IncompatibleFpga
+        If the FPGA refuses a value for good.
+    LinkError
+        If it refuses one for now, or reads back another.
+    """
+    for register, value in (settings(board) | {Register.BIT_PERIOD: bit_period}).items():
+        try:
+            exchange.write(register, value)
+        except Refused as refusal:
+            kind = IncompatibleFpga if refusal.result in PERMANENT else LinkError
+            raise kind(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
+        if exchange.read(register) != value:
+            raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
+
+
 def ramp_ticks(board: Board, bit_period: int) -> int:
-    """Clocks from DISARM until the outputs have arrived, and from ARM once the high voltage has settled."""
-    samples = (
-        Parameters.of(board, 0).ramp_samples_reset + 5
-    )  # the word that sounds, the idle word behind it, and the FPGA its own way
-    return samples * bit_period >> 16
+    """FPGA clocks from DISARM to the end of the ramp, at a bit period in 65536ths of a clock."""
+    return (Parameters.of(board, 0).ramp_samples_reset + PIPELINE_SAMPLES) * bit_period >> 16
 
 
 def arming_ticks(board: Board, bit_period: int) -> int:
-    """Clocks from ARM until the outputs have arrived."""
+    """FPGA clocks from ARM to the end of the ramp, the settling of the high voltage included."""
     return Parameters.of(board, 0).hv_settle_ticks + ramp_ticks(board, bit_period)

@@ -1,4 +1,4 @@
-"""The FPGA's own wires beside SPI: trigger out, run permit out, configured in."""
+"""The GPIO lines between host and FPGA: trigger and run permit (outputs), configured (input)."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ CONSUMER = "haptic-panel"
 
 
 class GpioLines:
-    """Trigger, run permit and `configured` of one panel; the permit is given by `permit` and taken away by `close`.
+    """Trigger, run permit and `configured` of one panel, held until `close`, which withdraws the permit.
 
     Parameters
     ----------
     settings : LinkSettings
-        Label of the chip and names of the lines; permit and configured may be left out.
+        Label of the GPIO chip and names of the lines; permit and configured are optional.
     now_s : callable
         The loop's clock.
 
@@ -42,12 +42,17 @@ class GpioLines:
         self._request = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
 
     def pulse(self) -> float:
-        """Raise the trigger and let it fall again: two system calls, far longer than the gateware's 4 clocks.
+        """Pulse the trigger line: two system calls, much longer than the 4 clocks that the gateware needs.
 
         Returns
         -------
         float
-            Time of the rise on the loop's clock, taken directly after it, in s.
+            Time in s on the loop's clock, read directly after the rising edge.
+
+        Raises
+        ------
+        LinkError
+            If the line fails.
         """
         try:
             self._request.set_value(self._trigger, Value.ACTIVE)
@@ -58,7 +63,13 @@ class GpioLines:
         return edge_s
 
     def permit(self, given: bool) -> None:
-        """Give or take away the run permit, where this host has a line for it."""
+        """Give or withdraw the run permit, if the board has a line for it.
+
+        Raises
+        ------
+        LinkError
+            If the line fails.
+        """
         if self._permit:
             try:
                 self._request.set_value(self._permit, Value.ACTIVE if given else Value.INACTIVE)
@@ -66,7 +77,13 @@ class GpioLines:
                 raise LinkError(f"the permit line {self._permit!r} failed ({error.strerror}): is its GPIO chip gone?") from error
 
     def configured(self) -> bool:
-        """Whether the FPGA is configured and out of reset; True where there is no line that says so."""
+        """Whether the FPGA is configured and out of reset; True if the board has no such line.
+
+        Raises
+        ------
+        LinkError
+            If the line fails.
+        """
         if not self._configured:
             return True
         try:
@@ -75,7 +92,7 @@ class GpioLines:
             raise LinkError(f"line {self._configured!r} (configured) failed ({error.strerror}): is its GPIO chip gone?") from error
 
     def close(self) -> None:
-        """Permit off, trigger low, lines free for others."""
+        """Withdraw the permit and release the lines."""
         try:
             self.permit(False)
         except LinkError:

@@ -1,7 +1,4 @@
-"""The one interface to an FPGA: frames there and back, and the trigger pin.
-
-`SimulatedLink` (the gateware model) and the device's SPI link are the same to everything above.
-"""
+"""The interface of every link to an FPGA: SPI, UART, or simulated gateware."""
 
 from __future__ import annotations
 
@@ -10,22 +7,31 @@ from typing import Protocol
 
 
 class Link(Protocol):
-    """Frames to and from the FPGA, and its trigger pin."""
+    """Exchanges frames with the FPGA and drives its trigger."""
 
     @property
     def bytes_sent(self) -> int:
-        """Frame bytes since the link was opened."""
+        """Bytes of frames sent since the link was opened."""
 
     @property
     def wire_ns(self) -> int:
-        """Time those bytes took on the wire."""
+        """Time in ns that those bytes took on the wire."""
 
     @property
-    def away_ns(self) -> int:
-        """Time spent inside this link that is not the host's own work: waiting for the wire, computing the far end."""
+    def blocked_ns(self) -> int:
+        """Time in ns spent inside the link that is not the host's own work: waiting for the wire, simulating the FPGA."""
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames that lie back to back, each under its own chip select, and store what comes back.
+        """Send frames, each under its own chip select, and store the answers.
+
+        Parameters
+        ----------
+        sent : memoryview of bytes
+            The frames, back to back from 0 on.
+        lengths : sequence of int
+            Bytes of each frame.
+        received : memoryview of bytes
+            As large as `sent`; the answer to each frame is stored at the frame's offset.
 
         Raises
         ------
@@ -34,10 +40,10 @@ class Link(Protocol):
         """
 
     def trigger(self) -> float:
-        """Pulse the trigger pin; the time of its edge in s on the loop's clock."""
+        """Pulse the trigger pin; returns the time of its edge in s, on the loop's clock."""
 
-    def free_s(self) -> float:
-        """Since or until when, on the loop's clock, the wire is free: what is sent or triggered before waits until then."""
+    def wire_free_s(self) -> float:
+        """When everything sent so far has left the wire, on the loop's clock; a trigger requested earlier waits until then."""
 
     def close(self) -> None:
-        """Let go of the device."""
+        """Release the device."""

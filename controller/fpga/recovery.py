@@ -1,15 +1,15 @@
-"""The way to armed, a step at a time, at the start and after a loss, and the rule of what is done about an error.
+"""Arming at the start and after a failure, one step at a time, and the rule for what to do after each error.
 
-| lost by | then |
+| failure | then |
 |---|---|
-| HOST_SILENT: this process stalled | again at once |
-| link error, reset, brown-out | again when the FPGA has surely switched off, then after ever longer pauses up to 2 s |
-| NO_PERMIT, OVER_TEMPERATURE | wait until the permit is back, then again |
-| another FPGA, or one that does not take the board's settings | the end: waiting does not cure it |
-| edges, duty, short pulse, long emission, underrun | the end: a fault of the host or the board, which the same again would repeat |
+| HOST_SILENT: this process stalled | retry at once |
+| link error, reset, brown-out | retry once the FPGA has certainly switched off, then after pauses that double up to 2 s |
+| NO_PERMIT, OVER_TEMPERATURE | wait until the permit is back, then retry |
+| another FPGA, or one that refuses the board's settings | fail: waiting does not help |
+| edges, duty, short pulse, long emission, underrun | fail: a fault of the host or the board, which a retry would repeat |
 
-Again is: identity, settings, arming. Outputs are off all the way: the first thing is to disarm as well as it can be
-done, and what does not hear that switches off by its heartbeat timeout.
+A retry checks identity, writes the settings and arms. Outputs stay off until then: the first step is a DISARM, and an FPGA that
+does not receive it switches off by its heartbeat timeout.
 """
 
 from __future__ import annotations
@@ -21,46 +21,56 @@ from typing import Final
 from controller.board.board import Board
 from controller.board.panel_state import PanelState
 from controller.errors import ControllerError, FaultError, LinkError
-from controller.fpga.configuration import UnfitFpga
+from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Fault, Result, State
-from controller.fpga.session import Session
+from controller.fpga.supervision import Supervision
 
-WAITED_FOR: Final = Fault.NO_PERMIT | Fault.OVER_TEMPERATURE
+PERMIT_FAULTS: Final = Fault.NO_PERMIT | Fault.OVER_TEMPERATURE
 PERMITS: Final = State.RUN_PERMIT | State.TEMPERATURE_GOOD
 PERMIT_POLL_S: Final = 0.1
-LONGEST_PAUSE_S: Final = 2.0
+PAUSE_MAX_S: Final = 2.0
 
 
 class Action(Enum):
     """What to do about an error."""
 
-    AGAIN = "again"
-    WAIT = "wait"
-    END = "end"
+    RETRY = "retry"
+    WAIT_FOR_PERMIT = "wait for permit"
+    FAIL = "fail"
 
 
 def action_for(error: ControllerError) -> Action:
-    """What the rule says about an error of the link or the FPGA."""
+    """What to do after an error of the link or the FPGA.
+
+    Parameters
+    ----------
+    error : ControllerError
+
+    Returns
+    -------
+    Action
+        By the table of this module.
+    """
     if isinstance(error, FaultError):
         faults = Fault(error.faults)
-        if not faults or faults & ~(WAITED_FOR | Fault.HOST_SILENT):
-            return Action.END
-        return Action.WAIT if faults & WAITED_FOR else Action.AGAIN
+        if not faults or faults & ~(PERMIT_FAULTS | Fault.HOST_SILENT):
+            return Action.FAIL
+        return Action.WAIT_FOR_PERMIT if faults & PERMIT_FAULTS else Action.RETRY
     if isinstance(error, Refused) and error.result is Result.NO_PERMIT:
-        return Action.WAIT
-    if isinstance(error, UnfitFpga):
-        return Action.END
-    return Action.AGAIN if isinstance(error, LinkError) else Action.END
+        return Action.WAIT_FOR_PERMIT
+    if isinstance(error, IncompatibleFpga):
+        return Action.FAIL
+    return Action.RETRY if isinstance(error, LinkError) else Action.FAIL
 
 
-def permitted(state: State) -> bool:
-    """Whether run permit and temperature allow arming."""
+def arming_permitted(state: State) -> bool:
+    """Whether run permit and temperature allow arming, by the state bits of a status."""
     return state & PERMITS == PERMITS
 
 
-def state_after(error: ControllerError) -> PanelState:
-    """How the panel is called while an error is being got over."""
+def panel_state_after(error: ControllerError) -> PanelState:
+    """State of the panel while it recovers from an error."""
     if isinstance(error, FaultError):
         return PanelState.NO_PERMIT if Fault.NO_PERMIT in Fault(error.faults) else PanelState.FAULTED
     if isinstance(error, Refused) and error.result is Result.NO_PERMIT:
@@ -69,12 +79,12 @@ def state_after(error: ControllerError) -> PanelState:
 
 
 class Recovery:
-    """The way to armed: call `step` whenever the time `next_s` has come, until it returns True; after a loss `begin` again.
+    """Brings the FPGA to armed: call `step` whenever `next_s` has come, until it returns True; after a failure call `begin`.
 
     Parameters
     ----------
-    session : Session
-        It need not be brought up.
+    session : Supervision
+        Need not be brought up.
     board : Board
 
     Attributes
@@ -82,14 +92,14 @@ class Recovery:
     next_s : float
         When to call `step`, on the loop's clock.
     wanted : bool
-        Whether to arm at all: otherwise it ends where arming would be possible, and keeps the FPGA fed.
+        Whether to arm; otherwise the steps stop before ARM and only send heartbeats.
     state : PanelState
-        The newest; while outputs are being armed the one before.
+        Newest state; while the outputs ramp up, the one before.
     cause : str
-        Why outputs are off, in words for the user: the newest; empty before anything was tried.
+        Newest reason for the outputs being off, for the user; empty before the first step.
     """
 
-    def __init__(self, session: Session, board: Board) -> None:
+    def __init__(self, session: Supervision, board: Board) -> None:
         self.next_s = -math.inf
         self.wanted = True
         self.state = PanelState.WAITING_FOR_FPGA
@@ -97,16 +107,23 @@ class Recovery:
         self._session = session
         self._safe_s = (board.limits.heartbeat_timeout_ms + board.limits.ramp_ms) * 1e-3
         self._pause_s = self._safe_s
-        self._known = True  # no error since identity and settings were found right, if ever they were
-        self._armed_s: float | None = None  # when the ramp that runs ends
+        self._known = True  # no error since identity and settings were last verified
+        self._armed_s: float | None = None  # when the ramp in progress ends
 
     def begin(self, error: ControllerError, now_s: float) -> None:
-        """Switch outputs off and plan the first attempt.
+        """Switch the outputs off and schedule the first retry.
+
+        Parameters
+        ----------
+        error : ControllerError
+            What failed.
+        now_s : float
+            Time on the loop's clock.
 
         Raises
         ------
         ControllerError
-            The same one, if the rule says that it is the end.
+            `error` itself, if the rule is to fail.
         """
         self._session.off()
         self._pause_s = self._safe_s
@@ -114,18 +131,28 @@ class Recovery:
         if isinstance(error, FaultError):  # it is off already
             self.next_s = now_s
 
-    def rest(self, off_s: float) -> None:
-        """Outputs are gliding to 0 V, at which they are at `off_s`: the next step is then."""
+    def disarmed(self, off_s: float) -> None:
+        """Note that the outputs were disarmed and are off at `off_s`, on the loop's clock; the next step is then."""
         self.next_s = off_s
         self._pause_s = self._safe_s
 
     def step(self, now_s: float) -> bool:
-        """Do what is next; True once the outputs have arrived at their idle levels. All slots are to be taken as empty.
+        """Do the next step.
+
+        Parameters
+        ----------
+        now_s : float
+            Time on the loop's clock.
+
+        Returns
+        -------
+        bool
+            True once the outputs are at their idle levels; consider all slots empty then.
 
         Raises
         ------
         ControllerError
-            If something turns up that is the end.
+            If an error occurs for which the rule is to fail.
         """
         try:
             return self._next(now_s)
@@ -148,14 +175,13 @@ class Recovery:
             session.bring_up()
             self._known = True
         state = session.heartbeat().state
-        if not permitted(state):
+        if not arming_permitted(state):
             if State.RUN_PERMIT in state:
-                self.state, self.cause = (
-                    PanelState.FAULTED,
-                    "the temperature input is low: the stages are too hot, or it is not wired",
-                )
+                self.state = PanelState.FAULTED
+                self.cause = "the temperature input is low: the stages are too hot, or it is not wired"
             else:
-                self.state, self.cause = PanelState.NO_PERMIT, "the run permit is not given: look at its switch or line"
+                self.state = PanelState.NO_PERMIT
+                self.cause = "the run permit is not given: look at its switch or line"
             self.next_s = now_s + PERMIT_POLL_S
             return False
         if not self.wanted:
@@ -167,13 +193,13 @@ class Recovery:
         return False
 
     def _fail(self, error: ControllerError, now_s: float) -> None:
-        self.state = state_after(error)
+        self.state = panel_state_after(error)
         self.cause = str(error)
         action = action_for(error)
-        if action is Action.END:
+        if action is Action.FAIL:
             raise error
         self._known = False
         self._armed_s = None
-        self.next_s = now_s + (self._pause_s if action is Action.AGAIN else PERMIT_POLL_S)
-        if action is Action.AGAIN:
-            self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)
+        self.next_s = now_s + (self._pause_s if action is Action.RETRY else PERMIT_POLL_S)
+        if action is Action.RETRY:
+            self._pause_s = min(2 * self._pause_s, PAUSE_MAX_S)

@@ -71,7 +71,7 @@ class Kind(Enum):
     MASK = auto()  # likewise, but a bit may be set only where `high` has it set
     LIVE = auto()  # the state of now; a wire in haptic_core.v
     COUNTER = auto()  # counted since reset; a wire in haptic_core.v, an entry of the model's `Telemetry.counts`
-    LINK_COUNTER = auto()  # counted for each link on its own; a wire in register_file.v, an entry of `Conversation.counts`
+    LINK_COUNTER = auto()  # counted for each link on its own; a wire in register_file.v, an entry of `LinkState.counts`
     TIME_LOW = auto()  # low half of a tick of 64 bits, a wire in haptic_core.v without _low; reading it keeps the high half
     TIME_HIGH = auto()  # the high half that was kept when this link last read a TIME_LOW
 

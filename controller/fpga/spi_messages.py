@@ -1,7 +1,7 @@
-"""spidev's ioctl: frames of two fixed buffers as messages, each frame under its own chip select.
+"""Arguments of spidev's SPI_IOC_MESSAGE ioctl: frames in two fixed buffers, each under its own chip select.
 
-Linux, include/uapi/linux/spi/spidev.h and drivers/spi/spidev.c. The kernel copies a message through a buffer of
-`bufsiz` bytes, in which each transfer begins at a multiple of ARCH_DMA_MINALIGN, and refuses what does not fit (errno 90).
+Linux, include/uapi/linux/spi/spidev.h and drivers/spi/spidev.c. The kernel copies a message through a buffer of `bufsiz` bytes,
+in which each transfer begins at a multiple of ARCH_DMA_MINALIGN, and refuses a message that does not fit (errno 90).
 """
 
 from __future__ import annotations
@@ -13,18 +13,30 @@ from collections.abc import Sequence
 from controller.errors import LinkError
 
 TRANSFER = struct.Struct("=QQIIHBBBBBB")  # tx, rx, length, speed, delay, bits, cs_change, tx_nbits, rx_nbits, word delay, pad
-TRANSFERS_MAX = 28  # in one message: fcntl.ioctl passes a request on by itself up to 1,024 bytes
+TRANSFERS_MAX = 28  # in one message: fcntl.ioctl copies at most 1,024 bytes of argument in place
 DMA_ALIGN_BYTES = 128  # ARCH_DMA_MINALIGN of arm64; 64 of most 32-bit ARM, 8 of x86
-PATTERNS_MAX = 64  # of lengths that are remembered
+PATTERNS_MAX = 64  # patterns of frame lengths that are remembered
 
 
 def message_request(transfers: int) -> int:
-    """SPI_IOC_MESSAGE(n): the ioctl's number for so many transfers."""
+    """Request number SPI_IOC_MESSAGE(n) for n transfers."""
     return 1 << 30 | transfers * TRANSFER.size << 16 | ord("k") << 8
 
 
 def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
-    """How many frames go into each message, so that each fits the kernel's buffer.
+    """Distribute frames over messages that each fit the kernel's buffer.
+
+    Parameters
+    ----------
+    lengths : sequence of int
+        Bytes of each frame.
+    bufsiz : int
+        spidev's buffer in bytes.
+
+    Returns
+    -------
+    list of int
+        Frames in each message.
 
     Raises
     ------
@@ -48,15 +60,15 @@ def split(lengths: Sequence[int], bufsiz: int) -> list[int]:
     return counts
 
 
-class Messages:
-    """The ioctl arguments for two buffers, made once for each pattern of lengths.
+class SpiMessages:
+    """ioctl arguments for two buffers, made once for each pattern of frame lengths.
 
     Parameters
     ----------
     sent, received : memoryview
-        Of writable memory that stays where it is; they are kept alive.
+        Writable buffers; kept alive, because the arguments hold their addresses.
     bufsiz : int
-        Of spidev, in bytes.
+        spidev's buffer in bytes.
     """
 
     def __init__(self, sent: memoryview, received: memoryview, bufsiz: int) -> None:
@@ -68,8 +80,18 @@ class Messages:
         self._bufsiz = bufsiz
         self._known: dict[tuple[int, ...], tuple[tuple[int, bytearray, int], ...]] = {}
 
-    def of(self, lengths: Sequence[int]) -> tuple[tuple[int, bytearray, int], ...]:
-        """(ioctl number, its transfers, bytes on the wire) of each message for frames back to back.
+    def for_lengths(self, lengths: Sequence[int]) -> tuple[tuple[int, bytearray, int], ...]:
+        """Messages for frames that lie back to back from 0 on.
+
+        Parameters
+        ----------
+        lengths : sequence of int
+            Bytes of each frame.
+
+        Returns
+        -------
+        tuple of (int, bytearray, int)
+            For each message the request number, the transfers as bytes, and the bytes on the wire.
 
         Raises
         ------
@@ -95,7 +117,7 @@ class Messages:
             array = bytearray(count * TRANSFER.size)
             begin = offset
             for number, length in enumerate(lengths[first : first + count]):
-                more = number < count - 1  # chip select rises behind every frame; with cs_change on the last it would stay low
+                more = number < count - 1  # chip select rises after every frame; with cs_change on the last one it would stay low
                 at = number * TRANSFER.size
                 TRANSFER.pack_into(array, at, self._tx + offset, self._rx + offset, length, 0, 0, 0, more, 0, 0, 0, 0)
                 offset += length

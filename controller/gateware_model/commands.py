@@ -42,7 +42,7 @@ def _zeros(kind: Kind) -> dict[Register, int]:
 
 
 @dataclass
-class Conversation:
+class LinkState:
     """What a link is told of itself alone."""
 
     result: Result = Result.OK
@@ -57,7 +57,7 @@ class Conversation:
 class Telemetry:
     """Everything that is only counted or noted."""
 
-    links: tuple[Conversation, Conversation] = field(default_factory=lambda: (Conversation(), Conversation()))  # by Port
+    links: tuple[LinkState, LinkState] = field(default_factory=lambda: (LinkState(), LinkState()))  # by Port
     counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.COUNTER))
     trigger_tick: int = 0
     emission_tick: int = 0
@@ -156,7 +156,7 @@ class Commands:
             self.gate.limits.activity(tick + 2, active=False)  # clamped once more on its way
         return result
 
-    def _read(self, tick: int, link: Conversation, address: int) -> Result:
+    def _read(self, tick: int, link: LinkState, address: int) -> Result:
         result, value = Result.OK, 0
         if address >= READ_MEMORY:
             slot, word = divmod(address - READ_MEMORY, 1024)
@@ -185,7 +185,7 @@ class Commands:
             return Result.BUSY, 0
         return Result.OK, plays[number].raw[word]
 
-    def _register(self, tick: int, link: Conversation, register: Register) -> int:
+    def _register(self, tick: int, link: LinkState, register: Register) -> int:
         value = self.registers.read(register)
         if value is not None:
             return value
@@ -217,7 +217,7 @@ class Commands:
             Register.DUTY_LEVEL: gate.limits.duty_level(tick),
         }[register]
 
-    def _control(self, link: Conversation, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
+    def _control(self, link: LinkState, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
         command, *key = words[:4]
         if command == Control.UNLOCK:
             if tuple(key) != (IDENTITY_MAGIC, PROTOCOL_VERSION, self.registers.parameters.build_hash):
@@ -319,7 +319,7 @@ class Commands:
         if sounding and player.end == tick + 1:
             player.finish(tick, self.registers.bit_ticks)
             self.gate.idle(tick + 1)
-            self.gate.limits.emission(tick + 1, sounding=False)
+            self.gate.limits.emission(tick + 1, playing=False)
             self.gate.limits.activity(tick + 1, active=False)
         settled_from = player.end + self.registers.bit_ticks - 1 if player.playing else player.free_from
         self.drop(tick)

@@ -32,7 +32,7 @@ class Frame(NamedTuple):
     payload: bytes = b""  # of a LOAD
 
 
-def judge(mosi: memoryview) -> Frame:
+def decode(mosi: memoryview) -> Frame:
     """Judge all bytes of one chip-select assertion."""
     size = len(mosi)
     sync_good = mosi[:2] == _SYNC_BYTES[:size]

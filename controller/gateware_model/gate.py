@@ -148,7 +148,7 @@ class OutputGate:
         self.pins.put_word(tick + 1, 0, hv=0)
         self.pins.cut_focus()
         self.limits.activity(tick + 1, active=False)
-        self.limits.emission(tick + 1, sounding=False)
+        self.limits.emission(tick + 1, playing=False)
 
     def clear(self, tick: int) -> None:
         """Forget the causes of a fault, but for those of a limit while it rests."""

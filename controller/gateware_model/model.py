@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER, Status, pack_status
+from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
 from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Register, Result, Start, State
+from controller.fpga.status import Status, pack_status
 from controller.gateware_model.commands import Commands
-from controller.gateware_model.decoder import Frame, judge
+from controller.gateware_model.decoder import Frame, decode
 from controller.gateware_model.gate import PIN_TICKS, Gate
 from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, Port, UartTiming, sck_rise_tick
 from controller.gateware_model.lines import Lines
@@ -140,7 +141,7 @@ class GatewareModel:
         self._put_the_uart_off()
         if not len(sent):
             return
-        frame = judge(sent)
+        frame = decode(sent)
         commands = self._commands
         busy, live = commands.landing_busy, commands.landing_live
         if frame.loaded_words:
@@ -403,7 +404,7 @@ class GatewareModel:
                 self._expect(_Event(tick + PIN_TICKS, _Kind.ENDED))
             player.finish(tick, self._registers.bit_ticks)
             self._gate.idle(tick + 1)
-            self._gate.limits.emission(tick + 1, sounding=False)
+            self._gate.limits.emission(tick + 1, playing=False)
             self._gate.limits.activity(tick + 1, active=False)
         if begins is not None:
             player.begin(begins, tick)
@@ -418,7 +419,7 @@ class GatewareModel:
         player.sound(tick, self._registers.bit_period)
         assert player.running
         self._telemetry.emission_tick = tick + DECISION_TICKS
-        gate.limits.emission(tick + 1, sounding=True)
+        gate.limits.emission(tick + 1, playing=True)
         gate.limits.activity(tick + 1, active=True)
         if not player.running.live:
             waveform = self._buffers.waveform(player.running.buffer)

@@ -17,7 +17,7 @@ from controller.fpga.registers import (
     Register,
     Result,
 )
-from controller.gateware_model.limits import LimitSettings
+from controller.gateware_model.limit_settings import LimitSettings
 
 _SETTINGS = (Kind.SETTING, Kind.MASK)
 

@@ -35,7 +35,7 @@ class SimulatedLink:
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float], gateware: Gateware) -> None:
         self.bytes_sent = 0
         self.wire_ns = 0
-        self.away_ns = 0
+        self.blocked_ns = 0
         self.clock_hz = settings.clock_hz
         self._now_s = now_s
         self._start_s = now_s()
@@ -59,7 +59,7 @@ class SimulatedLink:
         self._free_tick = tick
         self.bytes_sent += start
         self.wire_ns += round((tick - first) / self.clock_hz * 1e9)
-        self.away_ns += time.perf_counter_ns() - started_ns
+        self.blocked_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
         """Pulse the trigger pin, now or when the frames before it have gone."""
@@ -67,10 +67,10 @@ class SimulatedLink:
         tick = max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
         self.gateware.trigger(tick)
         self._free_tick = max(self._free_tick, tick)
-        self.away_ns += time.perf_counter_ns() - started_ns
+        self.blocked_ns += time.perf_counter_ns() - started_ns
         return self.time_s(tick)
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When the frames sent so far have gone and been judged."""
         return self.time_s(self._free_tick + TRIGGER_AFTER_TICKS)
 
@@ -93,12 +93,12 @@ class SimulatedLink:
         """Let the gateware live on to what it would do by itself."""
         started_ns = time.perf_counter_ns()
         self.gateware.advance(max(self._tick_now(), self._free_tick))
-        self.away_ns += time.perf_counter_ns() - started_ns
+        self.blocked_ns += time.perf_counter_ns() - started_ns
 
     @property
     def speed(self) -> float:
         """Time the gateware has been through, over the time it took to compute."""
-        return self.gateware.now / self.clock_hz / (self.away_ns * 1e-9)
+        return self.gateware.now / self.clock_hz / (self.blocked_ns * 1e-9)
 
     def take_capture(self) -> Capture:
         """What the pins did since the last call."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Result
-from controller.gateware_model.decoder import Frame, judge
+from controller.gateware_model.decoder import Frame, decode
 from controller.gateware_model.gateware import UartTiming
 
 BYTE_TO_PULSE_TICKS = 1  # from a byte's tick to what the COBS decoder says of it
@@ -91,7 +91,7 @@ class UartSide:
             return Frame(Result.BUSY)
         if not self._frame:
             return Frame(Result.BAD_SYNC)
-        frame = judge(memoryview(bytes(self._frame)))
+        frame = decode(memoryview(bytes(self._frame)))
         if partial and frame.refusal in (Result.OK, Result.BAD_CRC):
             return Frame(Result.BAD_LENGTH)
         return frame

@@ -14,22 +14,44 @@ at 7 mm), and both lose by it: such two take turns.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
-from controller.scene.finger_state import Emission, spot_emission
-from controller.scene.scene import Spot
+from controller.clocks import FpgaTime
+from controller.scene.emission import Emission
 
-MOST = 10  # foci of one waveform
-SAME_M = 2.5e-3
-APART_M = 9e-3
+MAX_FOCI = 10  # foci of one waveform
+MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place
+SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
+ENDLESS = 0  # repetitions: until they are replaced
 
 Emissions = tuple[Emission, ...]
 
 
-def together(due: Sequence[Emission], duration_s: float, most: int = MOST) -> tuple[Emissions, Emissions]:
+class Batch(NamedTuple):
+    """Emissions that are played as one waveform.
+
+    Attributes
+    ----------
+    emissions : sequence of Emission
+        One for each focus.
+    repetitions, period_s : int, float
+        By the FPGA, from start to start; repetitions may be ENDLESS.
+    at_s : FpgaTime or None
+        When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it
+        as soon as the plate is free.
+    """
+
+    emissions: Sequence[Emission]
+    repetitions: int = 1
+    period_s: float = 0.0
+    at_s: FpgaTime | None = None
+
+
+def select_batch(due: Sequence[Emission], duration_s: float, most: int = MAX_FOCI) -> tuple[Emissions, Emissions]:
     """Choose what is played next.
 
     The one that waits longest is played, always. If it may be composed, so is what else may, is due within T of it,
-    and is not in the way of one chosen before it: nearer than APART_M, unless within SAME_M and of its amplitude.
+    and is not in the way of one chosen before it: nearer than SEPARATION_M, unless within MERGE_RADIUS_M and of its amplitude.
 
     Parameters
     ----------
@@ -59,17 +81,9 @@ def together(due: Sequence[Emission], duration_s: float, most: int = MOST) -> tu
     return tuple(chosen), tuple(rest)
 
 
-def common_period_s(spots: Sequence[Spot]) -> float | None:
-    """Period in which the FPGA can repeat all spots as one waveform, without the host; None if they need turns."""
-    if not spots or len({(spot.rate_hz, spot.phase) for spot in spots}) > 1:
-        return None
-    _, rest = together([spot_emission(spot, 0.0, 0) for spot in spots], 0.0)
-    return None if rest else 1 / spots[0].rate_hz
-
-
 def _in_the_way(emission: Emission, chosen: Sequence[Emission]) -> bool:
     for other in chosen:
         apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
-        if apart_m2 < APART_M**2 and (apart_m2 > SAME_M**2 or emission.amplitude != other.amplitude):
+        if apart_m2 < SEPARATION_M**2 and (apart_m2 > MERGE_RADIUS_M**2 or emission.amplitude != other.amplitude):
             return True
     return False

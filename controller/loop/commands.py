@@ -7,7 +7,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from controller.board.panel_state import Condition
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 
 class Outcome(Enum):

@@ -10,10 +10,10 @@ from controller.board.board import Board
 from controller.board.panel_state import PanelState
 from controller.clocks import Clock
 from controller.errors import ControllerError, FaultError
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.metrics import Counters
 
 STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
@@ -28,7 +28,7 @@ class Outputs:
     board : Board
     clock : Clock
         The loop's clock.
-    time_base : TimeBase
+    clock_estimate : ClockEstimate
         Told of the FPGA's time with each heartbeat.
     counters : Counters
         Where outages are counted.
@@ -39,16 +39,15 @@ class Outputs:
         Armed, and the ramp is over: plays are taken.
     """
 
-    def __init__(self, session: Session, board: Board, clock: Clock, time_base: TimeBase, counters: Counters) -> None:
+    def __init__(self, session: Session, board: Board, clock: Clock, clock_estimate: ClockEstimate, counters: Counters) -> None:
         self.on = False
         self._session = session
         self._clock = clock
-        self._time_base = time_base
+        self._clock_estimate = clock_estimate
         self._counters = counters
         self._recovery = Recovery(session, board)
         self._off_since_s = clock.now_s()
-        self._stalls = 0
-        self._emissions_at_stall = 0
+        self._stalls = 0  # without an emission in between
 
     @property
     def state(self) -> PanelState:
@@ -105,14 +104,17 @@ class Outputs:
         self.on = False
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
-            self._stalls = self._stalls + 1 if self._counters.emissions == self._emissions_at_stall else 1
-            self._emissions_at_stall = self._counters.emissions
+            self._stalls += 1
             if self._stalls > STALLS_IN_A_ROW:
                 raise FaultError(f"{error} ({self._stalls} times in a row: the machine is too slow or too busy)") from error
         else:
             self._counters.outages += 1
             self._counters.outage = str(error)
         self._recovery.begin(error, now_s)
+
+    def emission_started(self) -> None:
+        """Take note that something was played: the host is fast enough for that."""
+        self._stalls = 0
 
     def disarm(self) -> float:
         """Have the outputs glide to 0 V; the time at which they are off."""
@@ -122,12 +124,12 @@ class Outputs:
         self.on = False
         self._off_since_s = now_s
         off_s = self._session.disarm()
-        self._recovery.rest(off_s)
+        self._recovery.disarmed(off_s)
         return off_s
 
     def _beat(self) -> None:
         before_s = self._clock.now_s()
         status = self._session.heartbeat()
-        sent_s = max(before_s, self._session.free_s())  # not later: what came back may have been read late
-        self._time_base.add(before_s, sent_s, status.timestamp_ticks)
+        sent_s = max(before_s, self._session.wire_free_s())  # not later: what came back may have been read late
+        self._clock_estimate.add(before_s, sent_s, status.timestamp_ticks)
         self._counters.heartbeats += 1

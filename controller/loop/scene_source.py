@@ -10,7 +10,7 @@ from controller.waveforms.selection import Selection
 
 
 @dataclass(frozen=True, slots=True)
-class Prepared:
+class PreparedScene:
     """Another scene and, if that has changed, the bank to play it from; or why there is none."""
 
     ticket: int
@@ -28,5 +28,5 @@ class SceneChange(Protocol):
     def fileno(self) -> int | None:
         """Readable when it is done; None while nothing is prepared."""
 
-    def take(self) -> Prepared | None:
+    def take(self) -> PreparedScene | None:
         """What was prepared; None while it is not done."""

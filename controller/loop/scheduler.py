@@ -1,29 +1,30 @@
 """What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
 
-All times are FPGA times (`fpga.time_base`). The scene decides what a finger feels; here it is kept until it
+All times are FPGA times but for those of `predict`. The scene decides what a finger feels; here it is kept until it
 plays. Whatever a command asked for gets exactly one outcome.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from controller.clocks import NEVER
+from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.errors import ConfigError
-from controller.loop.batching import common_period_s, together
+from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
+from controller.loop.spots import Spots
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission, FingerState, spot_emission
-from controller.scene.fingers import ROUNDING_S, anchored, ended, on_time, on_touch, start_effect, stopped, taken_over
-from controller.scene.scene import OUTSIDE, Scene, Spot
-from controller.touch.samples import TouchSample
+from controller.scene.emission import Emission
+from controller.scene.fingers import ActiveEffects
+from controller.scene.scene import OUTSIDE, Scene
+from controller.touch.source import TouchSample
 
-MOST_WAITING = 32  # commands; of more the oldest is skipped
-FORESEEN_M = 0.75e-3  # of a finger's way, should that take more than one report
-LEAST_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
-MOST_HELD_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
-SAME_PLACE_M = 1e-3  # commands for the same effect nearer than this are one
+MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
+PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than one report
+MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
+MAX_DEFERRAL_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
+COMMAND_MERGE_RADIUS_M = 1e-3  # commands for the same effect nearer than this are one
 
 Owner = int | str
 Confirmed = Callable[[int], bool]
@@ -31,7 +32,7 @@ Outcomes = Callable[[int, Outcome, float], None]
 """Told of a ticket, what became of it, and when (FPGA time)."""
 
 
-class Performance:
+class Scheduler:
     """Everything that is felt, between two moments.
 
     Parameters
@@ -50,39 +51,35 @@ class Performance:
 
     def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
         self.scene = scene
+        self.spots = Spots(scene.spots, FpgaTime(0.0))
         self._counters = counters
         self._confirmed = confirmed
         self._unconfirmed_most = unconfirmed_most
         self._outcomes = outcomes
-        self._states: dict[Owner, FingerState] = {}  # fingers by number, commands at a point by their owner
-        self._given: dict[int, int] = {}  # emissions of each finger so far
+        self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
+        self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
-        self._spots_start_s = 0.0
-        self._spot_beats: dict[Spot, int] = {}  # the next one of each
-        self.common_period_s: float | None = None  # of spots that the FPGA can repeat together
-        self._set_spots(0.0)
 
-    def touch(self, sample: TouchSample) -> None:
-        """A finger began, moved or was released."""
-        finger = sample.finger
-        before = self._states.get(finger)
-        state, emissions = on_touch(self.scene, before, sample)
-        if state is None:
-            self._unfelt(before, Outcome.SKIPPED, sample.time_s)
-            self._states.pop(finger, None)
+    def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
+        """A finger began, moved or was released, at a time that is `sample.time_s` in FPGA time."""
+        finger, x_m, y_m, _, contact, _ = sample
+        active = self._active.get(finger)
+        if not contact:
+            self._release(finger, active, time_s)
+            return
+        if active is None:
+            active = self._active[finger] = ActiveEffects(self.scene, finger, x_m, y_m)
+            emissions = active.press(time_s)
         else:
-            self._states[finger] = state
+            emissions = active.move(x_m, y_m, time_s)
         if emissions:
             self._add(emissions)
-        elif state is not None and state.region == OUTSIDE:
+        elif active.region == OUTSIDE:
             self._counters.skipped.outside_region += 1
-        elif state is not None:
+        else:
             self._counters.skipped.between_emissions += 1
-        if state is None:
-            self._lifted(finger, emissions, sample.time_s)
-            self._given.pop(finger, None)  # what it felt as it was lifted is counted too
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime) -> None:
         """A command plays an effect at a point, or for a finger.
 
         Raises
@@ -90,93 +87,75 @@ class Performance:
         ConfigError
             If there is no such effect, or no such finger.
         """
-        if finger is not None and finger not in self._states:
-            raise ConfigError(f"finger {finger} is not on the panel")
-        before = None if finger is None else self._states[finger]
-        owner: Owner = f"command {ticket}" if finger is None else finger
-        state, emissions = start_effect(
-            self.scene, before, effect, x_m=x_m, y_m=y_m, finger=finger, amplitude=amplitude, time_s=now_s, ticket=ticket
-        )
-        if not ended(state) or finger is not None:
-            self._states[owner] = state
-        if finger is None:
-            self._make_room(emissions)
+        if finger is not None:
+            if finger not in self._active:
+                raise ConfigError(f"finger {finger} is not on the panel")
+            self._add(self._active[finger].start(effect, amplitude, now_s, ticket))
+            return
+        active = ActiveEffects(self.scene, f"command {ticket}", x_m, y_m)
+        emissions = active.start(effect, amplitude, now_s, ticket)
+        if not active.ended:
+            self._active[active.owner] = active
+        self._make_room(emissions)
         self._add(emissions)
 
-    def advance(self, until_s: float) -> None:
+    def advance(self, until_s: FpgaTime) -> None:
         """Collect what becomes due by itself up to a time."""
         advanced = False
-        for owner, state in self._states.items():
-            if state.next_s <= until_s:
-                self._states[owner], emissions = on_time(self.scene, state, until_s)
-                self._add(emissions)
+        for active in self._active.values():
+            if active.next_s <= until_s:
+                self._add(active.advance(until_s))
                 advanced = True
         if advanced:
             self._drop_ended()
 
-    def add_spots(self, now_s: float, until_s: float) -> None:
+    def add_spots(self, now_s: FpgaTime, until_s: FpgaTime) -> None:
         """Collect the spots whose beat comes up to a time."""
-        for spot, beat in self._spot_beats.items():
-            emission = spot_emission(spot, self._spots_start_s, beat)
-            if emission.time_s <= until_s + ROUNDING_S:
-                self._add((emission,))
-                missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
-                self._spot_beats[spot] = beat + missed + 1
+        for emission in self.spots.due(now_s, until_s):
+            self._add((emission,))
 
-    def with_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
+    def join_spots(self, emissions: list[Emission], next_s: FpgaTime) -> list[Emission]:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
-        self.spots_from(next_s)
-        spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
-        played = list(together([*emissions, *spots], NEVER)[0])
+        self.spots.restart(next_s)
+        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
         self._counters.due += len(played) - len(emissions)
         return played
-
-    def spots_from(self, start_s: float) -> None:
-        """The spots' beat begins anew."""
-        self._spots_start_s = start_s
-        self._spot_beats = dict.fromkeys(self._spot_beats, 0)
 
     @property
     def due(self) -> bool:
         """Whether anything waits to be played."""
         return bool(self._due)
 
-    def held(self, now_s: float, until_s: float) -> bool:
+    def must_defer(self, now_s: FpgaTime, until_s: FpgaTime) -> bool:
         """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
 
-        What has waited for MOST_HELD_S is not held any longer: of trains so fast that nothing goes between their beats,
+        What has waited for MAX_DEFERRAL_S is not held any longer: of trains so fast that nothing goes between their beats,
         a beat is late then.
         """
         if self.next_s() > until_s:
             return False
         oldest = next(iter(self._due.values()))
-        return now_s - oldest.time_s < MOST_HELD_S and not any(emission.period_s for emission in self._due.values())
+        return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self._due.values())
 
-    def take(self, duration_s: float, now_s: float) -> list[Emission]:
+    def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
         """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
         if len(self._due) == 1:
             chosen = list(self._due.values())
             self._due.clear()
         else:
             due = tuple(self._due.values())
-            if not due[0].period_s and now_s - due[0].time_s < MOST_HELD_S:
+            if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S:
                 due = tuple(sorted(due, key=_has_no_beat))
-            first, rest = together(due, duration_s)
+            first, rest = select_batch(due, duration_s)
             chosen = list(first)
             self._due = {emission.owner: emission for emission in rest}
         return chosen
 
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When `advance` has something to do."""
-        return min([state.next_s for state in self._states.values()], default=NEVER)
+        return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
 
-    def next_spot_s(self) -> float:
-        """When the next spot's beat comes."""
-        return min(
-            [spot_emission(spot, self._spots_start_s, beat).time_s for spot, beat in self._spot_beats.items()], default=NEVER
-        )
-
-    def expected(
+    def predict(
         self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
     ) -> tuple[float, float, float] | None:
         """Where a moving finger will be played, and how strong, if one of its next reports will complete a spacing.
@@ -195,88 +174,95 @@ class Performance:
         after_s : float
             From a report to the focus.
         """
-        state = self._states.get(finger)
+        active = self._active.get(finger)
         here, then = place(finger, now_s), place(finger, now_s + report_s)
-        if state is None or here is None or then is None:
+        if active is None or here is None or then is None:
             return None
         step_m = math.dist(here, then)
-        if step_m < LEAST_STEP_M:
+        if step_m < MIN_STEP_M:
             return None
-        way_m, amplitude = state.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
-        if way_m > max(step_m, FORESEEN_M):
+        way_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
+        if way_m > max(step_m, PREFETCH_DISTANCE_M):
             return None
         focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
         return None if focus is None else (*focus, amplitude)
 
-    def started(self, emissions: list[Emission], start_s: float) -> None:
+    def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
         """These were started; trains that began with them keep their beat from there."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
-            if emission.period_s and emission.beat == 0 and emission.owner in self._states:
-                anchored(self._states[emission.owner], emission, start_s)
+            if emission.period_s and emission.beat == 0 and emission.owner in self._active:
+                self._active[emission.owner].shift(emission.time_s, start_s)
 
-    def left_out(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
+    def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: FpgaTime) -> None:
         """These will not be played."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
-    def _lifted(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
+    def _release(self, finger: int, active: ActiveEffects | None, now_s: FpgaTime) -> None:
+        """A finger was lifted."""
+        last: tuple[Emission, ...] = ()
+        if active is not None:
+            last = active.release(now_s)
+            self._end_commands(active, Outcome.SKIPPED, now_s)
+            del self._active[finger]
+        self._add(last)
+        self._discard_waiting_of(finger, last, now_s)
+        self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
+
+    def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
         """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
         waiting = self._due.get(finger)
         if waiting is not None and waiting not in last:
             del self._due[finger]
             self._counters.skipped.lifted += 1
-            self.left_out([waiting], Outcome.SKIPPED, now_s)
+            self.discarded([waiting], Outcome.SKIPPED, now_s)
 
-    def _unfelt(self, state: FingerState | None, outcome: Outcome, now_s: float) -> None:
+    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: FpgaTime) -> None:
         """Commands that end before their first emission."""
-        if state is not None:
-            for ticket, given_s in state.unfelt:
-                self._outcomes(ticket, outcome, now_s - given_s)
+        for ticket, given_s in active.unplayed_commands:
+            self._outcomes(ticket, outcome, now_s - given_s)
 
-    def interrupted(self, now_s: float) -> None:
+    def reset(self, now_s: FpgaTime) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
         waiting = list(self._due.values())
         self._due.clear()
         self._counters.skipped.outputs_off += len(waiting)
-        self.left_out(waiting, Outcome.REFUSED, now_s)
-        for state in self._states.values():
-            self._unfelt(state, Outcome.REFUSED, now_s)
-        self._states = {owner: stopped(state) for owner, state in self._states.items() if state.finger is not None}
-        self.spots_from(now_s)
+        self.discarded(waiting, Outcome.REFUSED, now_s)
+        for active in self._active.values():
+            self._end_commands(active, Outcome.REFUSED, now_s)
+            active.end_trains()
+        self._active = {owner: active for owner, active in self._active.items() if active.finger is not None}
+        self.spots.restart(now_s)
 
-    def swap(self, scene: Scene, now_s: float) -> None:
+    def change_scene(self, scene: Scene, now_s: FpgaTime) -> None:
         """Go on with another scene: fingers that are down feel it from their next move on."""
         waiting = list(self._due.values())
         self._due.clear()
         self._counters.skipped.scene_changed += len(waiting)
-        self.left_out(waiting, Outcome.SKIPPED, now_s)
+        self.discarded(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
-        self._states = {owner: taken_over(scene, state) for owner, state in self._states.items()}
-        self._set_spots(now_s)
-
-    def _set_spots(self, now_s: float) -> None:
-        self.common_period_s = common_period_s(self.scene.spots)
-        self._spots_start_s = now_s
-        self._spot_beats = dict.fromkeys(self.scene.spots, 0)
+        for active in self._active.values():
+            active.change_scene(scene)
+        self.spots = Spots(scene.spots, now_s)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         self._counters.due += len(emissions)
         for emission in emissions:
             finger = emission.finger
             if finger is not None:
-                given = self._given.get(finger, 0) + 1
+                given = self._emission_counts.get(finger, 0) + 1
                 if given > self._unconfirmed_most and not self._confirmed(finger):
                     self._counters.skipped.unconfirmed += 1
-                    self.left_out([emission], Outcome.SKIPPED, emission.time_s)
+                    self.discarded([emission], Outcome.SKIPPED, emission.time_s)
                     continue
-                self._given[finger] = given
+                self._emission_counts[finger] = given
             before = self._due.get(emission.owner)
             if before is not None:
                 self._counters.skipped.merged += 1
-                self.left_out([before], Outcome.MERGED, emission.time_s)
+                self.discarded([before], Outcome.MERGED, emission.time_s)
             self._due[emission.owner] = emission
 
     def _make_room(self, emissions: tuple[Emission, ...]) -> None:
@@ -284,22 +270,21 @@ class Performance:
         for new in emissions:
             waiting = [e for owner, e in self._due.items() if isinstance(owner, str) and e.ticket]
             for old in waiting:
-                if old.region == new.region and math.dist((old.x_m, old.y_m), (new.x_m, new.y_m)) < SAME_PLACE_M:
+                if old.region == new.region and math.dist((old.x_m, old.y_m), (new.x_m, new.y_m)) < COMMAND_MERGE_RADIUS_M:
                     del self._due[old.owner]
                     self._counters.skipped.merged += 1
-                    self.left_out([old], Outcome.MERGED, new.time_s)
+                    self.discarded([old], Outcome.MERGED, new.time_s)
                     break
             else:
-                if len(waiting) >= MOST_WAITING:
+                if len(waiting) >= MAX_WAITING_COMMANDS:
                     oldest = min(waiting, key=lambda e: e.time_s)
                     del self._due[oldest.owner]
                     self._counters.skipped.no_room += 1
-                    self.left_out([oldest], Outcome.SKIPPED, new.time_s)
+                    self.discarded([oldest], Outcome.SKIPPED, new.time_s)
 
     def _drop_ended(self) -> None:
-        over = [owner for owner, state in self._states.items() if isinstance(owner, str) and ended(state)]
-        for owner in over:
-            del self._states[owner]
+        for owner in [owner for owner, active in self._active.items() if active.finger is None and active.ended]:
+            del self._active[owner]
 
 
 def _has_no_beat(emission: Emission) -> bool:

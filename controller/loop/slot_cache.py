@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 
 from controller.waveforms.selection import NEAR_M, Key
 
-Lone = tuple[float, float, int]  # x and y in m, amplitude in steps below full
+SingleFocus = tuple[float, float, int]  # x and y in m, amplitude in steps below full
 
-FEWEST_FREE = 2  # slots that are never pinned: one sounds, one is being filled
+MIN_UNPINNED = 2  # slots that are never pinned: one sounds, one is being filled
 
 
 class SlotCache:
@@ -21,7 +21,7 @@ class SlotCache:
     ----------
     slots : int
         Of the FPGA.
-    lone : callable
+    single_focus : callable
         Place of the one focus of a key, x and y in m, and its amplitude; None where there are several.
     near_m : float
         What is resident for a place at most this far away serves as well, if it is as strong.
@@ -31,13 +31,13 @@ class SlotCache:
     slots : int
     """
 
-    def __init__(self, slots: int, lone: Callable[[Key], Lone | None], near_m: float = NEAR_M) -> None:
+    def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = NEAR_M) -> None:
         self.slots = slots
-        self._lone = lone
+        self._single_focus = single_focus
         self._near_m2 = near_m**2
         self._held: OrderedDict[int, Key | None] = OrderedDict()  # every slot, always; None: holds nothing
         self._slot_of: dict[Key, int] = {}
-        self._lone_of: dict[int, tuple[Key, Lone]] = {}  # what a slot holds, if that is one focus
+        self._single_focus_of: dict[int, tuple[Key, SingleFocus]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
         self.forget()
 
@@ -45,11 +45,11 @@ class SlotCache:
         """Key under which a waveform that serves is resident; None: it has to be uploaded."""
         if key in self._slot_of:
             return key
-        wanted = self._lone(key)
+        wanted = self._single_focus(key)
         if wanted is None:
             return None
         x_m, y_m, step = wanted
-        for resident, (there_x_m, there_y_m, there_step) in self._lone_of.values():
+        for resident, (there_x_m, there_y_m, there_step) in self._single_focus_of.values():
             if (x_m - there_x_m) ** 2 + (y_m - there_y_m) ** 2 <= self._near_m2 and step == there_step:
                 return resident
         return None
@@ -89,27 +89,27 @@ class SlotCache:
         self._held[slot] = key
         self._held.move_to_end(slot)
         self._slot_of[key] = slot
-        lone = self._lone(key)
-        if lone is not None:
-            self._lone_of[slot] = key, lone
+        single_focus = self._single_focus(key)
+        if single_focus is not None:
+            self._single_focus_of[slot] = key, single_focus
 
     def drop(self, slot: int) -> None:
         """A slot holds nothing that could be played; it is the next to be taken."""
         key = self._held[slot]
         if key is not None:
             del self._slot_of[key]
-            self._lone_of.pop(slot, None)
+            self._single_focus_of.pop(slot, None)
             self._held[slot] = None
         self._held.move_to_end(slot, last=False)
 
     def pin(self, keys: Iterable[Key]) -> None:
         """Waveforms that stay once they are resident: the first ones, as long as enough slots are left for others."""
-        self._pinned = set(list(keys)[: max(self.slots - FEWEST_FREE, 0)])
+        self._pinned = set(list(keys)[: max(self.slots - MIN_UNPINNED, 0)])
 
     def forget(self) -> None:
         """Take it that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
-        self._lone_of.clear()
+        self._single_focus_of.clear()
         self._held.clear()
         self._held.update(dict.fromkeys(range(self.slots)))
 

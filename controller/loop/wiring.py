@@ -9,14 +9,16 @@ from typing import Any
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import Clock
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.loop.commands import CommandSource
+from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
+from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback, Played
 from controller.loop.scene_source import SceneChange
-from controller.loop.scheduler import Performance
+from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.scene.scene import Scene
 from controller.touch.source import TrackedTouch
@@ -67,15 +69,14 @@ def assemble(
     """
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
-    time_base = TimeBase(board.link.clock_hz)
+    clock_estimate = ClockEstimate(board.link.clock_hz)
     playback = Playback(
         session,
         selection,
-        time_base,
+        clock_estimate,
+        Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty),
         source.place,
         slots=board.link.slots if slots is None else slots,
-        duration_s=board.waveform.duration_s,
-        max_duty=board.limits.max_duty if max_duty is None else max_duty,
         upload_s=board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
         command_s=board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
         counters=counters,
@@ -86,8 +87,8 @@ def assemble(
     def outcomes(ticket: int, *what: Any) -> None:
         running.outcome(ticket, *what)
 
-    performance = Performance(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
-    running = EventLoop(
-        board, clock, session, source, performance, playback, time_base, counters, commands=commands, change=change, **loop
-    )
+    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
+    parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
+    running = EventLoop(board, *parts, commands=commands, change=change, **loop)
     return Assembly(running, counters, selection)

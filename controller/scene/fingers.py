@@ -1,181 +1,263 @@
-"""What the panel feels like: touch samples, time and commands in, emissions with their times out.
+"""What a finger feels: touch samples, time and commands in, emissions out.
 
-A finger belongs to the first region of the file that contains it. On each occasion its effects begin:
+A finger belongs to the first region of the file that contains it. Its effects begin on these occasions (`when`):
 
-- `press`, `release`: the finger is put down, or lifted, in the region. A finger that slides in was not pressed there.
+- `press`, `release`: the finger is put down in the region, or lifted there. A finger that slides in was not pressed there.
 - `enter`, `leave`: a finger that is down slides over the region's border.
-- `move`: it goes `spacing_mm` of way inside, or crosses a fixed line. Both count from the first report inside. A
-  report that completes several gives one emission (the time between has passed).
+- `move`: the finger has travelled `spacing_mm` inside the region, or crosses a grid line. Both count from the first report
+  inside. A report that completes several gives one emission: the time between has passed.
 - `always`: a `Spot`, without any finger; the loop plays it.
-- `command`: `start_effect`, for a finger or at a point.
+- `command`: `ActiveEffects.start`, for a finger or at a point.
 
-A train begins at its occasion and goes where its finger goes. It ends after its last beat, when the finger is
-lifted and, unless it began by `leave` or by a command, when the finger leaves the region. What one finger is to
-feel at one report is one emission, of the largest amplitude.
-
-All is pure but for `FingerState`, which belongs to its caller and is changed in place: a new one for each report
-would cost as much as all the rest.
+A train begins on its occasion and follows its finger. It ends after its last beat, when the finger is lifted and, unless it
+began on `leave` or by a command, when the finger leaves the region. What one finger feels at one report is one emission, of
+the largest amplitude.
 """
 
 from __future__ import annotations
 
 import math
 
+from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
-from controller.scene.finger_state import COMMAND, Emission, FingerState
+from controller.scene.emission import Emission
 from controller.scene.scene import OUTSIDE, Scene
-from controller.scene.trains import Running, Train
-from controller.touch.samples import TouchSample
+from controller.scene.spacings import DistanceProgress, GridProgress
+from controller.scene.trains import NO_BEAT, ActiveTrain, Train
 
-ROUNDING_S = 1e-9
+NO_CROSSING = (math.inf, 0.0)
+COMMAND = -1  # in place of a region, for a train that a command started
 
 
 class UnknownEffect(ConfigError):
     """A command names an effect that it cannot play."""
 
 
-def on_touch(scene: Scene, state: FingerState | None, sample: TouchSample) -> tuple[FingerState | None, tuple[Emission, ...]]:
-    """A finger began (`state` None), moved or was released.
+class ActiveEffects:
+    """Effects that one finger, or one command at a point, has active; every method changes it in place.
 
-    Returns
-    -------
-    state : FingerState or None
-        The same one, changed, for this finger's next sample; None once it is released.
-    emissions : tuple of Emission
-        Due now, at the finger's place: at most one.
+    Each finger has one from its first sample to its last: a new object for each sample would cost as much as all the rest.
+
+    Parameters
+    ----------
+    scene : Scene
+        What the effects are taken from; `change_scene` takes another.
+    owner : int or str
+        Number of the finger, or name of the command.
+    x_m, y_m : float
+        Place on the plate.
+
+    Attributes
+    ----------
+    finger : int or None
+        None for a command at a point.
+    region : int
+        Index in the scene, or OUTSIDE.
+    next_s : float
+        When the next beat of a train is due; inf: no train is active.
     """
-    finger, x_m, y_m, time_s, contact, _ = sample
-    if not contact:
-        if state is None or state.region == OUTSIDE:
-            return None, ()
-        area = scene.areas[state.region]
-        return None, _one(_begin(scene, state, area.release, state.region, time_s, bound=True, best=None)) if area.release else ()
-    index = scene.region_at(x_m, y_m)
-    if state is None:
-        state = FingerState(finger, x_m, y_m)
+
+    __slots__ = ("_progress", "_scene", "_trains", "finger", "next_s", "owner", "region", "x_m", "y_m")
+
+    def __init__(self, scene: Scene, owner: int | str, x_m: float, y_m: float) -> None:
+        self._scene = scene
+        self.owner = owner
+        self.finger = owner if isinstance(owner, int) else None
+        self.x_m = x_m
+        self.y_m = y_m
+        self.region = OUTSIDE
+        self.next_s = FPGA_NEVER
+        self._trains: list[ActiveTrain] = []
+        self._progress: tuple[DistanceProgress | GridProgress, ...] = ()
+
+    @property
+    def ended(self) -> bool:
+        """Whether no train is active: the effects of a command are over then."""
+        return self.next_s == FPGA_NEVER
+
+    @property
+    def unplayed_commands(self) -> tuple[tuple[int, FpgaTime], ...]:
+        """Commands without an emission so far: ticket, and time of the command in s."""
+        return tuple([(train.ticket, train.first_s - train.train.first_s) for train in self._trains if train.ticket])
+
+    def press(self, time_s: FpgaTime) -> tuple[Emission, ...]:
+        """The finger is put down at its place.
+
+        Returns
+        -------
+        tuple of Emission
+            Due now: at most one, as for every touch sample.
+        """
+        index = self._scene.region_at(self.x_m, self.y_m)
         if index == OUTSIDE:
-            return state, ()
-        state.come_into(scene, index)
-        press = scene.areas[index].press
-        return state, _one(_begin(scene, state, press, index, time_s, bound=True, best=None)) if press else ()
-    state.x_m, state.y_m = x_m, y_m
-    if index == state.region:
-        amplitude = state.moved()
-        if not amplitude:
-            return state, ()
-        area = scene.areas[index]
-        return state, (Emission(time_s, x_m, y_m, finger, area.name, amplitude, finger, alternate=area.alternate),)
-    left, emission = state.region, None
-    state.come_into(scene, index)
-    if left != OUTSIDE:
-        emission = _begin(scene, state, scene.areas[left].leave, left, time_s, bound=False, best=None)
-    if index != OUTSIDE:
-        emission = _begin(scene, state, scene.areas[index].enter, index, time_s, bound=True, best=emission)
-    return state, _one(emission)
+            return ()
+        self._enter(index)
+        trains = self._scene.regions[index].press
+        return _at_most_one(self._begin(trains, index, time_s, ends_on_leave=True)) if trains else ()
+
+    def move(self, x_m: float, y_m: float, time_s: FpgaTime) -> tuple[Emission, ...]:
+        """The finger that is down moves to another place."""
+        scene = self._scene
+        index = scene.region_at(x_m, y_m)
+        self.x_m, self.y_m = x_m, y_m
+        left = self.region
+        if index == left:
+            amplitude = self._spacing_amplitude()
+            if not amplitude:
+                return ()
+            inside = scene.regions[index]
+            return (Emission(time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, alternate=inside.alternate),)
+        self._enter(index)
+        emission = None
+        if left != OUTSIDE:
+            emission = self._begin(scene.regions[left].leave, left, time_s, ends_on_leave=False)
+        if index != OUTSIDE:
+            emission = self._begin(scene.regions[index].enter, index, time_s, ends_on_leave=True, strongest=emission)
+        return _at_most_one(emission)
+
+    def release(self, time_s: FpgaTime) -> tuple[Emission, ...]:
+        """The finger is lifted from its place; this object is not used any more."""
+        if self.region == OUTSIDE:
+            return ()
+        trains = self._scene.regions[self.region].release
+        return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
+
+    def start(self, effect: str, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
+        """A command plays an effect here.
+
+        Parameters
+        ----------
+        effect : str
+        amplitude : float
+            0.25 to 1, times the effect's own; a product below 0.25 is played at 0.25.
+        ticket : int
+            Returned on the first emission.
+
+        Returns
+        -------
+        tuple of Emission
+            Due now.
+
+        Raises
+        ------
+        UnknownEffect
+            If there is no effect of this name, or only a moving finger or a spot can have it.
+        """
+        train = self._scene.effects.get(effect)
+        if train is None:
+            playable = ", ".join(sorted(self._scene.effects))
+            raise UnknownEffect(f"no effect {effect!r} that a command can play; there are: {playable}")
+        self._add(ActiveTrain(train, time_s, COMMAND, ends_on_leave=False, gain=amplitude, effect=effect, ticket=ticket))
+        return self.advance(time_s)
+
+    def advance(self, until_s: FpgaTime) -> tuple[Emission, ...]:
+        """Take the beats of trains that are due up to a time.
+
+        Returns
+        -------
+        tuple of Emission
+            In order of time. Of several missed beats of one train only the last, with its own time: the others cannot be
+            played any more, and the train keeps its beat.
+        """
+        if self.next_s > until_s:
+            return ()
+        emissions: list[Emission] = []
+        for train in self._trains:
+            emission = self._beat(train, until_s)
+            if emission is not None:
+                emissions.append(emission)
+        self._set_trains([train for train in self._trains if not train.over])
+        if len(emissions) > 1:
+            emissions.sort(key=_time_s)
+        return tuple(emissions)
+
+    def shift(self, first_s: FpgaTime, start_s: FpgaTime) -> None:
+        """Shift trains whose beat 0 was due at `first_s` so that it falls on the actual start `start_s`."""
+        for train in self._trains:
+            if train.first_s == first_s:
+                train.first_s = start_s
+        self._set_trains(self._trains)
+
+    def end_trains(self) -> None:
+        """End all trains, since the outputs went off; the finger's progress to its next spacing stays."""
+        self._set_trains([])
+
+    def change_scene(self, scene: Scene) -> None:
+        """Go on in another scene: trains of regions end, those of commands go on."""
+        self._scene = scene
+        self._set_trains([train for train in self._trains if train.region == COMMAND])
+        self._enter(OUTSIDE if self.finger is None else scene.region_at(self.x_m, self.y_m))
+
+    def next_crossing(self, x: float, y: float) -> tuple[float, float]:
+        """Distance in m to the next emission of a spacing, and its amplitude, if the finger moves along the unit vector (x, y)."""
+        return min(
+            [(progress.remaining_m(self.x_m, self.y_m, x, y), progress.amplitude) for progress in self._progress],
+            default=NO_CROSSING,
+        )
+
+    def _enter(self, region: int) -> None:
+        """Be in another region: trains that were bound to the one before end, spacings begin anew."""
+        self.region = region
+        spacings = self._scene.regions[region].spacings if region != OUTSIDE else ()
+        self._progress = tuple([spacing.begin(self.x_m, self.y_m) for spacing in spacings])
+        if self._trains:
+            self._set_trains([train for train in self._trains if not train.ends_on_leave])
+
+    def _spacing_amplitude(self) -> float:
+        """Largest amplitude of the spacings that the finger's new place completes; 0: none."""
+        amplitude = 0.0
+        for progress in self._progress:
+            if progress.crossed(self.x_m, self.y_m) and progress.amplitude > amplitude:
+                amplitude = progress.amplitude
+        return amplitude
+
+    def _begin(
+        self, trains: tuple[Train, ...], region: int, time_s: FpgaTime, *, ends_on_leave: bool, strongest: Emission | None = None
+    ) -> Emission | None:
+        """Begin trains of a region; return the strongest of the emissions that are due at once and of one found before."""
+        for train in trains:
+            active = ActiveTrain(train, time_s, region, ends_on_leave=ends_on_leave)
+            first = self._beat(active, time_s)
+            if not active.over:
+                self._add(active)
+            if first is not None:
+                strongest = first if strongest is None else _strongest(strongest, first)
+        return strongest
+
+    def _beat(self, train: ActiveTrain, until_s: FpgaTime) -> Emission | None:
+        """Last beat of one train that is due up to a time and not silent."""
+        beat, amplitude = train.take(until_s)
+        if beat == NO_BEAT:
+            return None
+        name, alternate = train.effect, False
+        if train.region != COMMAND:
+            region = self._scene.regions[train.region]
+            name, alternate = region.name, region.alternate
+        period_s, ticket = train.train.period_s, train.ticket
+        train.ticket = 0
+        time_s = train.first_s + beat * period_s
+        return Emission(time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, beat, period_s, alternate)
+
+    def _add(self, train: ActiveTrain) -> None:
+        self._trains.append(train)
+        self.next_s = min(self.next_s, train.next_s)
+
+    def _set_trains(self, trains: list[ActiveTrain]) -> None:
+        self._trains = trains
+        self.next_s = min([train.next_s for train in trains], default=FPGA_NEVER)
 
 
-def next_time_s(state: FingerState) -> float | None:
-    """When `on_time` has something to do for a finger or command; None: not before its next sample."""
-    return None if state.next_s == math.inf else state.next_s
-
-
-def on_time(scene: Scene, state: FingerState, until_s: float) -> tuple[FingerState, tuple[Emission, ...]]:
-    """Time comes to `until_s`: the beats of trains that are due up to then, in order of time.
-
-    Of several missed beats of one train the last is given, with its own time: the others cannot be played any
-    more, and the train keeps its beat.
-    """
-    if state.next_s > until_s:
-        return state, ()
-    return state, state.take(scene, until_s)
-
-
-def start_effect(
-    scene: Scene,
-    state: FingerState | None,
-    name: str,
-    *,
-    x_m: float,
-    y_m: float,
-    finger: int | None,
-    amplitude: float,
-    time_s: float,
-    ticket: int,
-) -> tuple[FingerState, tuple[Emission, ...]]:
-    """A command plays an effect: for a finger, whose state is given, or at a point, which gets a state of its own.
-
-    Parameters
-    ----------
-    amplitude : float
-        0.25 to 1, times the effect's own; what comes below 0.25 is played at 0.25.
-    ticket : int
-        Given back on the first emission.
-
-    Raises
-    ------
-    UnknownEffect
-        If there is no effect of this name, or it is one that only a moving finger or a spot has.
-    """
-    train = scene.effects.get(name)
-    if train is None:
-        raise UnknownEffect(f"no effect {name!r} that a command can play; there are: {', '.join(sorted(scene.effects))}")
-    if state is None:
-        state = FingerState(finger, x_m, y_m, owner=f"command {ticket}")
-    state.add(Running(train, time_s, COMMAND, bound=False, share=amplitude, effect=name, ticket=ticket))
-    return on_time(scene, state, time_s)
-
-
-def ended(state: FingerState) -> bool:
-    """Whether no train is under way any more: a command's state may go then."""
-    return state.next_s == math.inf
-
-
-def anchored(state: FingerState, first: Emission, start_s: float) -> FingerState:
-    """The trains that began with an emission keep their spacing from when it began to play, not from when it was due.
-
-    Parameters
-    ----------
-    first : Emission
-        With beat 0 of a train.
-    """
-    state.anchor(first.time_s, start_s)
-    return state
-
-
-def stopped(state: FingerState) -> FingerState:
-    """The outputs went off: all trains are over. The finger is where it was, and feels its next move."""
-    state.end_all()
-    return state
-
-
-def taken_over(scene: Scene, state: FingerState) -> FingerState:
-    """State of a finger that is down while another scene takes over: trains of regions end, those of commands go on."""
-    state.keep_commands()
-    state.come_into(scene, scene.region_at(state.x_m, state.y_m) if state.finger is not None else OUTSIDE)
-    return state
-
-
-def _begin(
-    scene: Scene, state: FingerState, trains: tuple[Train, ...], area: int, time_s: float, *, bound: bool, best: Emission | None
-) -> Emission | None:
-    """Trains of a region begin; the strongest of what is due at once, and of what was found before."""
-    for train in trains:
-        running = Running(train, time_s, area, bound=bound)
-        first = state.beat(scene, running, time_s)
-        if not running.over:
-            state.add(running)
-        if first is not None:
-            best = first if best is None else _together(best, first)
-    return best
-
-
-def _together(one: Emission, other: Emission) -> Emission:
-    """What two effects want of one finger at once: the stronger, in the beat of the train that has one."""
+def _strongest(one: Emission, other: Emission) -> Emission:
+    """The stronger of two emissions for one finger at one time, with the beat of the train that has one."""
     strong, weak = (one, other) if one.amplitude >= other.amplitude else (other, one)
     if strong.period_s == 0.0 and weak.period_s:
         strong = strong._replace(beat=weak.beat, period_s=weak.period_s)
     return strong._replace(alternate=True) if weak.alternate else strong
 
 
-def _one(emission: Emission | None) -> tuple[Emission, ...]:
+def _at_most_one(emission: Emission | None) -> tuple[Emission, ...]:
     return () if emission is None else (emission,)
+
+
+def _time_s(emission: Emission) -> FpgaTime:
+    return emission.time_s

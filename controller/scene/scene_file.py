@@ -12,19 +12,10 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from controller.board.board import Board
-from controller.board.records import Positive, Record, load_toml
+from controller.board.records import PlaceMm, Record, SizeMm, load_toml
 from controller.errors import ConfigError
-from controller.scene.effects import (
-    ROUNDING,
-    WEAKEST,
-    Amplitude,
-    Effects,
-    EffectTable,
-    Tables,
-    highest_rate_hz,
-    known_effects,
-    resolved,
-)
+from controller.scene.effects import MIN_AMPLITUDE, ROUNDING, Amplitude, EffectTable
+from controller.scene.library import Effects, Tables, highest_rate_hz, known_effects, resolved
 from controller.scene.shapes import Circle, Point, Polygon, Rectangle
 from controller.scene.trains import silent, train_of
 
@@ -44,24 +35,24 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
 class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
     """A rectangle from its corner of smallest x and y."""
 
-    x_mm: float
-    y_mm: float
-    width_mm: Positive
-    height_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    width_mm: SizeMm
+    height_mm: SizeMm
 
 
 class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
     """A disc around its centre."""
 
-    x_mm: float
-    y_mm: float
-    radius_mm: Positive
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    radius_mm: SizeMm
 
 
 class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
     """A polygon by its corners."""
 
-    corners_mm: Annotated[tuple[tuple[float, float], ...], Meta(min_length=3, max_length=1000)]
+    corners_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(min_length=3, max_length=1000)]
 
     def __post_init__(self) -> None:
         crossing = Polygon(self.corners_mm).crossing()
@@ -74,28 +65,28 @@ class PlateTable(RegionTable, frozen=True, kw_only=True, tag="plate"):
     """The whole plate."""
 
 
-Region = RectangleTable | CircleTable | PolygonTable | PlateTable
+AnyRegionTable = RectangleTable | CircleTable | PolygonTable | PlateTable
 
 
 class SceneTable(Record, frozen=True):
     """The whole file."""
 
-    regions: Annotated[tuple[Region, ...], Meta(min_length=1)]
+    regions: Annotated[tuple[AnyRegionTable, ...], Meta(min_length=1)]
     effects: Tables = msgspec.field(default_factory=dict)
 
 
-class RegionRead(NamedTuple):
+class CheckedRegion(NamedTuple):
     """A region with its shape in metres and its effects as they are meant."""
 
-    table: Region
+    table: AnyRegionTable
     shape: Shape
     effects: tuple[EffectTable, ...]
 
 
-class SceneRead(NamedTuple):
+class CheckedScene(NamedTuple):
     """A scene as it was read and checked: regions in the file's order, and the effects that a command can play."""
 
-    regions: tuple[RegionRead, ...]
+    regions: tuple[CheckedRegion, ...]
     playable: Effects
 
 
@@ -118,7 +109,7 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
     raise ConfigError(f"scene {name!r} not found; board {board.name!r} has: {', '.join(known) or 'none'} (or a path)")
 
 
-def read_scene(file: Path, board: Board) -> SceneRead:
+def read_scene(file: Path, board: Board) -> CheckedScene:
     """Read and check a scene.toml.
 
     Raises
@@ -134,7 +125,7 @@ def read_scene(file: Path, board: Board) -> SceneRead:
     plate = Rectangle(0.0, 0.0, board.plate.length_m, board.plate.width_m)
     numbers: dict[str, int] = {}  # of the regions by their names
     bounds = np.empty((len(scene.regions), 4))
-    found: list[RegionRead] = []
+    found: list[CheckedRegion] = []
     for index, region in enumerate(scene.regions):
         key = f"{file}: regions[{index}]"
         if region.name in numbers:
@@ -150,8 +141,8 @@ def read_scene(file: Path, board: Board) -> SceneRead:
         _check_together(key, region, effects, board)
         if any("always" not in effect.occasions for effect in effects):
             _check_not_hidden(key, region, shape, found, bounds[:index])
-        found.append(RegionRead(region, shape, effects))
-    return SceneRead(tuple(found), playable)
+        found.append(CheckedRegion(region, shape, effects))
+    return CheckedScene(tuple(found), playable)
 
 
 def spot_at(effect: EffectTable, shape: Shape) -> Point:
@@ -160,7 +151,7 @@ def spot_at(effect: EffectTable, shape: Shape) -> Point:
     return x_m if effect.x_mm is None else effect.x_mm * 1e-3, y_m if effect.y_mm is None else effect.y_mm * 1e-3
 
 
-def _shape(region: Region, plate: Rectangle) -> Shape:
+def _shape(region: AnyRegionTable, plate: Rectangle) -> Shape:
     match region:
         case RectangleTable():
             x_m, y_m = region.x_mm * 1e-3, region.y_mm * 1e-3
@@ -173,7 +164,7 @@ def _shape(region: Region, plate: Rectangle) -> Shape:
             return plate
 
 
-def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], board: Board) -> None:
+def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
     """What the effects of one region say together."""
     for number, effect in enumerate(effects):
         at = f"{key}.effects[{number}]"
@@ -183,10 +174,10 @@ def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], 
             raise ConfigError(f'{at} has when = "command": an application plays it, no region does; keep it in [effects]')
         if "always" in effect.occasions and any("always" in other.occasions for other in effects[:number]):
             raise ConfigError(f"{at}: region {region.name!r} has a spot already; give each spot a region")
-        if effect.strength * region.amplitude < WEAKEST * (1 - ROUNDING):
+        if effect.strength * region.amplitude < MIN_AMPLITUDE * (1 - ROUNDING):
             raise ConfigError(
                 f"{at}: amplitude {effect.strength:g} in a region of amplitude {region.amplitude:g} is"
-                f" {effect.strength * region.amplitude:.3g}, below {WEAKEST:g}, the weakest that the plate plays"
+                f" {effect.strength * region.amplitude:.3g}, below {MIN_AMPLITUDE:g}, the weakest that the plate plays"
             )
         if silent(train_of(effect)):
             raise ConfigError(f"{at}.envelope is silent at every emission of the train")
@@ -200,7 +191,9 @@ def _check_together(key: str, region: Region, effects: tuple[EffectTable, ...], 
             )
 
 
-def _check_not_hidden(key: str, region: Region, shape: Shape, earlier: list[RegionRead], bounds: NDArray[np.float64]) -> None:
+def _check_not_hidden(
+    key: str, region: AnyRegionTable, shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]
+) -> None:
     """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt.
 
     Only regions whose bounds, (region, 4), contain the shape's are looked at: thousands of regions are compared at once.

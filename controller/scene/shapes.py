@@ -14,8 +14,8 @@ from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Place = Annotated[float, Meta(ge=-1, le=3)]  # a plate has at most 2 m
-Point = tuple[Place, Place]
+Coordinate = Annotated[float, Meta(ge=-1, le=3)]  # in m; a plate has at most 2 m
+Point = tuple[Coordinate, Coordinate]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +35,10 @@ class Boxes:
 class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
     """A rectangle along the axes, its rim included."""
 
-    x_low: Place
-    y_low: Place
-    x_high: Place
-    y_high: Place
+    x_low: Coordinate
+    y_low: Coordinate
+    x_high: Coordinate
+    y_high: Coordinate
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -67,8 +67,8 @@ class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True
 class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
     """A disc, its rim included."""
 
-    x_m: Place
-    y_m: Place
+    x_m: Coordinate
+    y_m: Coordinate
     radius_m: Annotated[float, Meta(gt=0, le=3)]
 
     @property

@@ -1,8 +1,7 @@
-"""Emissions in space: one for every so much of way, or for every line that a finger crosses. Pure but for their own state.
+"""Emissions by distance: one every `spacing_mm` travelled, or one per grid line crossed.
 
-A finger that lies still trembles by a report's noise. Neither kind takes that for movement: a way counts
-once it has left its anchor by REST_M, and a line that was felt is felt again once the finger has been a
-part of a spacing away from it.
+A finger at rest trembles by the noise of its reports, which must not count as movement: a distance counts once it is REST_M
+or more from the last counted place, and a grid line is felt again only after the finger was a part of a spacing away from it.
 """
 
 from __future__ import annotations
@@ -14,59 +13,85 @@ from msgspec import Meta
 
 from controller.scene.effects import EffectTable
 from controller.scene.shapes import Circle, Polygon, Rectangle
-from controller.scene.trains import Loudness
+from controller.scene.trains import EffectiveAmplitude
 
 ROUNDING_M = 1e-9  # so that a spacing reached exactly is reached
-REST_M = 0.25e-3  # noise of a finger at rest; of finer spacings a quarter
-REARM = 0.25  # of a spacing
-REARM_MOST_M = 0.5e-3
+REST_M = 0.25e-3  # noise of a finger at rest; for fine spacings a quarter of the spacing
+REARM_SHARE = 0.25  # of a spacing: distance from a line after which it is felt again
+MAX_REARM_M = 0.5e-3
 
 
 class Spacing(NamedTuple):
-    """What a region does as a finger moves. `axis`: 0 lines across x, 1 across y, None the way; `origin_m`: one of the lines."""
+    """How an effect repeats in space as a finger moves within its region.
+
+    Attributes
+    ----------
+    spacing_m : float
+        Distance from one emission to the next.
+    axis : int or None
+        None: of the finger's path, in any direction; 0: of grid lines at fixed x, 1: at fixed y.
+    origin_m : float
+        Where one of the grid lines lies.
+    amplitude : float
+    """
 
     spacing_m: Annotated[float, Meta(ge=1e-5, le=1)]
     axis: Annotated[int, Meta(ge=0, le=1)] | None
     origin_m: Annotated[float, Meta(ge=-1, le=4)]
-    amplitude: Loudness
+    amplitude: EffectiveAmplitude
 
-    def begin(self, x_m: float, y_m: float) -> Way | Lines:
-        """Progress of a finger that comes in here."""
-        return Way(self, x_m, y_m) if self.axis is None else Lines(self, y_m if self.axis else x_m)
+    def begin(self, x_m: float, y_m: float) -> DistanceProgress | GridProgress:
+        """Progress of a finger whose first report inside the region is at (x_m, y_m)."""
+        return DistanceProgress(self, x_m, y_m) if self.axis is None else GridProgress(self, y_m if self.axis else x_m)
 
 
-class Way:
-    """How far a finger has gone since the last emission, in any direction."""
+class DistanceProgress:
+    """Distance that a finger has travelled since the last emission, in any direction.
 
-    __slots__ = ("_anchor_x_m", "_anchor_y_m", "_rest_m", "_spacing_m", "_way_m", "amplitude")
+    Parameters
+    ----------
+    spacing : Spacing
+    x_m, y_m : float
+        Place of the finger's first report inside the region.
+    """
+
+    __slots__ = ("_anchor_x_m", "_anchor_y_m", "_rest_m", "_spacing_m", "_travelled_m", "amplitude")
 
     def __init__(self, spacing: Spacing, x_m: float, y_m: float) -> None:
         self.amplitude = spacing.amplitude
         self._spacing_m = spacing.spacing_m
         self._rest_m = min(REST_M, spacing.spacing_m / 4)
-        self._way_m = 0.0
+        self._travelled_m = 0.0
         self._anchor_x_m, self._anchor_y_m = x_m, y_m
 
     def crossed(self, x_m: float, y_m: float) -> bool:
-        """Whether the finger's next place completes a spacing; of several at once the rest of the way is kept."""
+        """Whether the finger's next place completes a spacing; if it completes several, the rest of the distance is kept."""
         step_m = math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m)
-        way_m = self._way_m + step_m
-        if way_m >= self._spacing_m - ROUNDING_M:
-            self._way_m = max(math.fmod(way_m + ROUNDING_M, self._spacing_m) - ROUNDING_M, 0.0)
+        travelled_m = self._travelled_m + step_m
+        if travelled_m >= self._spacing_m - ROUNDING_M:
+            self._travelled_m = max(math.fmod(travelled_m + ROUNDING_M, self._spacing_m) - ROUNDING_M, 0.0)
             self._anchor_x_m, self._anchor_y_m = x_m, y_m
             return True
         if step_m >= self._rest_m:
-            self._way_m = way_m
+            self._travelled_m = travelled_m
             self._anchor_x_m, self._anchor_y_m = x_m, y_m
         return False
 
-    def to_go_m(self, x_m: float, y_m: float, _x: float, _y: float) -> float:
-        """Way from here to the next emission, whatever the direction."""
-        return max(self._spacing_m - self._way_m - math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m), 0.0)
+    def remaining_m(self, x_m: float, y_m: float, _x: float, _y: float) -> float:
+        """Distance from a place to the next emission, whatever the direction."""
+        return max(self._spacing_m - self._travelled_m - math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m), 0.0)
 
 
-class Lines:
-    """Between which of its fixed lines a finger is, and which one it has just felt."""
+class GridProgress:
+    """Between which grid lines a finger is, and which line it has just felt.
+
+    Parameters
+    ----------
+    spacing : Spacing
+        With an axis.
+    at_m : float
+        Coordinate along that axis of the finger's first report inside the region.
+    """
 
     __slots__ = ("_axis", "_cell", "_felt", "_origin_m", "_rearm", "_spacing_m", "amplitude")
 
@@ -75,12 +100,12 @@ class Lines:
         self._spacing_m = spacing.spacing_m
         self._origin_m = spacing.origin_m
         self._axis = spacing.axis
-        self._rearm = min(REARM, REARM_MOST_M / spacing.spacing_m)
+        self._rearm = min(REARM_SHARE, MAX_REARM_M / spacing.spacing_m)
         self._cell = math.floor((at_m - spacing.origin_m + ROUNDING_M) / spacing.spacing_m)
         self._felt: int | None = None
 
     def crossed(self, x_m: float, y_m: float) -> bool:
-        """Whether the finger crossed a line on its way to its next place, one that it has not just felt."""
+        """Whether the finger crosses a grid line on its way to its next place, other than one that it has just felt."""
         at = ((y_m if self._axis else x_m) - self._origin_m + ROUNDING_M) / self._spacing_m
         cell, before, felt = math.floor(at), self._cell, self._felt
         if cell == before:
@@ -92,8 +117,8 @@ class Lines:
         self._felt = None if abs(at - last) >= self._rearm else last
         return first != last or first != felt
 
-    def to_go_m(self, x_m: float, y_m: float, x: float, y: float) -> float:
-        """Way from here to the next line for a finger that moves along a unit vector (x, y); inf along the lines."""
+    def remaining_m(self, x_m: float, y_m: float, x: float, y: float) -> float:
+        """Distance from a place to the next grid line for a finger that moves along the unit vector (x, y)."""
         towards, at_m = (y, y_m) if self._axis else (x, x_m)
         if towards == 0.0:
             return math.inf
@@ -105,7 +130,7 @@ class Lines:
 
 
 def spacing_of(effect: EffectTable, shape: Rectangle | Circle | Polygon, amplitude: float) -> Spacing:
-    """What an effect with `when = "move"` does in a region of some amplitude."""
+    """Spacing of an effect with `when = "move"`, in a region of some shape and amplitude."""
     spacing_m = (effect.spacing_mm or 0.0) * 1e-3
     axis = {"x": 0, "y": 1}.get(effect.along or "path")
     origin_m = 0.0 if axis is None else shape.bounds[axis] + (effect.phase or 0.0) * spacing_m

@@ -1,4 +1,4 @@
-"""Emissions in time: trains with their rate, phase, end and envelope, and where each one under way has come to. Pure."""
+"""Pulse trains: rate, phase, length and envelope of an effect, and the position of each active train."""
 
 from __future__ import annotations
 
@@ -7,66 +7,94 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
-from controller.scene.effects import WEAKEST, EffectTable
+from controller.clocks import FpgaTime
+from controller.scene.effects import MIN_AMPLITUDE, EffectTable
 
-SILENT = WEAKEST / 2  # an envelope below it is nearer to silence than to the weakest emission
+SILENCE = MIN_AMPLITUDE / 2  # an envelope below it is nearer to silence than to the weakest emission
 NO_BEAT = -1
-MOST_BEATS = 3_600_000  # an hour at the highest rate
-Loudness = Annotated[float, Meta(ge=SILENT, le=1)]
+MAX_BEATS = 3_600_000  # an hour at the highest rate
+EffectiveAmplitude = Annotated[float, Meta(ge=SILENCE, le=1)]  # of an effect in its region; played at MIN_AMPLITUDE at least
 Seconds = Annotated[float, Meta(ge=0, le=3600)]
 
 
 class Train(NamedTuple):
-    """Emissions of equal spacing; a lone emission is a train of one. `envelope`: (s from the start, amplitude)."""
+    """Emissions of equal spacing in time, as an effect defines them; a single emission is a train of one beat.
 
-    amplitude: Loudness = 1.0
-    beats: Annotated[int, Meta(ge=1, le=MOST_BEATS)] = 1
+    Attributes
+    ----------
+    amplitude : float
+        Before envelope and gain.
+    beats : int
+    period_s : float
+        From beat to beat; 0 for a single emission.
+    first_s : float
+        From the start to beat 0.
+    envelope : tuple of (float, float)
+        Points (s from the start, amplitude), linear between, constant beyond; empty: no envelope.
+    """
+
+    amplitude: EffectiveAmplitude = 1.0
+    beats: Annotated[int, Meta(ge=1, le=MAX_BEATS)] = 1
     period_s: Seconds = 0.0
     first_s: Seconds = 0.0
     envelope: Annotated[tuple[tuple[Seconds, Annotated[float, Meta(ge=0, le=1)]], ...], Meta(max_length=1000)] = ()
 
-    def loudness(self, beat: int, share: float) -> float:
-        """Amplitude of a beat: 0, or WEAKEST to 1, whichever is nearest to the product of train, envelope and share."""
+    def amplitude_of(self, beat: int, gain: float) -> float:
+        """Amplitude of a beat: 0, or MIN_AMPLITUDE to 1, whichever is nearest to the product of train, envelope and gain."""
         factor = 1.0
         if self.envelope:
             factor = _between(self.envelope, self.first_s + beat * self.period_s)
-            if factor < SILENT:
+            if factor < SILENCE:
                 return 0.0
-        return min(max(self.amplitude * share * factor, WEAKEST), 1.0)
+        return min(max(self.amplitude * gain * factor, MIN_AMPLITUDE), 1.0)
 
 
-class Running:
-    """A train under way. It moves on as its beats are taken.
+class ActiveTrain:
+    """A train that has begun; `take` moves it on.
+
+    Parameters
+    ----------
+    train : Train
+    start_s : float
+        When it begins; beat 0 is the train's `first_s` later.
+    region : int
+        Index of the region whose effect it is; below 0 for a command.
+    ends_on_leave : bool
+        Whether it ends when the finger leaves that region.
+    gain : float
+        Factor of its amplitude, 0.25 to 1.
+    effect : str
+        Name of the effect, for a command.
+    ticket : int
+        Of a command, until its first emission; else 0.
 
     Attributes
     ----------
     first_s : float
         Time of beat 0.
     beat : int
-        The next one.
-    share : float
-        What its amplitude is multiplied by.
-    area : int
-        Region whose effect it is; below 0 for a command's.
-    bound : bool
-        Whether it ends when the finger leaves that region.
-    effect : str
-        Its name, for a command.
-    ticket : int
-        Of a command that has not been felt yet, else 0.
+        Number of the next beat.
     """
 
-    __slots__ = ("area", "beat", "bound", "effect", "first_s", "share", "ticket", "train")
+    __slots__ = ("beat", "effect", "ends_on_leave", "first_s", "gain", "region", "ticket", "train")
 
     def __init__(
-        self, train: Train, start_s: float, area: int, *, bound: bool, share: float = 1.0, effect: str = "", ticket: int = 0
+        self,
+        train: Train,
+        start_s: FpgaTime,
+        region: int,
+        *,
+        ends_on_leave: bool,
+        gain: float = 1.0,
+        effect: str = "",
+        ticket: int = 0,
     ) -> None:
         self.train = train
         self.first_s = start_s + train.first_s
         self.beat = 0
-        self.share = share
-        self.area = area
-        self.bound = bound
+        self.gain = gain
+        self.region = region
+        self.ends_on_leave = ends_on_leave
         self.effect = effect
         self.ticket = ticket
 
@@ -76,19 +104,19 @@ class Running:
         return self.beat >= self.train.beats
 
     @property
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When the next beat is due."""
         return self.first_s + self.beat * self.train.period_s
 
-    def take(self, until_s: float) -> tuple[int, float]:
-        """Take all beats due up to a time.
+    def take(self, until_s: FpgaTime) -> tuple[int, float]:
+        """Take all beats that are due up to a time.
 
         Returns
         -------
         beat : int
-            The last of them that is not silent; NO_BEAT if there is none.
+            Number of the last of them that is not silent; NO_BEAT if there is none.
         amplitude : float
-            Its amplitude.
+            Its amplitude; 0 if there is none.
         """
         if self.over or until_s < self.next_s:
             return NO_BEAT, 0.0
@@ -99,14 +127,14 @@ class Running:
                 last -= 1
         self.beat = last + 1
         for beat in range(last, earliest - 1, -1):
-            amplitude = train.loudness(beat, self.share)
+            amplitude = train.amplitude_of(beat, self.gain)
             if amplitude:
                 return beat, amplitude
         return NO_BEAT, 0.0
 
 
 def train_of(effect: EffectTable, amplitude: float = 1.0) -> Train:
-    """What an effect plays when its time has come, in a region of some amplitude."""
+    """Train of an effect, in a region of some amplitude."""
     return Train(
         effect.strength * amplitude,
         effect.emissions,
@@ -118,11 +146,11 @@ def train_of(effect: EffectTable, amplitude: float = 1.0) -> Train:
 
 def silent(train: Train) -> bool:
     """Whether all beats of a train are silent."""
-    return not any(train.loudness(beat, 1.0) for beat in range(train.beats))
+    return not any(train.amplitude_of(beat, 1.0) for beat in range(train.beats))
 
 
 def _between(envelope: tuple[tuple[float, float], ...], at_s: float) -> float:
-    """Linear between the points of an envelope, level before the first and after the last."""
+    """Amplitude of an envelope at a time: linear between its points, constant before the first and after the last."""
     before_s, before = envelope[0]
     if at_s <= before_s:
         return before

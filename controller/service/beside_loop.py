@@ -12,29 +12,11 @@ import sys
 
 import msgspec
 
-from controller.board.devices import Ft5x06Touch, Gt911Touch, I2cTouch, Realtime, Temperature
+from controller.board.devices import Realtime, Temperature, Touch
 from controller.service.systemd import enter_realtime
 from controller.service.temperature import sensor_of, serve_sensor
-from controller.touch.event_reader import EventReader
 from controller.touch.panel_process import serve_panel
-
-
-def open_i2c_panel(settings: I2cTouch) -> EventReader:
-    """Driver of a touch panel on an I2C bus.
-
-    Raises
-    ------
-    TouchError
-        If it is not there.
-    """
-    if isinstance(settings, Ft5x06Touch):
-        from controller.touch.ft5x06 import open_ft5x06
-
-        return open_ft5x06(settings)
-    from controller.touch.gt911 import open_gt911
-
-    assert isinstance(settings, Gt911Touch)
-    return open_gt911(settings)
+from controller.touch.panels import open_panel
 
 
 def main(arguments: list[str]) -> None:
@@ -46,8 +28,8 @@ def main(arguments: list[str]) -> None:
     with socket.socket(fileno=sys.stdin.fileno()) as loop:
         try:
             if what == "panel":
-                touch = msgspec.json.decode(settings, type=Ft5x06Touch | Gt911Touch)
-                serve_panel(lambda: open_i2c_panel(touch), loop)
+                touch: Touch = msgspec.json.decode(settings, type=Touch)
+                serve_panel(lambda: open_panel(touch), loop)
             else:
                 serve_sensor(sensor_of(msgspec.json.decode(settings, type=Temperature)), loop)
         except (BrokenPipeError, ConnectionResetError):

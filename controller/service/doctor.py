@@ -28,7 +28,7 @@ from controller.fpga import bring_up
 from controller.fpga.capture import Capture
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
-from controller.fpga.link_check import ClockedLink, counted, error_rate_bound, measured_hz, proposed_hz, sweep
+from controller.fpga.link_check import ClockedLink, bit_error_count, error_rate_bound, measured_sck_hz, proposed_sck_hz, sweep
 from controller.fpga.session import Session
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.scene.scene import load_scene
@@ -134,7 +134,7 @@ def examine_link(
         done = bring_up.check(session, board, clock, bits, channels, progress=progress, take_capture=take_capture)
     except ControllerError as error:
         return LinkExamined([*findings, Finding("link", False, str(error))], figures)
-    sent, errors = counted(done.bit_errors)
+    sent, errors = bit_error_count(done.bit_errors)
     bound = error_rate_bound(errors, sent)
     figures["bit_errors"] = asdict(done.bit_errors) | {"error_rate_at_most": bound, "confidence": 0.95}
     figures["registers"] = done.registers
@@ -145,7 +145,7 @@ def examine_link(
         from controller.fpga.spi_link import SpiLink
 
         assert isinstance(link, SpiLink)
-        figures["sck_measured_hz"] = _finite(measured_hz(session, link))
+        figures["sck_measured_hz"] = _finite(measured_sck_hz(session, link))
         figures["effective_hz"] = link.effective_hz
     findings += [Finding("board", False, complaint) for complaint in done.complaints]
     if not done.complaints:
@@ -165,7 +165,7 @@ def _swept(
 ) -> Finding:
     """Errors at each SCK; the link is left at the one that is proposed."""
     speeds = sweep(session, link, board.link.sck_hz, bits, np.random.default_rng(bring_up.SEED), progress)
-    proposal_hz = proposed_hz(speeds)
+    proposal_hz = proposed_sck_hz(speeds)
     figures["sweep"] = [asdict(speed) for speed in speeds]
     figures["proposed_sck_hz"] = proposal_hz
     rule = "the fastest without an error, at most 0.8 of the slowest with one"
@@ -275,7 +275,7 @@ def _touch(board: Board) -> str:
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     panel = open_panel(board)
     try:
-        return f"{type(touch).__name__.removesuffix('Touch').lower()} answers"
+        return f"{touch.__struct_config__.tag} answers"
     finally:
         panel.close()
 

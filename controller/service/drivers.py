@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.board.board import Board, data_folder
-from controller.board.devices import Ft5x06Touch, Gt911Touch, I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
-from controller.fpga.awaited_link import AwaitedLink
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
+from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import GatewareFactory
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
+from controller.touch import panels
 from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
@@ -80,7 +80,7 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
     """Link and session of an FPGA that may not be there yet; nothing is asked of it before `bring_up`."""
-    link = AwaitedLink(lambda: open_link(board, now_s), now_s)
+    link = LazyLink(lambda: open_link(board, now_s), now_s)
     return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
 
 
@@ -103,22 +103,9 @@ def open_panel(board: Board) -> EventReader:
     TouchError
         If it is not there, or the board has none.
     """
-    touch = board.touch
-    if isinstance(touch, LinuxInputTouch):
-        return open_input(touch.device, grab=touch.grab)
-    if isinstance(touch, Ft5x06Touch):
-        from controller.touch.ft5x06 import open_ft5x06
-
-        return open_ft5x06(touch)
-    if isinstance(touch, Gt911Touch):
-        from controller.touch.gt911 import open_gt911
-
-        return open_gt911(touch)
-    if isinstance(touch, SerialTouch):
-        from controller.touch.serial_panel import SerialPanel
-
-        return SerialPanel(touch)
-    raise TouchError(NO_PANEL.format(board.name))
+    if panels.driver_of(board.touch) is None:
+        raise TouchError(NO_PANEL.format(board.name))
+    return panels.open_panel(board.touch)
 
 
 def open_input(device: str, *, grab: bool = False) -> EventReader:
@@ -157,9 +144,10 @@ def await_panel(board: Board) -> AwaitedReader | PanelProcess:
     ConfigError
         If the board has none.
     """
-    if isinstance(board.touch, RecordingTouch):
+    driver = panels.driver_of(board.touch)
+    if driver is None:
         raise ConfigError(NO_PANEL.format(board.name))
-    if isinstance(board.touch, I2cTouch):
+    if driver.own_process:
         return PanelProcess(_beside("panel", board.realtime.priority, board.touch))
     reader = AwaitedReader(lambda: open_panel(board))
     reader.read(0.0)  # a first look, with the driver's import, which would keep the loop from its heartbeats

@@ -15,9 +15,7 @@ from controller.clocks import NEVER
 from controller.errors import ControllerError, FaultError
 from controller.loop.commands import Outcome, PanelControl
 from controller.touch.ghost_figures import FEWEST_EMISSIONS, FEWEST_GHOSTS, LONGEST_S
-from controller.touch.panel import Counts
-from controller.touch.samples import TouchSample
-from controller.touch.source import TouchSource
+from controller.touch.source import Counts, TouchSample, TouchSource
 
 KNOCK = "knock"  # the effect that is asked for
 MOST_EMISSIONS = 600

@@ -9,8 +9,8 @@ from typing import Protocol
 from controller.board.board import Board
 from controller.board.panel_state import Condition, PanelState
 from controller.fpga.session import Session
-from controller.log import Priority, tell
-from controller.metrics import Counters
+from controller.log import Priority, log
+from controller.loop.scene_source import PreparedScene
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
 
@@ -136,13 +136,13 @@ class Housekeeping:
         self._ready = False  # said so
         self._scene_stays = ""
         self._played_s = -math.inf
-        self._counters: Counters | None = None
-        self._emissions = self._loaded = self._refused = self._reloads = 0
+        self._emission_started = False  # since the last turn
+        self._scene: PreparedScene | None = None  # taken over or refused since the last turn
+        self._reloads = self._reloads_told = 0
+        self._reload_refused = ""
 
-    def watch(
-        self, loop: Watched, counters: Counters, panel: Panel | None, told: Callable[[Condition], None] | None = None
-    ) -> None:
-        """The loop, the counters and the panel that are told about; no panel where a recording is replayed.
+    def watch(self, loop: Watched, panel: Panel | None, told: Callable[[Condition], None] | None = None) -> None:
+        """The loop and the panel that are told about; no panel where a recording is replayed.
 
         Parameters
         ----------
@@ -150,47 +150,59 @@ class Housekeeping:
             Called with each new condition, the first one included.
         """
         self._loop = loop
-        self._counters = counters
         self._panel = panel
         if told is not None:
             self._told = told
 
+    def emission_started(self) -> None:
+        """Take note that an emission was played."""
+        self._emission_started = True
+
+    def scene_changed(self, prepared: PreparedScene) -> None:
+        """Take note of a scene that was taken over, or refused; it is told in the next turn."""
+        self._scene = prepared
+
     def progress(self, now_s: float) -> None:
         """One turn of the loop."""
         self._watchdog.progress(now_s)
-        loop, counters = self._loop, self._counters
-        if loop is None or counters is None:
+        loop = self._loop
+        if loop is None:
             return
-        self._look(loop, counters, now_s)
+        self._look(loop, now_s)
         if loop.reloading != self._reloading:
             self._reloading = loop.reloading
             if self._reloading:
                 self._notifier.reloading("preparing another scene")
             else:
                 self._notifier.ready(self._status)
-        if counters.scenes_loaded != self._loaded:
-            self._loaded = counters.scenes_loaded
-            self._scene_stays = ""
-            tell("another scene is played, or the same read again")
-            self._notifier.status(self._status)
-        if counters.scenes_refused != self._refused:
-            self._refused = counters.scenes_refused
-            self._scene_stays = f"the scene stays as it was: {counters.scene_refused}"
-            tell(self._scene_stays, Priority.WARNING)
-            self._notifier.status(self._status)
-        if counters.reloads != self._reloads and not loop.reloading:  # else another is on its way, and waited for too
-            self._reloads = counters.reloads
-            self._reload_file.tell(counters.reloads, counters.reload_refused)
+        if self._scene is not None:
+            self._tell_scene(self._scene)
+            self._scene = None
+        if self._reloads != self._reloads_told and not loop.reloading:  # else another is on its way, and waited for too
+            self._reloads_told = self._reloads
+            self._reload_file.write(self._reloads, self._reload_refused)
         if self._read_s <= now_s and loop.outputs.on:  # an FPGA that is lost takes no other bit clock
             self._follow_temperature(loop, now_s)
 
-    def _look(self, loop: Watched, counters: Counters, now_s: float) -> None:
+    def _tell_scene(self, prepared: PreparedScene) -> None:
+        """Tell that a scene was taken over, or why not."""
+        self._scene_stays = f"the scene stays as it was: {prepared.reason}" if prepared.scene is None else ""
+        if self._scene_stays:
+            log(self._scene_stays, Priority.WARNING)
+        else:
+            log("another scene is played, or the same read again")
+        self._notifier.status(self._status)
+        if not prepared.ticket:
+            self._reloads += 1
+            self._reload_refused = prepared.reason
+
+    def _look(self, loop: Watched, now_s: float) -> None:
         """Tell of the panel's condition if it has changed."""
         outputs, panel = loop.outputs, self._panel
         on, state, cause = outputs.on, outputs.state, outputs.cause
         present = panel is None or panel.present
-        if counters.emissions != self._emissions or loop.repeating:
-            self._emissions = counters.emissions
+        if self._emission_started or loop.repeating:
+            self._emission_started = False
             self._played_s = now_s
         if on and panel is not None and not present:
             state, cause = PanelState.WAITING_FOR_PANEL, panel.cause
@@ -221,15 +233,15 @@ class Housekeeping:
         """What of a new condition is for the log: not whether something is being played."""
         now = self.condition
         if now.outputs_on != before.outputs_on and now.outputs_on:
-            tell("the outputs are on")
+            log("the outputs are on")
         if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
             asked = now.state is PanelState.DISARMED
             said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
-            tell(said, Priority.INFO if asked else Priority.WARNING)
+            log(said, Priority.INFO if asked else Priority.WARNING)
         if now.panel_present and not before.panel_present:
-            tell("the touch panel is back")
+            log("the touch panel is back")
         elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):
-            tell(f"{now.state.value}: {now.cause}", Priority.WARNING)
+            log(f"{now.state.value}: {now.cause}", Priority.WARNING)
 
     @property
     def _status(self) -> str:
@@ -248,9 +260,9 @@ class Housekeeping:
         if self._thermometer.cause != self._temperature_cause:
             self._temperature_cause = self._thermometer.cause
             if self._temperature_cause:
-                tell(self._temperature_cause, Priority.WARNING)
+                log(self._temperature_cause, Priority.WARNING)
             else:
-                tell("the temperature sensor is read again")
+                log("the temperature sensor is read again")
         if scale == self.scale:
             return
         if self._session.set_bit_period(scale):  # else something plays: the next turn but one

@@ -10,7 +10,8 @@ from pathlib import Path
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.errors import BankError
-from controller.scene.scene import Scene, load_scene, reach
+from controller.scene.coverage import cells_needed
+from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 
 
@@ -42,7 +43,7 @@ def populate(bank: Bank, scene: Scene, called: str) -> int:
     BankError
         If the bank lacks one, or one is damaged.
     """
-    wanted = reach(scene, bank.grid.points(), bank.grid.pitch_m)
+    wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m)
     missing = int((wanted & ~bank.cells).sum())
     if missing:
         raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")

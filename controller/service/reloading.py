@@ -39,14 +39,14 @@ class ReloadFile:
 
     def __init__(self, folder: Path | None) -> None:
         self._file = folder / NAME if folder is not None else None
-        self.tell(0, "")
+        self.write(0, "")
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] = os.environ) -> Self:
         """In the folder that this service was given."""
         return cls(_folder(environment))
 
-    def tell(self, count: int, refused: str) -> None:
+    def write(self, count: int, refused: str) -> None:
         """Take note of a reload; a full disk is no reason to stop."""
         if self._file is None:
             return

@@ -10,7 +10,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import LOG, Priority, tell
+from controller.log import LOG, Priority, log
 from controller.loop.wiring import Assembly, assemble
 from controller.scene.scene import Scene
 from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
@@ -21,9 +21,9 @@ from controller.service.scene_reload import SceneChanger
 from controller.service.systemd import Notifier, Watchdog, enter_realtime
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
+from controller.touch.reports import describe_warnings
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
-from controller.touch.warnings import in_words
 
 REPLAY_AFTER_S = 0.3  # beyond the ramp
 
@@ -43,7 +43,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
     Raises
     ------
-    UnfitFpga
+    IncompatibleFpga
         If the FPGA is another one than this software and the board need. One that is absent is waited for, as is the panel.
     FaultError
         If the FPGA has switched off for a reason that the host may not clear.
@@ -84,14 +84,16 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             commands=commands,
             change=change,
             progress=housekeeping.progress,
+            emission_started=housekeeping.emission_started,
+            scene_changed=housekeeping.scene_changed,
         )
         if commands is not None and commands.disarmed:
             assembly.loop.switch(on=False)
         assembly.selection.prepare()
-        housekeeping.watch(assembly.loop, assembly.counters, panel, commands.changed if commands is not None else None)
+        housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            tell(warning, Priority.WARNING)
-        tell(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
+            log(warning, Priority.WARNING)
+        log(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
         try:
             assembly.loop.run()
         except ControllerError as error:
@@ -107,7 +109,7 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "state": housekeeping.condition.state.value,
         "cause": housekeeping.condition.cause,
         "log_lines_lost": LOG.lost,
-        "warnings": in_words(source.warnings),
+        "warnings": describe_warnings(source.warnings),
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),
     }

@@ -18,7 +18,7 @@ from msgspec import Meta, Struct
 from controller import __version__
 from controller.board.board import Board
 from controller.errors import ControllerError
-from controller.scene.scene import Area, Meshes, Scene
+from controller.scene.scene import Region, Scene, SpatialIndex
 from controller.scene.trains import Train
 
 VERSION = 1  # of the layout: raise it when a type in a message changes
@@ -42,9 +42,9 @@ class Request(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class _Scene(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
-    areas: tuple[Area, ...]
+    regions: tuple[Region, ...]
     effects: dict[Annotated[str, Meta(min_length=1, max_length=64)], Train]
-    meshes: Meshes
+    index: SpatialIndex
 
 
 class _Reply(Struct, frozen=True, forbid_unknown_fields=True):
@@ -77,9 +77,9 @@ def pack_scene(scene: Scene) -> bytes:
     MessageError
         If it is too large.
     """
-    data = _encoder.encode(_Reply(__version__, scene=_Scene(scene.areas, dict(scene.effects), scene.meshes)))
+    data = _encoder.encode(_Reply(__version__, scene=_Scene(scene.regions, dict(scene.effects), scene.index)))
     if len(data) > MOST_BYTES:
-        raise MessageError(f"the scene is too large: {len(data):,} bytes with its {len(scene.areas)} regions, of {MOST_BYTES:,}")
+        raise MessageError(f"the scene is too large: {len(data):,} bytes with its {len(scene.regions)} regions, of {MOST_BYTES:,}")
     return _framed(data)
 
 
@@ -139,10 +139,10 @@ def unpack_scene(message: bytes) -> Scene | str:
     _require_own(reply.software)
     if reply.scene is None:
         return _line(reply.reason)
-    areas, meshes = reply.scene.areas, reply.scene.meshes
-    if not all(0 <= region < len(areas) for regions in set(meshes.regions) for region in regions):
-        raise MessageError("the message does not fit: its meshes name a region that it does not have")
-    return Scene(areas, reply.scene.effects, meshes)
+    regions, index = reply.scene.regions, reply.scene.index
+    if not all(0 <= region < len(regions) for candidates in set(index.candidates) for region in candidates):
+        raise MessageError("the message does not fit: its spatial index names a region that it does not have")
+    return Scene(regions, reply.scene.effects, index)
 
 
 def _line(text: str) -> str:

@@ -20,7 +20,7 @@ import msgspec
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.errors import ConfigError, ControllerError
-from controller.loop.scene_source import Prepared
+from controller.loop.scene_source import PreparedScene
 from controller.scene.scene import Scene
 from controller.scene.scene_file import find_scene
 from controller.service.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
@@ -67,7 +67,7 @@ class SceneChanger:
         self._asked_again = False
         self._until_s = 0.0
         self._again = False
-        self._failed: Prepared | None = None
+        self._failed: PreparedScene | None = None
         self._said = bytearray()
         self._start()
 
@@ -102,7 +102,7 @@ class SceneChanger:
         """Readable when the helper has said something; None while nothing is prepared."""
         return None if self._wanted is None or self._socket is None else self._socket.fileno()
 
-    def take(self) -> Prepared | None:
+    def take(self) -> PreparedScene | None:
         """What was prepared; None while it is not done."""
         if self._wanted is not None and self._failed is None:
             self._read()
@@ -202,30 +202,30 @@ class SceneChanger:
     def _fail(self, reason: str) -> None:
         assert self._wanted is not None
         self._end_helper()
-        self._failed = Prepared(self._wanted[1], None, reason=reason)
+        self._failed = PreparedScene(self._wanted[1], None, reason=reason)
 
-    def _prepared(self) -> Prepared:
+    def _prepared(self) -> PreparedScene:
         assert self._wanted is not None
         name, ticket = self._wanted
         try:
             said = unpack_scene(bytes(self._said))
         except MessageError as error:
             self._end_helper()  # what it says next could not be told from the rest of this
-            return Prepared(ticket, None, reason=f"what prepares scenes answers wrongly: {error}")
+            return PreparedScene(ticket, None, reason=f"what prepares scenes answers wrongly: {error}")
         if not isinstance(said, Scene):
-            return Prepared(ticket, None, reason=said)
+            return PreparedScene(ticket, None, reason=said)
         self._name = name
         bank_is = _identity(self._bank.path)
         if bank_is == self._bank_is:
-            return Prepared(ticket, said)
+            return PreparedScene(ticket, said)
         try:
             bank = Bank.open(self._bank.path, self._board)
             selection = Selection(bank, self._board.bank.snap_mm * 1e-3, self._board.idle_word)
             selection.prepare()
         except ControllerError as error:
-            return Prepared(ticket, None, reason=str(error))
+            return PreparedScene(ticket, None, reason=str(error))
         self._bank, self._bank_is = bank, bank_is
-        return Prepared(ticket, said, selection)
+        return PreparedScene(ticket, said, selection)
 
 
 def _fork() -> int:

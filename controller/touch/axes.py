@@ -1,4 +1,4 @@
-"""From a touch panel's axes to plate metres."""
+"""Map from a touch panel's axes to the plate."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from controller.board.board import Board
 
 @dataclass(frozen=True, slots=True)
 class AxisRange:
-    """Smallest and largest value that one axis says it can take."""
+    """Smallest and largest value of one axis, as the device declares it."""
 
     minimum: int
     maximum: int
@@ -19,22 +19,21 @@ class AxisRange:
 class Axes:
     """Both axes of one panel on one board.
 
-    A raw value is normalised to 0..1 by its axis' range; the board's affine map
-    (`touch.x_mm_from_axes`, `touch.y_mm_from_axes`: per unit of x, per unit of y, at their
-    minimum) gives the place on the plate. Panels may be mirrored, swapped, or reach beyond the glass.
+    A raw value is normalised to 0..1 by the range of its axis; the board's affine map (`touch.x_mm_from_axes`,
+    `touch.y_mm_from_axes`: per unit of x, per unit of y, at their minimum) gives the position on the plate. Axes may be
+    mirrored or swapped, and may reach beyond the glass.
 
     Parameters
     ----------
     board : Board
         Gives the plate and the map.
     x, y : AxisRange
-        Ranges of the device's axes. An axis without extent (one single tap, its range guessed)
-        reads as its middle.
+        Ranges of the device's axes. An axis without extent (guessed from one single tap) reads as its middle.
 
     Attributes
     ----------
     size_m_per_unit : float
-        Metres per raw unit of a contact's extent, the mean of both axes.
+        Metres per raw unit of a contact's size, the mean of both axes.
     """
 
     __slots__ = ("_from_axes", "_plate_m", "size_m_per_unit", "x", "y")
@@ -45,15 +44,26 @@ class Axes:
         self._plate_m = (board.plate.length_m, board.plate.width_m)
         self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
         x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self._from_axes
-        # The kernel gives a contact's extent in the units of its place, which may differ between the axes
+        # The kernel gives a contact's size in units of its position, which may differ between the axes
         self.size_m_per_unit = (math.hypot(x_by_x, y_by_x) + math.hypot(x_by_y, y_by_y)) / 2
 
     def clamp(self, x: int, y: int) -> tuple[int, int]:
-        """Raw position moved to the nearest one inside both ranges."""
-        return _between(x, self.x), _between(y, self.y)
+        """Raw position (`x`, `y`) clamped to both ranges."""
+        return _clamped(x, self.x), _clamped(y, self.y)
 
     def place_m(self, x: int, y: int) -> tuple[float, float]:
-        """Place on the plate in m of a raw position inside the ranges, held to the plate."""
+        """Position on the plate of a raw position.
+
+        Parameters
+        ----------
+        x, y : int
+            Inside the ranges.
+
+        Returns
+        -------
+        (x_m, y_m)
+            Clamped to the plate.
+        """
         x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes
         length_m, width_m = self._plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
@@ -64,7 +74,7 @@ class Axes:
         )
 
 
-def _between(value: int, axis: AxisRange) -> int:
+def _clamped(value: int, axis: AxisRange) -> int:
     return min(max(value, axis.minimum), axis.maximum)
 
 

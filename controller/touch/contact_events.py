@@ -1,4 +1,4 @@
-"""From the contacts that a panel without kernel driver lists to the events the kernel would send (protocol B)."""
+"""Kernel events (protocol B) for the contacts that a panel without kernel driver lists in each report."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from controller.touch import event_codes as ev
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 
 MAX_CONTACTS: Final = 10
-LAST_TRACKING_ID: Final = 65535
-LARGEST_SIZE: Final = 65535
+MAX_TRACKING_ID: Final = 65535
+MAX_SIZE: Final = 65535
 
 
 class Contact(NamedTuple):
-    """One contact of a report: the panel's own number for it, raw place, raw extent (0: not told)."""
+    """One contact of a report: the panel's number for it, raw position, raw size (0: not reported)."""
 
     number: int
     x: int
@@ -23,12 +23,24 @@ class Contact(NamedTuple):
 
 
 def describe(name: str, version: int, width: int, height: int, *, sized: bool) -> DeviceDescription:
-    """Description of a panel with ten contacts, places from 0 to `width` and `height`, as a kernel driver's would be."""
-    places = (width, height)
-    axes = {ev.ABS_MT_SLOT: AxisInfo(0, MAX_CONTACTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, LAST_TRACKING_ID)}
-    axes |= {code: AxisInfo(0, largest) for code, largest in zip(ev.POSITIONS, places, strict=True)}
+    """Description of a panel on I2C with `MAX_CONTACTS` contacts, as a kernel driver would give it.
+
+    Parameters
+    ----------
+    name : str
+        Of the device.
+    version : int
+        Of its firmware.
+    width, height : int
+        Largest raw x and y; the smallest are 0.
+    sized : bool
+        Whether the panel reports sizes of contacts.
+    """
+    extents = (width, height)
+    axes = {ev.ABS_MT_SLOT: AxisInfo(0, MAX_CONTACTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, MAX_TRACKING_ID)}
+    axes |= {code: AxisInfo(0, largest) for code, largest in zip(ev.POSITIONS, extents, strict=True)}
     if sized:
-        axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, LARGEST_SIZE)
+        axes[ev.ABS_MT_TOUCH_MAJOR] = AxisInfo(0, MAX_SIZE)
     codes = {
         ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS),
         ev.EV_KEY: (ev.BTN_TOUCH,),
@@ -38,15 +50,20 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
 
 
 class ContactEvents:
-    """Compares each report with the one before and says what has changed, in protocol B.
+    """Compares each report with the one before and gives the changes in protocol B.
 
-    A slot is the panel's own number; a number that comes anew gets a new tracking id. As the kernel does, it says of a
-    slot only what differs from what it said last; another of these begins with nothing said.
+    The slot of a contact is the panel's number for it; each new contact gets a new tracking id. As the kernel does, it sends
+    only values that differ from the last ones of the slot; a new object starts without last values.
 
     Parameters
     ----------
     sized : bool
-        Whether the panel tells extents.
+        Whether the panel reports sizes of contacts.
+
+    Attributes
+    ----------
+    down : int
+        Contacts of the last report.
     """
 
     def __init__(self, *, sized: bool) -> None:
@@ -61,9 +78,19 @@ class ContactEvents:
         self.down = 0
 
     def report(self, contacts: Sequence[Contact], time_s: float) -> list[Event]:
-        """Events of a report that lists these contacts and no others; empty if nothing has changed.
+        """Events of a report.
 
-        Of two contacts with the same number the last counts. Numbers are below `MAX_CONTACTS`.
+        Parameters
+        ----------
+        contacts : sequence of Contact
+            All contacts that are down, with numbers below `MAX_CONTACTS`; of two with one number the last counts.
+        time_s : float
+            Of the events.
+
+        Returns
+        -------
+        list of Event
+            SYN_REPORT last; empty if nothing has changed.
         """
         events: list[Event] = []
         self._report += 1
@@ -75,7 +102,7 @@ class ContactEvents:
                 self._select(number, time_s, events)
                 self._tracking[number] = self._next_id
                 events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, self._next_id, time_s))
-                self._next_id = self._next_id + 1 if self._next_id < LAST_TRACKING_ID else 0
+                self._next_id = self._next_id + 1 if self._next_id < MAX_TRACKING_ID else 0
                 self.down += 1
             if size != self._size[number]:
                 self._select(number, time_s, events)

@@ -33,9 +33,9 @@ from controller.touch.event_codes import (
     SYN_DROPPED,
     SYN_MT_REPORT,
     SYN_REPORT,
+    Protocol,
 )
-from controller.touch.panel import Counts, Protocol
-from controller.touch.samples import TouchSample
+from controller.touch.source import Counts, TouchSample
 
 MAX_PLAYED = 10
 MAX_SLOTS = 256

@@ -1,4 +1,9 @@
-"""The numbers of linux/input-event-codes.h that touch panels send."""
+"""Event codes of touch panels (linux/input-event-codes.h), and which multi-touch protocol a device speaks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import Enum
 
 EV_SYN, EV_KEY, EV_ABS = 0x00, 0x01, 0x03
 
@@ -20,7 +25,7 @@ ABS_MT_DISTANCE = 0x3B
 
 MT_TOOL_PALM = 2
 
-SLOT_STATE = (  # what the kernel keeps of each slot and a decoder wants, position last
+SLOT_STATE = (  # what the kernel keeps of each slot and the decoder uses, position last
     ABS_MT_TRACKING_ID,
     ABS_MT_TOUCH_MAJOR,
     ABS_MT_TOOL_TYPE,
@@ -31,3 +36,45 @@ SLOT_STATE = (  # what the kernel keeps of each slot and a decoder wants, positi
 
 POSITIONS = (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
 POSITIONS_SINGLE = (ABS_X, ABS_Y)
+
+
+class Protocol(Enum):
+    """How a device reports its contacts (kernel documentation: input/multi-touch-protocol.rst)."""
+
+    A = "A"
+    B = "B"
+    SINGLE = "single-touch"
+
+
+def protocol_of(declared_axes: Iterable[int], seen: Iterable[tuple[int, int]]) -> Protocol:
+    """Protocol of a recording.
+
+    Parameters
+    ----------
+    declared_axes : iterable of int
+        Codes of EV_ABS that the device declares; a recording may lack them.
+    seen : iterable of (type, code)
+        Events of the stream.
+    """
+    axes, events = set(declared_axes), set(seen)
+    if (EV_ABS, ABS_MT_SLOT) in events:
+        return Protocol.B
+    if (EV_SYN, SYN_MT_REPORT) in events:
+        return Protocol.A
+    axes |= {code for kind, code in events if kind == EV_ABS}
+    multi_touch = axes & {ABS_MT_SLOT, ABS_MT_TRACKING_ID, ABS_MT_POSITION_X, ABS_MT_POSITION_Y}
+    return Protocol.B if multi_touch else Protocol.SINGLE
+
+
+def protocol_of_device(declared_axes: Iterable[int]) -> Protocol:
+    """Protocol of a live device, which declares all its axes: without slots it is not protocol B.
+
+    Parameters
+    ----------
+    declared_axes : iterable of int
+        Codes of EV_ABS.
+    """
+    axes = set(declared_axes)
+    if ABS_MT_SLOT in axes:
+        return Protocol.B
+    return Protocol.A if axes.issuperset(POSITIONS) else Protocol.SINGLE

@@ -1,7 +1,7 @@
-"""What every driver of a touch panel gives: input events, a report at a time, and a description of the device.
+"""Interface of every touch panel driver: input events, one report at a time, and a description of the device.
 
-A driver of a panel without kernel driver speaks the kernel's language too (protocol A or B), so that one
-decoder, one recorder and one replay serve all.
+A driver of a panel without kernel driver gives events of the kernel's protocols too, so that one decoder, one recorder and
+one replay serve all panels.
 """
 
 from __future__ import annotations
@@ -26,7 +26,21 @@ class AxisInfo(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeviceDescription:
-    """What a device says of itself, as an evemu recording keeps it."""
+    """Description of an input device, as it stands in the head of an evemu recording.
+
+    Attributes
+    ----------
+    name : str
+        As the device reports it.
+    bus, vendor, product, version : int
+        struct input_id.
+    properties : tuple of int
+        INPUT_PROP codes.
+    codes : mapping of int to tuple of int
+        Codes that it can send, by event type; under EV_SYN: the types.
+    axes : mapping of int to AxisInfo
+        By code of EV_ABS.
+    """
 
     name: str
     bus: int = 0
@@ -34,45 +48,54 @@ class DeviceDescription:
     product: int = 0
     version: int = 0
     properties: tuple[int, ...] = ()
-    codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)  # by event type; of EV_SYN: the types
-    axes: Mapping[int, AxisInfo] = field(default_factory=dict)  # by code of EV_ABS
+    codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
+    axes: Mapping[int, AxisInfo] = field(default_factory=dict)
 
 
 class EventReader(Protocol):
     """One touch panel on a real interface.
 
-    What it gives is a stream that any decoder understands from its first event on, and that a recording can hold:
-    it begins with the state of the panel as a report; after lost events, and when the panel was plugged in again, the
-    state comes as another report; when the panel goes, a report lifts every contact.
+    Its events can be decoded and recorded from the first one on: the stream begins with the state of the panel as a report;
+    after a loss of events, and after a reconnection, the state comes as another report; when the panel is lost, a report
+    lifts every contact.
 
     Attributes
     ----------
     warnings : Counter of str
-        What went wrong so far and was got over, by kind (`warnings.KINDS`).
+        Anomalies that were handled, by kind (`reports.WARNINGS`).
     """
 
     warnings: Counter[str]
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the device as it was opened last; another object after it was opened again."""
+        """Description of the device as it was opened last; another object after each opening."""
 
     @property
     def present(self) -> bool:
-        """Whether the device is there; while it is not, `read` tries to open it again at `next_time_s`."""
+        """Whether the device is connected; while it is lost, `read` tries to open it again at `next_time_s`."""
 
     def fileno(self) -> int | None:
-        """File to wait on for reading; None while there is none. Another one after the device was opened again."""
+        """File to wait on for reading; None while there is none. It changes when the device is opened again."""
 
     def next_time_s(self) -> float | None:
-        """When to call `read` though no file is readable, on the loop's clock; None: never."""
+        """When to call `read` without a readable file, on the loop's clock; None: never."""
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of at most one report, SYN_REPORT last; empty if there is none. A long report comes in parts.
+        """Take the events of at most one report.
 
-        Never blocks longer than a transfer lasts, and never raises for what a device may do: it is got over, or the
-        device is taken for lost.
+        It blocks for one bus transfer at most. Errors of the device are handled here: counted, or the device counts as lost.
+
+        Parameters
+        ----------
+        now_s : float
+            Time on the loop's clock.
+
+        Returns
+        -------
+        sequence of Event
+            SYN_REPORT last; a long report comes in several parts. Empty if there is none.
         """
 
     def close(self) -> None:
-        """Give the device back."""
+        """Close the device."""

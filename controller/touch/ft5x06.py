@@ -1,7 +1,7 @@
 """Touch controllers FocalTech FT5x06 and FT6x36, and EDT modules with them.
 
 Register map: FT5x06 data sheet D-FT5x06-1212, FT6x36 application note; the kernel's edt-ft5x06.c has the same. The firmware of
-EDT's M06 has no such map: it answers commands, 0xBB with its name and 0xF9 with a report that carries a checksum.
+EDT's M06 has no register map; it answers the commands 0xBB with its name and 0xF9 with a report and its checksum.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ DEVICE_MODE: Final = b"\x00"  # 0: working; reports begin here
 STATUS: Final = 2  # TD_STATUS: number of contacts in bits 3:0
 FIRST_POINT: Final = 3
 POINT_BYTES: Final = 6  # event flag and x, number and y (high byte first), weight, area
-SHORT_POINTS: Final = 2  # most touches have no more: what follows is read only if there are more
+SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
 INTERRUPT_MODE: Final = 0xA4  # G_MODE, 1: a pulse for each report
 CHIP_ID: Final = b"\xa3"
 FIRMWARE: Final = b"\xa6"
 VENDOR: Final = b"\xa8"
 
-EDT_NAME: Final = b"\xbb"  # model, "*", version, "$" of M06 and M12; an M06 puts a byte before it; others have anything there
+EDT_NAME: Final = b"\xbb"  # model, "*", version, "$" of M06 and M12; an M06 sends a byte before it; undefined in other chips
 EDT_NAME_BYTES: Final = 22
-EDT_MODEL: Final = b"EP0"  # what models begin with
+EDT_MODEL: Final = b"EP0"  # prefix of the models
 M06_REPORT: Final = b"\xf9"
-M06_HEADER: Final = b"\xaa\xaa\x1a"  # and the length of the report
+M06_HEADER: Final = b"\xaa\xaa\x1a"  # the last byte is the length of the report
 M06_FIRST_POINT: Final = 5
 M06_POINT_BYTES: Final = 4  # event flag and x, number and y (high byte first)
 M06_POINTS: Final = 5
-M06_BYTES: Final = M06_FIRST_POINT + M06_POINTS * M06_POINT_BYTES + 1  # the last: all others, exclusive or
+M06_BYTES: Final = M06_FIRST_POINT + M06_POINTS * M06_POINT_BYTES + 1  # the last byte: exclusive or of all others
 
 PUT_DOWN, LIFTED, RESERVED = 0, 1, 3  # event flag in bits 7:6 of a point; 2 contact
 
@@ -49,24 +49,24 @@ BOOT_S: Final = 0.3  # T_rsi, from the end of the reset to the first report
 
 
 def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] | None:
-    """Contacts of a report.
+    """Decode a report.
 
     Parameters
     ----------
     report : bytes
-        Registers from 0 on, as many as were read.
+        Registers from 0 on, as far as read.
     warnings : Counter of str
         Counts `ghost_points`.
 
     Returns
     -------
     list of Contact, or None
-        None if the report lists more contacts than were read.
+        None if the report has more contacts than were read.
 
     Raises
     ------
     ValueError
-        If it lists more contacts than there can be.
+        If the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[STATUS] & 0x0F
     if count > MAX_CONTACTS:
@@ -78,7 +78,7 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
 
 
 def contacts_of_m06(report: Sequence[int], warnings: Counter[str]) -> list[Contact]:
-    """Contacts of a report of an EDT M06.
+    """Decode a report of an EDT M06.
 
     Parameters
     ----------
@@ -97,11 +97,11 @@ def contacts_of_m06(report: Sequence[int], warnings: Counter[str]) -> list[Conta
     if reduce(xor, report):
         raise ValueError("wrong checksum")
     starts = range(M06_FIRST_POINT, M06_BYTES - 1, M06_POINT_BYTES)
-    return _contacts(report, starts, (PUT_DOWN, LIFTED, RESERVED), warnings)  # places of contacts just put down are not true
+    return _contacts(report, starts, (PUT_DOWN, LIFTED, RESERVED), warnings)  # positions of contacts just put down are wrong
 
 
 def _contacts(report: Sequence[int], starts: range, skipped: tuple[int, ...], warnings: Counter[str]) -> list[Contact]:
-    """Contacts of the points that begin at these bytes, but for those with these event flags."""
+    """Contacts of the points that begin at `starts`, without those whose event flag is `skipped`."""
     contacts = []
     for start in starts:
         number = report[start + 2] >> 4
@@ -117,7 +117,18 @@ def _contacts(report: Sequence[int], starts: range, skipped: tuple[int, ...], wa
 
 
 def edt_model(answer: bytes) -> tuple[str, bool]:
-    """Model of an EDT module by its answer to `EDT_NAME`, empty if it is none, and whether its firmware is an M06's."""
+    """Identify an EDT module.
+
+    Parameters
+    ----------
+    answer : bytes
+        To `EDT_NAME`.
+
+    Returns
+    -------
+    (str, bool)
+        Model, empty if it is no EDT module; whether it has the firmware of an M06.
+    """
     for start, m06 in ((0, False), (1, True)):
         if answer[start : start + len(EDT_MODEL)].upper() == EDT_MODEL:
             return answer[start:].partition(b"*")[0].rstrip(b"$\0").decode("ascii", "replace"), m06
@@ -125,9 +136,16 @@ def edt_model(answer: bytes) -> tuple[str, bool]:
 
 
 class Ft5x06:
-    """One such chip; a `Chip`. Which firmware it has is found out at each start.
+    """FT5x06 or FT6x36, or an EDT module; a `Chip`. Its firmware is identified at each start.
 
-    What it reports right after a start may be of before it: reports are skipped until they change or are empty.
+    The first reports after a start may be from before it: reports are skipped until they change or are empty.
+
+    Parameters
+    ----------
+    settings : Ft5x06Touch
+        Address and extents.
+    warnings : Counter of str
+        Counts `ghost_points` and `stale_reports`.
     """
 
     def __init__(self, settings: Ft5x06Touch, warnings: Counter[str]) -> None:
@@ -140,11 +158,11 @@ class Ft5x06:
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the chip as it was started last; the extents are the board's, as the chip does not tell them."""
+        """Description of the chip as it was started last; its extents are those of board.toml, as the chip does not report any."""
         return self._description
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
-        """Reset it if its line is there, set it to work; see `Chip.start`."""
+        """Reset the chip if `lines` has a reset line, identify it on `bus`, set it to working mode; see `Chip.start`."""
         address = self._settings.address
         if lines.has_reset:
             lines.drive_reset(high=False)
@@ -164,7 +182,7 @@ class Ft5x06:
         self._stale = bytes(self._short.data) if self._holds_contacts() else None
 
     def fetch(self, bus: I2cBus) -> Sequence[Contact] | None:
-        """Contacts down now; see `Chip.fetch`."""
+        """Read the contacts that are down from `bus`; see `Chip.fetch`."""
         bus.fetch(self._short)
         if self._stale is not None:
             if self._short.data == self._stale:
@@ -178,7 +196,7 @@ class Ft5x06:
         return contacts
 
     def _use(self, *, m06: bool) -> None:
-        """Ask for reports as this firmware wants it."""
+        """Choose the transfers and the report format of the firmware."""
         address = self._settings.address
         self._contacts_of: Callable[[Sequence[int], Counter[str]], list[Contact] | None]
         if m06:
@@ -190,11 +208,11 @@ class Ft5x06:
             self._contacts_of = contacts_of
 
     def _identity(self, bus: I2cBus) -> tuple[int, int]:
-        """Number of the chip and of its firmware; a bus that is stuck, an empty chip and one without registers are refused."""
+        """Number of the chip and of its firmware; refuses a stuck bus, a chip without firmware and a device without registers."""
         chip, firmware, vendor = (bus.read(self._settings.address, register, 1)[0] for register in (CHIP_ID, FIRMWARE, VENDOR))
         if chip == firmware == vendor:
             raise TouchError(
-                f"what answers as touch panel at 0x{self._settings.address:02X} on {self._settings.bus} is no FocalTech chip with "
+                f"the device at 0x{self._settings.address:02X} on {self._settings.bus} is no FocalTech chip with "
                 f"firmware: chip, firmware and vendor are all 0x{chip:02X}; is it powered, is the bus free, is the address right?"
             )
         return chip, firmware
@@ -206,13 +224,13 @@ class Ft5x06:
             return False
 
 
-def open_ft5x06(settings: Ft5x06Touch) -> I2cReader:
-    """Start the panel of a board.
+def open_panel(settings: Ft5x06Touch) -> I2cReader:
+    """Start the panel of a board with these `settings`.
 
     Raises
     ------
     TouchError
-        If bus, lines or chip are not there.
+        If bus, lines or chip are absent.
     """
     warnings: Counter[str] = Counter()
     return I2cReader(settings, Ft5x06(settings, warnings), warnings)

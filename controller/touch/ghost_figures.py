@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from controller.board.board import Board
 from controller.errors import CalibrationError
-from controller.touch.kept_events import EV_SND, SND_CLICK
+from controller.touch.event_capture import EV_SND, SND_CLICK
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 

@@ -1,6 +1,6 @@
-"""Touch controllers Goodix GT911 and its kin (data sheet and programming guide rev. 09).
+"""Touch controllers Goodix GT911 and compatible (data sheet and programming guide rev. 09).
 
-The kernel's goodix.c drives the chips of `PRODUCTS` by the same map; those of the GT1x line keep their configuration elsewhere.
+The kernel's goodix.c drives the chips of `PRODUCTS` with the same register map; the GT1x series has another one.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ PRODUCTS: Final = ("911", "9110", "9111", "912", "9147", "927", "9271", "928", "
 STATUS: Final = b"\x81\x4e"  # bit 7: a report is ready, bits 3:0: its contacts, which follow
 READY: Final = 0x80
 POINT_BYTES: Final = 8  # number, x, y, size (2 bytes each), reserved
-SHORT_POINTS: Final = 2  # most touches have no more: what follows is read only if there are more
+SHORT_POINTS: Final = 2  # read at once; the rest only when there are more contacts
 RISING_INTERRUPT: Final = (0, 3)  # of module switch 1, bits 1:0; 1 and 2: falling edge, low level
 
-HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # taken when the interrupt line is high, or low, at the end of the reset
+HIGH_ADDRESS, LOW_ADDRESS = 0x14, 0x5D  # selected by the level of the interrupt line at the end of the reset
 
 RESET_S: Final = 0.011  # T2: more than 10 ms
 ADDRESS_S: Final = 0.0005  # T3: more than 100 us
@@ -42,24 +42,24 @@ BOOT_S: Final = 0.05
 
 
 def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] | None:
-    """Contacts of a report.
+    """Decode a report.
 
     Parameters
     ----------
     report : bytes
-        Registers from `STATUS` on, as many as were read.
+        Registers from `STATUS` on, as far as read.
     warnings : Counter of str
         Counts `ghost_points`.
 
     Returns
     -------
     list of Contact, or None
-        None if it lists more contacts than were read.
+        None if the report has more contacts than were read.
 
     Raises
     ------
     ValueError
-        If it lists more contacts than there can be.
+        If the report has more than `MAX_CONTACTS` contacts.
     """
     count = report[0] & 0x0F
     if count > MAX_CONTACTS:
@@ -79,33 +79,47 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
 
 
 def product_of(identity: bytes, bus: str) -> str:
-    """Number of the chip that gave these registers from `PRODUCT_ID` on.
+    """Product number of a chip.
+
+    Parameters
+    ----------
+    identity : bytes
+        Registers from `PRODUCT_ID` on.
+    bus : str
+        In the message.
 
     Raises
     ------
     TouchError
-        If it is none of `PRODUCTS`.
+        If it is not one of `PRODUCTS`.
     """
     name = identity[:4].rstrip(b"\0")
     if name.decode("ascii", "replace") in PRODUCTS:
         return name.decode("ascii")
     if not name.strip(b"\xff"):
         raise TouchError(
-            f"what answers as touch panel on {bus} gives nothing but 0x{identity[0]:02X}: "
-            "is it powered, out of reset, and is nothing else holding the bus?"
+            f"the touch panel on {bus} answers with 0x{identity[0]:02X} only: is it powered and out of reset, and is the bus free?"
         )
     if not (name.isalnum() and name.isascii()):
         raise TouchError(
-            f"what answers as touch panel on {bus} is no Goodix chip (it gives {name!r}): is the address another chip's?"
+            f"the device that answers as touch panel on {bus} is no Goodix chip (product {name!r}): is the address another chip's?"
         )
     raise TouchError(
-        f"the touch panel on {bus} is a Goodix {name.decode('ascii')!r}, which this driver does not know: "
-        f'it drives {", ".join(PRODUCTS)}; with a kernel driver it can be used as kind = "linux_input"'
+        f"the touch panel on {bus} is a Goodix {name.decode('ascii')!r}, which this driver does not support: "
+        f'it supports {", ".join(PRODUCTS)}; with a kernel driver it can be used as kind = "linux_input"'
     )
 
 
 class Gt911:
-    """One such chip; a `Chip`."""
+    """GT911 or compatible; a `Chip`.
+
+    Parameters
+    ----------
+    settings : Gt911Touch
+        Address, and extents if they overrule the chip's.
+    warnings : Counter of str
+        Counts `ghost_points`.
+    """
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
         self.name = "Goodix touch panel"
@@ -115,11 +129,11 @@ class Gt911:
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the chip as it was started last."""
+        """Description of the chip as it was started last."""
         return self._description
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
-        """Reset it to its address if the line is there, check and read its configuration; see `Chip.start`."""
+        """Reset the chip to its address if `lines` has a reset line, identify it on `bus`; see `Chip.start`."""
         if lines.has_reset:
             self._use(self._settings.address)
             lines.drive_reset(high=False)
@@ -131,7 +145,7 @@ class Gt911:
             yield SELECTED_S
             lines.drive_interrupt(high=False)
             yield SYNC_S
-            lines.rest()
+            lines.release_interrupt()
             yield BOOT_S
             product = bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
         else:
@@ -143,7 +157,7 @@ class Gt911:
         bus.send(self._clear)
 
     def fetch(self, bus: I2cBus) -> Sequence[Contact] | None:
-        """Contacts of a report that is ready; the chip makes the next one once this one is cleared; see `Chip.fetch`."""
+        """Read the report that is ready from `bus` and clear it, which lets the chip make the next; see `Chip.fetch`."""
         bus.fetch(self._short)
         if not self._short.data[0] & READY:
             return None
@@ -163,7 +177,7 @@ class Gt911:
         self._clear = smbus2.i2c_msg.write(address, STATUS + b"\x00")
 
     def _find(self, bus: I2cBus) -> bytes:
-        """Without a reset line the address is what the interrupt line made it at power-up."""
+        """Identify the chip at either address: without a reset line the level at power-up has selected it."""
         try:
             return bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
         except OSError:
@@ -180,13 +194,13 @@ class Gt911:
         return describe(name, firmware, width, height, sized=True)
 
 
-def open_gt911(settings: Gt911Touch) -> I2cReader:
-    """Start the panel of a board.
+def open_panel(settings: Gt911Touch) -> I2cReader:
+    """Start the panel of a board with these `settings`.
 
     Raises
     ------
     TouchError
-        If bus, lines or chip are not there.
+        If bus, lines or chip are absent.
     """
     warnings: Counter[str] = Counter()
     return I2cReader(settings, Gt911(settings, warnings), warnings)

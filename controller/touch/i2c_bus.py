@@ -1,4 +1,4 @@
-"""One device on an I2C bus, by combined messages (smbus2 `i2c_rdwr`): a touch report is longer than an SMBus block."""
+"""Register access to a device on an I2C bus by combined messages (smbus2 `i2c_rdwr`): a report exceeds an SMBus block."""
 
 from __future__ import annotations
 
@@ -13,21 +13,30 @@ import smbus2
 
 from controller.errors import TouchError
 
-ATTEMPTS: Final = 3
-# What adapters say when nobody acknowledges: ENXIO, EREMOTEIO (Pi), ENODEV; EIO and EAGAIN: a disturbed transfer.
-# ETIMEDOUT, a hung bus, is not among them: each attempt would hold up touches once more.
-WORTH_ANOTHER: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO, errno.EAGAIN)
+MAX_ATTEMPTS: Final = 3
+# Errors of adapters without an acknowledge: ENXIO, EREMOTEIO (Pi), ENODEV; of a disturbed transfer: EIO, EAGAIN.
+# ETIMEDOUT, a bus that hangs, is not retried: each attempt would delay touches once more.
+RETRIED_ERRNOS: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO, errno.EAGAIN)
 I2C_TIMEOUT: Final = 0x0702  # linux/i2c-dev.h, in units of 10 ms
-TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second: touches wait for it, where it keeps to that
+TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second; not every adapter keeps to it
 
 
 class Transfer:
-    """A register to read from and the buffer it is read into, made once.
+    """A read of consecutive registers, with its buffer, made once and used for every report.
+
+    Parameters
+    ----------
+    address : int
+        Of the device on the bus.
+    register : bytes
+        Address of the first register, as it is sent.
+    size_bytes : int
+        How many bytes to read.
 
     Attributes
     ----------
     data : memoryview of bytes
-        What was read last.
+        As read last.
     """
 
     def __init__(self, address: int, register: bytes, size_bytes: int) -> None:
@@ -42,14 +51,14 @@ class I2cBus:
     Parameters
     ----------
     path : str
-        Such as /dev/i2c-1.
+        Of the bus, such as /dev/i2c-1.
     warnings : Counter of str
         Counts `bus_retried`.
 
     Raises
     ------
     TouchError
-        If it cannot be opened, or its adapter cannot do combined messages.
+        If it cannot be opened, or its adapter has no combined messages.
     """
 
     def __init__(self, path: str, warnings: Counter[str]) -> None:
@@ -57,36 +66,66 @@ class I2cBus:
         try:
             self._bus = smbus2.SMBus(path)
         except OSError as error:
-            raise TouchError(_why_not_open(path, error)) from error
+            raise TouchError(_open_error(path, error)) from error
         if not self._bus.funcs & smbus2.I2cFunc.I2C:
             self._bus.close()
-            raise TouchError(f"the adapter of {path} cannot do plain I2C transfers, which the touch panel needs; use another bus")
+            raise TouchError(f"the adapter of {path} has no plain I2C transfers, which the touch panel needs; use another bus")
         assert self._bus.fd is not None
         with contextlib.suppress(OSError):
             fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, TIMEOUT_10MS)
 
     def fetch(self, transfer: Transfer) -> None:
-        """Fill a transfer's buffer.
+        """Read into the buffer of a `transfer`.
 
         Raises
         ------
         OSError
-            If that fails for good.
+            If the last attempt fails.
         """
         self._run(transfer.messages)
 
     def read(self, address: int, register: bytes, size_bytes: int) -> bytes:
-        """Registers, read once."""
+        """Read registers once.
+
+        Parameters
+        ----------
+        address, register, size_bytes
+            As of `Transfer`.
+
+        Raises
+        ------
+        OSError
+            If the last attempt fails.
+        """
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
         return bytes(transfer.data)
 
     def send(self, message: Any) -> None:
-        """Send a message made with `smbus2.i2c_msg.write`."""
+        """Send a `message` made with `smbus2.i2c_msg.write`.
+
+        Raises
+        ------
+        OSError
+            If the last attempt fails.
+        """
         self._run((message,))
 
     def write(self, address: int, data: bytes) -> None:
-        """Send register address and values."""
+        """Write registers.
+
+        Parameters
+        ----------
+        address : int
+            Of the device on the bus.
+        data : bytes
+            Register address and values.
+
+        Raises
+        ------
+        OSError
+            If the last attempt fails.
+        """
         self.send(smbus2.i2c_msg.write(address, data))
 
     def close(self) -> None:
@@ -94,18 +133,18 @@ class I2cBus:
         self._bus.close()
 
     def _run(self, messages: tuple[Any, ...]) -> None:
-        for attempt in range(1, ATTEMPTS + 1):
+        for attempt in range(1, MAX_ATTEMPTS + 1):
             try:
                 self._bus.i2c_rdwr(*messages)
             except OSError as error:
-                if attempt == ATTEMPTS or error.errno not in WORTH_ANOTHER:
+                if attempt == MAX_ATTEMPTS or error.errno not in RETRIED_ERRNOS:
                     raise
                 self._warnings["bus_retried"] += 1
             else:
                 return
 
 
-def _why_not_open(path: str, error: OSError) -> str:
+def _open_error(path: str, error: OSError) -> str:
     if error.errno in (errno.EACCES, errno.EPERM):
         return f"{path} may not be opened by this user: add it to the group that owns the device (on Debian: i2c)"
     if error.errno in (errno.ENOENT, errno.ENODEV, errno.ENXIO):

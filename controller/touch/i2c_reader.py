@@ -1,7 +1,7 @@
-"""What all touch panels on an I2C bus have in common: when to ask them, and what to do when they do not answer.
+"""Driver of touch controllers on an I2C bus: when to read them, and how to recover when they do not answer.
 
-The chip says by an edge of its interrupt line that a report is there. An edge may be missed, so a panel that is touched
-is asked now and then without one, and so is an idle one, seldom, which notices that it is gone.
+The chip signals a report by an edge of its interrupt line. An edge may be missed, so a panel that is touched is also polled
+every `TOUCHED_POLL_S`, and an idle one every `IDLE_POLL_S`, which detects that it is lost.
 """
 
 from __future__ import annotations
@@ -23,44 +23,72 @@ from controller.touch.panel_lines import PanelLines
 
 TOUCHED_POLL_S: Final = 0.03
 IDLE_POLL_S: Final = 1.0
-NOT_READY_S: Final = (0.002, 0.004, 0.008, 0.01)  # waits for the report that an edge has announced
-STUCK_S: Final = 0.5  # a chip that is touched and gives no report for so long is started again
-RETRY_S: Final = 0.5  # between attempts to start a chip that is gone
+NOT_READY_DELAYS_S: Final = (0.002, 0.004, 0.008, 0.01)  # before reading again after an edge without a report
+STUCK_TIMEOUT_S: Final = 0.5  # without a report of a touched chip: then it is started again
+RETRY_S: Final = 0.5  # between attempts to start a lost chip
 
 
 class Chip(Protocol):
-    """A touch controller: how it is started, and how a report is read from it."""
+    """A touch controller: its start sequence, and how a report is read.
+
+    Attributes
+    ----------
+    name : str
+        In messages.
+    """
 
     name: str
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
-        """Reset it and find out what it is, yielding times in s to wait in between.
+        """Reset and identify the chip.
+
+        Parameters
+        ----------
+        bus : I2cBus
+            Where it answers.
+        lines : PanelLines
+            Its interrupt and reset lines.
+
+        Yields
+        ------
+        float
+            Time in s to wait before the next step.
 
         Raises
         ------
         OSError
             If it does not answer.
         TouchError
-            If something else does.
+            If another device answers.
         """
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the chip as it was started last; another object each time."""
+        """Description of the chip as it was started last; another object after each start."""
 
     @property
     def edge(self) -> Edge:
-        """The edge that announces a report."""
+        """Edge of the interrupt line that signals a report."""
 
     def fetch(self, bus: I2cBus) -> Sequence[Contact] | None:
-        """Contacts of the newest report; None if there is no new one.
+        """Read the newest report.
+
+        Parameters
+        ----------
+        bus : I2cBus
+            Where the chip answers.
+
+        Returns
+        -------
+        sequence of Contact, or None
+            All contacts that are down; None if there is no new report.
 
         Raises
         ------
         OSError
             If it does not answer.
         ValueError
-            If the report cannot be meant.
+            If the report has impossible content.
         """
 
 
@@ -72,14 +100,14 @@ class I2cReader:
     settings : I2cTouch
         Bus and lines.
     chip : Chip
-        What answers there.
+        Start sequence and report format.
     warnings : Counter of str
-        The chip's counter too.
+        Counts anomalies; shared with the chip.
 
     Raises
     ------
     TouchError
-        If bus, lines or chip are not there.
+        If bus, lines or chip are absent.
     """
 
     def __init__(self, settings: I2cTouch, chip: Chip, warnings: Counter[str]) -> None:
@@ -91,12 +119,12 @@ class I2cReader:
         self._present = False
         self._starting: Iterator[float] | None = None
         self._next_s = 0.0
-        self._edge_s: float | None = None  # of an edge whose report was not ready
+        self._edge_s: float | None = None  # of an edge without a report so far
         self._not_ready = 0
         self._report_s = 0.0
         try:
             for wait_s in self._start():
-                time.sleep(wait_s)  # before the loop runs
+                time.sleep(wait_s)  # in the panel's own process
         except OSError as error:
             self.close()
             raise TouchError(
@@ -108,30 +136,30 @@ class I2cReader:
 
     @property
     def description(self) -> DeviceDescription:
-        """Of the chip as it was started last."""
+        """Description of the chip as it was started last."""
         return self._chip.description
 
     @property
     def present(self) -> bool:
-        """Whether the chip answered when it was asked last."""
+        """Whether the chip answered the last transfer."""
         return self._present
 
     def fileno(self) -> int | None:
-        """Events of the interrupt line."""
+        """File of the interrupt line."""
         return self._lines.fileno()
 
     def next_time_s(self) -> float | None:
-        """When to ask without an edge, or to go on starting."""
+        """When to read without an edge, or to do the next step of a start."""
         return self._next_s
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of the newest report; see `EventReader.read`."""
+        """Events of the newest report by `now_s`; see `EventReader.read`."""
         if not self._present:
             if now_s >= self._next_s:
-                self._go_on_starting(now_s)
+                self._continue_start(now_s)
             return ()
         try:
-            edge_s = self._lines.take_edges()
+            edge_s = self._lines.read_edges()
             if edge_s is not None:
                 self._edge_s, self._not_ready = edge_s, 0
             elif now_s < self._next_s:
@@ -143,7 +171,7 @@ class I2cReader:
             self.warnings["report_absurd"] += 1
             contacts = None
         if contacts is None:
-            return self._nothing_new(now_s)
+            return self._no_report(now_s)
         time_s = now_s if self._edge_s is None else self._edge_s
         events = self._contacts.report(contacts, time_s)
         self._edge_s = None
@@ -152,16 +180,16 @@ class I2cReader:
         return events
 
     def close(self) -> None:
-        """Give bus and lines back."""
+        """Close bus and lines."""
         self._lines.close()
         self._bus.close()
         self._present = False
 
-    def _nothing_new(self, now_s: float) -> Sequence[Event]:
-        if self._contacts.down and now_s - self._report_s > STUCK_S:
+    def _no_report(self, now_s: float) -> Sequence[Event]:
+        if self._contacts.down and now_s - self._report_s > STUCK_TIMEOUT_S:
             return self._lost(now_s, "contact_stuck")
-        if self._edge_s is not None and self._not_ready < len(NOT_READY_S):
-            self._next_s = now_s + NOT_READY_S[self._not_ready]
+        if self._edge_s is not None and self._not_ready < len(NOT_READY_DELAYS_S):
+            self._next_s = now_s + NOT_READY_DELAYS_S[self._not_ready]
             self._not_ready += 1
         else:
             self._edge_s = None
@@ -169,11 +197,11 @@ class I2cReader:
         return ()
 
     def _lost(self, now_s: float, kind: str) -> Sequence[Event]:
-        """Lift every contact; the chip is started again after a while."""
+        """Lift every contact of a lost chip, which is started again after `RETRY_S`."""
         self.warnings[kind] += 1
         self._present = False
         self._edge_s = None
-        self._lines.rest()
+        self._lines.release_interrupt()
         self._next_s = now_s + RETRY_S
         return self._contacts.report((), now_s)
 
@@ -183,8 +211,8 @@ class I2cReader:
         self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)
         self._present = True
 
-    def _go_on_starting(self, now_s: float) -> None:
-        """One step of a start: the loop goes on while the chip wakes up."""
+    def _continue_start(self, now_s: float) -> None:
+        """Do one step of a start; other reads go on between the steps."""
         if self._starting is None:
             self._starting = self._start()
         try:
@@ -195,5 +223,5 @@ class I2cReader:
             self._next_s = now_s
         except (OSError, TouchError):
             self._starting = None
-            self._lines.rest()
+            self._lines.release_interrupt()
             self._next_s = now_s + RETRY_S

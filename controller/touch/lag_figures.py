@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.errors import CalibrationError
-from controller.touch.kept_events import EV_REL, REL_X, REL_Y
+from controller.touch.event_capture import EV_REL, REL_X, REL_Y
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 

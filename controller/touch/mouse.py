@@ -1,20 +1,17 @@
-"""A mouse by its event device (python-evdev): how far it went, and when, on the loop's clock."""
+"""A mouse as reference for the lag of a touch panel: its steps and their times (python-evdev)."""
 
 from __future__ import annotations
-
-import fcntl
-import struct
 
 import evdev
 
 from controller.errors import TouchError
+from controller.touch.event_capture import EV_REL, REL_X, REL_Y
 from controller.touch.event_reader import Event
-from controller.touch.kept_events import EV_REL, REL_X, REL_Y
-from controller.touch.linux_input import CLOCK_MONOTONIC, EVIOCSCLOCKID
+from controller.touch.input_device import use_monotonic_clock
 
 
 class Mouse:
-    """A pointing device that tells steps.
+    """A pointing device that reports relative steps.
 
     Parameters
     ----------
@@ -24,7 +21,7 @@ class Mouse:
     Raises
     ------
     TouchError
-        If it is not there, cannot be opened, or is no mouse.
+        If it is absent, cannot be opened or is no mouse.
     """
 
     def __init__(self, device: str) -> None:
@@ -32,19 +29,19 @@ class Mouse:
         try:
             self._opened = evdev.InputDevice(device)
             steps = self._opened.capabilities().get(EV_REL, [])
-            fcntl.ioctl(self._opened.fd, EVIOCSCLOCKID, struct.pack("i", CLOCK_MONOTONIC))
+            use_monotonic_clock(self._opened.fd)
         except (OSError, ValueError) as error:
             raise TouchError(f"{device}: the mouse cannot be opened ({getattr(error, 'strerror', None) or error})") from error
         if not {REL_X, REL_Y} <= set(steps):
             self._opened.close()
-            raise TouchError(f"{device} is no mouse: it tells no steps along x and y")
+            raise TouchError(f"{device} is no mouse: it reports no steps along x and y")
 
     def fileno(self) -> int:
         """The event device."""
         return self._opened.fd
 
     def read(self) -> list[Event]:
-        """The steps that have come.
+        """Steps since the last call, as EV_REL events.
 
         Raises
         ------
@@ -56,9 +53,9 @@ class Mouse:
         except BlockingIOError:
             return []
         except OSError as error:
-            raise TouchError(f"{self._device}: the mouse has gone ({error.strerror})") from error
+            raise TouchError(f"{self._device}: the mouse was disconnected ({error.strerror})") from error
         return [(e.type, e.code, e.value, e.timestamp()) for e in events if e.type == EV_REL and e.code in (REL_X, REL_Y)]
 
     def close(self) -> None:
-        """Give the device back."""
+        """Close the device."""
         self._opened.close()

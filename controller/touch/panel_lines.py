@@ -1,4 +1,4 @@
-"""The interrupt and reset lines of a touch panel (gpiod 2): chip by label, lines by name, as both outlast kernels."""
+"""Interrupt and reset lines of a touch panel (gpiod 2): chip by label, lines by name, which stay the same across kernels."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from gpiod.line import Direction, Edge, Value
 from controller.errors import TouchError
 
 CONSUMER: Final = "haptic-panel touch"
-EDGES_AT_ONCE: Final = 16  # read together; only the last one's time counts
+READ_EDGES: Final = 16  # with one call; only the time of the last one counts
 
 
 class PanelLines:
-    """Both lines of one panel.
+    """Interrupt line and optional reset line of one panel.
 
     Parameters
     ----------
@@ -26,10 +26,15 @@ class PanelLines:
     interrupt, reset : str
         Names of lines of that chip; reset may be empty.
 
+    Attributes
+    ----------
+    has_reset : bool
+        Whether there is a reset line.
+
     Raises
     ------
     TouchError
-        If there is no such chip or line, or one is taken.
+        If there is no such chip or line, or a line is in use.
     """
 
     def __init__(self, chip_label: str, interrupt: str, reset: str = "") -> None:
@@ -44,45 +49,56 @@ class PanelLines:
                 try:
                     chip.line_offset_from_id(name)
                 except OSError as error:
-                    raise TouchError(f"GPIO chip {chip_label!r} has no line {name!r}; gpioinfo lists what it has") from error
+                    raise TouchError(f"GPIO chip {chip_label!r} has no line {name!r}; gpioinfo lists its lines") from error
 
     def drive_reset(self, *, high: bool) -> None:
-        """Pull the reset line; low holds the panel in reset."""
+        """Drive the reset line `high` or low; low holds the panel in reset."""
         self._drive(self._reset, high)
 
     def drive_interrupt(self, *, high: bool) -> None:
-        """Pull the interrupt line ourselves: at reset its level tells some panels which address to take."""
+        """Drive the interrupt line `high` or low: during reset its level selects the address of some chips."""
         self._drive(self._interrupt, high)
 
     def listen(self, edge: Edge) -> None:
-        """Wait for edges of the interrupt line from now on."""
-        self._let_go(self._interrupt)
+        """Detect edges of the interrupt line from now on.
+
+        Parameters
+        ----------
+        edge : gpiod.line.Edge
+            Rising or falling.
+
+        Raises
+        ------
+        TouchError
+            If the line is in use.
+        """
+        self._release(self._interrupt)
         settings = gpiod.LineSettings(direction=Direction.INPUT, edge_detection=edge)
         self._listening = self._request(self._interrupt, settings)
 
     def fileno(self) -> int | None:
-        """File that is readable after an edge."""
+        """File that is readable after an edge; None while edges are not detected."""
         return self._listening.fd if self._listening else None
 
-    def take_edges(self) -> float | None:
-        """Forget the edges that have come; time of the last one in s, None if there was none."""
+    def read_edges(self) -> float | None:
+        """Consume all edges so far; time of the last one in s on CLOCK_MONOTONIC, None if there was none."""
         time_s = None
         while self._listening and self._listening.wait_edge_events(0):
-            time_s = self._listening.read_edge_events(EDGES_AT_ONCE)[-1].timestamp_ns * 1e-9
+            time_s = self._listening.read_edge_events(READ_EDGES)[-1].timestamp_ns * 1e-9
         return time_s
 
-    def rest(self) -> None:
-        """Let go of the interrupt line; the reset line stays as it is, so that the panel keeps running."""
-        self._let_go(self._interrupt)
+    def release_interrupt(self) -> None:
+        """Release the interrupt line; the reset line keeps its level, so that the panel keeps running."""
+        self._release(self._interrupt)
         if self._listening:
             with contextlib.suppress(OSError):
                 self._listening.release()
             self._listening = None
 
     def close(self) -> None:
-        """Let go of both lines."""
-        self.rest()
-        self._let_go(self._reset)
+        """Release both lines."""
+        self.release_interrupt()
+        self._release(self._reset)
 
     def _drive(self, name: str, high: bool) -> None:
         value = Value.ACTIVE if high else Value.INACTIVE
@@ -95,7 +111,7 @@ class PanelLines:
             self._listening = None
         self._driven[name] = self._request(name, gpiod.LineSettings(direction=Direction.OUTPUT, output_value=value))
 
-    def _let_go(self, name: str) -> None:
+    def _release(self, name: str) -> None:
         held = self._driven.pop(name, None)
         if held:
             with contextlib.suppress(OSError):
@@ -105,23 +121,24 @@ class PanelLines:
         try:
             return gpiod.request_lines(self._path, consumer=CONSUMER, config={name: settings})
         except OSError as error:
-            reason = "is taken by another program or driver" if error.errno == errno.EBUSY else f"cannot be had ({error.strerror})"
-            raise TouchError(f"line {name!r} of {self._path} {reason}; gpioinfo says by whom") from error
+            busy = error.errno == errno.EBUSY
+            reason = "is in use by another program or driver" if busy else f"cannot be requested ({error.strerror})"
+            raise TouchError(f"line {name!r} of {self._path} {reason}; gpioinfo shows its consumer") from error
 
 
 def _chip_path(label: str) -> str:
     labels = []
-    refused = False
+    denied = False
     for path in sorted(Path("/dev").glob("gpiochip*")):
         try:
             with gpiod.Chip(str(path)) as chip:
                 found = chip.get_info().label
         except OSError as error:
-            refused |= error.errno in (errno.EACCES, errno.EPERM)
+            denied |= error.errno in (errno.EACCES, errno.EPERM)
             continue
         if found == label:
             return str(path)
         labels.append(found)
-    if refused:
+    if denied:
         raise TouchError("GPIO chips may not be opened by this user: add it to the group that owns them (on Debian: gpio)")
-    raise TouchError(f"there is no GPIO chip labelled {label!r}; there is: {', '.join(labels) or 'none'}")
+    raise TouchError(f"there is no GPIO chip labelled {label!r}; labels present: {', '.join(labels) or 'none'}")

@@ -1,7 +1,7 @@
-"""A touch panel whose bus may hang, read by a process of its own: what hangs there costs touches, never a heartbeat.
+"""A touch panel read by a process of its own, so that a bus that hangs delays touches and never a heartbeat.
 
-A transfer of a report takes 1 ms of the bus, and an adapter that hangs up to a second, which no call to the kernel can
-bound for all adapters; the loop waits for neither.
+Reading a report takes 1 ms of an I2C bus, and a bus that hangs blocks for up to a second, which no system call can limit on
+all adapters. The process sends messages of one letter and a body over a socket of the kind SOCK_SEQPACKET.
 """
 
 from __future__ import annotations
@@ -9,95 +9,132 @@ from __future__ import annotations
 import math
 import select
 import socket
+import struct
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final
+
+import msgspec
 
 from controller.board.worker import Worker
 from controller.errors import TouchError
-from controller.touch import panel_messages as messages
-from controller.touch.awaited_reader import LOST, RETRY_S, UNSEEN
+from controller.touch.awaited_reader import LOST, NO_DEVICE, RETRY_S
 from controller.touch.event_reader import DeviceDescription, Event, EventReader
 
-HANGS_S: Final = 5.0  # without a first word
+HANG_S: Final = 5.0  # without any message after the start
+
+# Messages
+EVENTS: Final = ord("E")  # of one report
+DESCRIPTION: Final = ord("D")  # of the device that has been opened
+PRESENT: Final = ord("P")
+ABSENT: Final = ord("A")  # with the cause
+WARNINGS: Final = ord("W")  # all so far, by kind
+EVENT: Final = struct.Struct("=HHid")
+MAX_CAUSE_BYTES: Final = 1024
+
+_descriptions = msgspec.json.Decoder(DeviceDescription)
+_warnings = msgspec.json.Decoder(dict[str, int])
+
+
+def events_message(events: Sequence[Event]) -> bytes:
+    """Message with the `events` of one report."""
+    return bytes([EVENTS]) + b"".join([EVENT.pack(*event) for event in events])
+
+
+def events_of(body: memoryview) -> list[Event]:
+    """Events of the `body` of an `EVENTS` message."""
+    return list(EVENT.iter_unpack(body))
+
+
+def presence_message(cause: str | None) -> bytes:
+    """Message that the panel is connected (`cause` None), or why it is not."""
+    return bytes([PRESENT]) if cause is None else bytes([ABSENT]) + cause.encode(errors="replace")[:MAX_CAUSE_BYTES]
+
+
+def _description_message(description: DeviceDescription) -> bytes:
+    return bytes([DESCRIPTION]) + msgspec.json.encode(description)
+
+
+def _warnings_message(warnings: Mapping[str, int]) -> bytes:
+    return bytes([WARNINGS]) + msgspec.json.encode(dict(warnings))
 
 
 class PanelProcess:
-    """The loop's end; an `EventReader` of a panel that may be absent.
+    """The loop's end: an `EventReader` of a panel that may be absent.
 
     Parameters
     ----------
     worker : Worker
-        Runs `serve_panel`.
+        Process that runs `serve_panel`.
 
     Attributes
     ----------
     warnings : Counter of str
-        Of the driver.
+        Anomalies found by the driver, by kind.
     description : DeviceDescription
-        Of the device as it was opened last; `UNSEEN` before.
+        Of the device as it was opened last; `NO_DEVICE` before.
     present : bool
-        Whether the panel was there when its process said so last.
+        Whether the panel was connected when the process last reported it.
     cause : str
-        Why it is not; empty while it is, and before it was looked for.
+        Why it is not connected; empty while it is, and before the first attempt to open it.
     """
 
     def __init__(self, worker: Worker) -> None:
         self.warnings: Counter[str] = Counter()
-        self.description: DeviceDescription = UNSEEN
+        self.description: DeviceDescription = NO_DEVICE
         self.present = False
         self.cause = ""
         self._worker = worker
-        self._silent_s = math.inf  # when it is taken to hang before it has said anything
+        self._hangs_s = math.inf  # when the process is taken to hang unless it has sent a message
 
     def fileno(self) -> int:
-        """The way from its process."""
+        """Socket to the process."""
         return self._worker.fileno()
 
     def next_time_s(self) -> None:
-        """Never: what is due is said."""
+        """None: the process sends a message when something is due."""
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of at most one report; see `EventReader.read`.
+        """Events of at most one report received by `now_s`; see `EventReader.read`.
 
         Raises
         ------
         WorkerEnded
-            If its process has ended: no panel does that.
+            If the process has ended: no behaviour of a panel ends it.
         """
         message = self._worker.receive()
         if message is None:
-            if self.description is UNSEEN and not self.cause:
-                self._silent_s = min(self._silent_s, now_s + HANGS_S)
-                if now_s >= self._silent_s:
-                    self.cause = "what reads it says nothing: its bus hangs"
+            if self.description is NO_DEVICE and not self.cause:
+                self._hangs_s = min(self._hangs_s, now_s + HANG_S)
+                if now_s >= self._hangs_s:
+                    self.cause = "the process that reads it does not answer: its bus hangs"
             return ()
         kind, body = message[0], message[1:]
-        if kind == messages.EVENTS:
-            return messages.events_of(body)
-        if kind == messages.DESCRIPTION:
-            self.description = messages.description_of(body)
-        elif kind == messages.PRESENT:
+        if kind == EVENTS:
+            return events_of(body)
+        if kind == DESCRIPTION:
+            self.description = _descriptions.decode(body)  # another object each time
+        elif kind == PRESENT:
             self.present, self.cause = True, ""
-        elif kind == messages.ABSENT:
+        elif kind == ABSENT:
             self.present, self.cause = False, bytes(body).decode(errors="replace")
-        elif kind == messages.WARNINGS:
-            self.warnings = Counter(messages.warnings_of(body))
+        elif kind == WARNINGS:
+            self.warnings = Counter(_warnings.decode(body))
         return ()
 
     def close(self) -> None:
-        """End its process."""
+        """End the process."""
         self._worker.close()
 
 
 def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket) -> None:
-    """Read a panel, and tell the loop, for as long as there is one.
+    """Read a panel and send what it reports, until the loop closes its end.
 
     Parameters
     ----------
     open_reader : callable
-        Makes the driver, or raises TouchError; it may block.
+        Opens the driver, or raises TouchError; it may block.
     loop : socket
         The other end of `Worker`.
     """
@@ -108,7 +145,7 @@ def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket) -> 
             reader = open_reader()
             break
         except TouchError as error:
-            loop.send(messages.presence_message(str(error)))
+            loop.send(presence_message(str(error)))
         if poll.poll(RETRY_S * 1e3):
             return
     present: bool | None = None
@@ -119,15 +156,15 @@ def serve_panel(open_reader: Callable[[], EventReader], loop: socket.socket) -> 
         events = reader.read(time.monotonic())
         if reader.present and reader.description is not description:
             description = reader.description
-            loop.send(messages.description_message(description))
+            loop.send(_description_message(description))
         if events:
-            loop.send(messages.events_message(events))
+            loop.send(events_message(events))
         if reader.present is not present:
             present = reader.present
-            loop.send(messages.presence_message(None if present else LOST))
+            loop.send(presence_message(None if present else LOST))
         if reader.warnings != warnings:
             warnings = reader.warnings.copy()
-            loop.send(messages.warnings_message(warnings))
+            loop.send(_warnings_message(warnings))
         file = reader.fileno()
         if file != watched:
             if watched is not None:

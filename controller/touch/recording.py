@@ -1,40 +1,106 @@
-"""Touch recordings in evemu's text format, versions 1.0 to 1.3.
+"""Touch recordings in evemu's text format, versions 1.0 to 1.3, and the tracks of their fingers.
 
-A recording is somebody else's file: what is not understood is skipped or clamped, counted by kind
-(`warnings.KINDS`) and never fatal. Only a file that cannot be opened, or of which nothing is a recording's, is an error.
+Recordings come from other people and tools: lines and values that are not valid are skipped or clamped, counted by kind
+(`reports.WARNINGS`) and never fatal. Only a file that cannot be opened, or without a single valid line, is an error.
 """
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import stat
 from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.errors import ConfigError, TouchError
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
-from controller.touch.panel import Protocol, protocol_of
-from controller.touch.recorded_time import rebased
-from controller.touch.tracks import Track
+from controller.touch.event_codes import Protocol, protocol_of
 
 Event = tuple[int, int, int, float]  # type, code, value, time in s from the first event
 
 INT32_MIN, INT32_MAX = -(1 << 31), (1 << 31) - 1
 NEWEST_VERSION = (1, 3)
-LARGEST_BYTES = 256 << 20
-LONGEST_NUMBER = 20  # digits; Python refuses to read numbers of thousands
+MAX_BYTES = 256 << 20
+MAX_DIGITS = 20  # Python refuses to parse numbers of thousands of digits
+MAX_GAP_S = 60.0
+CLOCK_SET_EVENTS = 50  # if so many events later the times are still off, the clock was set while recording
 
 VERSION = re.compile(r"#\s*EVEMU\s+(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
 EVENT = re.compile(r"E:\s*(\S+)\s+(?:0x)?([0-9a-f]{1,4})\s+(?:0x)?([0-9a-f]{1,4})\s+([-+]?\d+)\s*(?:#.*)?", re.ASCII | re.I)
 AXIS = re.compile(r"A:\s*(?:0x)?([0-9a-f]{1,2})\s+([-+]?\d+)\s+([-+]?\d+)(?:\s+[-+]?\d+){0,4}\s*(?:#.*)?", re.ASCII | re.I)
 OTHER = re.compile(r"N:.*|[IPBLS]:[\s0-9a-f]*(?:#.*)?", re.ASCII | re.I)
 TIME = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?|nan|[-+]?inf", re.ASCII | re.I)
-# Version 1.3 tells the state at the start in comments, and the current slot is told nowhere else.
+# Version 1.3 gives the state at the start in comments; the current slot stands nowhere else.
 FIRST_SLOT = re.compile(r"^#\s+Event code 47 [^\n]*\n#\s+Value\s+(\d{1,3})\s*$", re.ASCII | re.M)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Reported positions of one finger from its first report to its last.
+
+    Attributes
+    ----------
+    finger : int
+        Number in the touch samples.
+    time_s, x_m, y_m : (report,) float64 arrays
+        One entry for each report while the finger was down.
+    """
+
+    finger: int
+    time_s: NDArray[np.float64]
+    x_m: NDArray[np.float64]
+    y_m: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, finger: int, reports: Sequence[tuple[float, float, float]]) -> Track:
+        """Track from reports.
+
+        Parameters
+        ----------
+        finger : int
+            Number in the touch samples.
+        reports : sequence of (time_s, x_m, y_m)
+            In order of time.
+        """
+        time_s, x_m, y_m = np.array(reports, np.float64).T
+        return cls(finger, time_s, x_m, y_m)
+
+    @classmethod
+    def joined(cls, finger: int, parts: Iterable[Track]) -> Track:
+        """Track of one finger that the panel lost and found again.
+
+        Parameters
+        ----------
+        finger : int
+            Number of the whole.
+        parts : iterable of Track
+            One for each contact, in order of time.
+        """
+        kept = list(parts)
+        return cls(finger, *(np.concatenate([getattr(part, name) for part in kept]) for name in ("time_s", "x_m", "y_m")))
+
+    @property
+    def begin_s(self) -> float:
+        """Time of the first report."""
+        return float(self.time_s[0])
+
+    @property
+    def end_s(self) -> float:
+        """Time of the last report before the finger was lifted."""
+        return float(self.time_s[-1])
+
+    def position(self, time_s: float) -> tuple[float, float]:
+        """(x_m, y_m) at `time_s`, linear between reports and contacts, constant before the first and after the last."""
+        return float(np.interp(time_s, self.time_s, self.x_m)), float(np.interp(time_s, self.time_s, self.y_m))
 
 
 class Recording:
@@ -43,28 +109,28 @@ class Recording:
     Parameters
     ----------
     text : str
-        The file's text.
+        Content of the file.
     name : str
-        What to call it in messages.
+        Name in messages.
 
     Attributes
     ----------
     events : tuple of (type, code, value, time_s)
         Time in s from the first event, never decreasing.
     x, y : AxisRange
-        Ranges of the positions: as declared, else the smallest and largest value seen.
+        Ranges of the positions: as declared, else the smallest and largest value in the recording.
     protocol : Protocol
-        What the device declares or the stream shows.
+        As the device declares it or the stream shows it.
     warnings : Counter of str
-        What was skipped or clamped in reading, by kind.
-    understood : bool
-        Whether any line of the text is a recording's.
+        Anomalies in the text, by kind.
+    valid : bool
+        Whether at least one line is evemu text.
     """
 
     def __init__(self, text: str, name: str = "recording") -> None:
         self.name = name
         self.warnings: Counter[str] = Counter()
-        self.understood = False
+        self.valid = False
         self._declared: dict[int, AxisRange] = {}
         self.events = self._parse(text)
         self.protocol = protocol_of(self._declared, {(kind, code) for kind, code, _, _ in self.events})
@@ -77,21 +143,26 @@ class Recording:
     def open(cls, path: Path) -> Recording:
         """Read a recording.
 
+        Parameters
+        ----------
+        path : Path
+            A regular file of at most `MAX_BYTES`.
+
         Raises
         ------
         TouchError
-            If the file cannot be read, naming it.
+            If the file cannot be read.
         ConfigError
-            If nothing in it is a line of a recording.
+            If no line of it is evemu text.
         """
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # a pipe nobody writes to must not hang us
+            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # do not block on a pipe without a writer
             with os.fdopen(fd, "rb") as file:
                 if not stat.S_ISREG(os.fstat(fd).st_mode):
                     raise TouchError(f"{path}: the recording cannot be read (not a regular file)")
-                data = file.read(LARGEST_BYTES + 1)
-            if len(data) > LARGEST_BYTES:
-                raise TouchError(f"{path}: the recording cannot be read (more than {LARGEST_BYTES >> 20} MiB)")
+                data = file.read(MAX_BYTES + 1)
+            if len(data) > MAX_BYTES:
+                raise TouchError(f"{path}: the recording cannot be read (more than {MAX_BYTES >> 20} MiB)")
         except OSError as error:
             raise TouchError(f"{path}: the recording cannot be read ({error.strerror})") from error
         except ValueError as error:  # a NUL in the name
@@ -103,10 +174,8 @@ class Recording:
             text = data.decode("utf-8", errors="replace")
             damaged = sum("\ufffd" in line for line in text.split("\n"))
         recording = cls(text, path.name)
-        if not recording.understood:
-            raise ConfigError(
-                f"{path}: is no touch recording: none of its lines is one of evemu's (haptic-panel record makes them)"
-            )
+        if not recording.valid:
+            raise ConfigError(f"{path}: is no touch recording: no line of it is evemu text (haptic-panel record makes recordings)")
         if damaged:
             recording.warnings["not_utf8"] = damaged
         return recording
@@ -117,18 +186,26 @@ class Recording:
         return self.events[-1][3] if self.events else 0.0
 
     def axes(self, board: Board) -> Axes:
-        """The recording's axes on a board's plate."""
+        """Map from the recording's axes to the plate of `board`."""
         return Axes(board, self.x, self.y)
 
     def decoder(self, axes: Axes) -> Decoder:
-        """A decoder in the state at the recording's start."""
+        """Decoder in the state at the recording's start, with `axes` from `self.axes`."""
         slots = self._declared.get(ev.ABS_MT_SLOT)
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
     def tracks(self, axes: Axes) -> dict[int, Track]:
-        """Where each finger was, by the numbers that a replay gives, in the recording's own time.
+        """Track of each finger, with a position at every report while it is down.
 
-        A finger has a point at every report while it is down, moving or not.
+        Parameters
+        ----------
+        axes : Axes
+            From `self.axes`.
+
+        Returns
+        -------
+        dict of int to Track
+            By the finger numbers of a replay; times in s from the first event.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
@@ -145,26 +222,26 @@ class Recording:
             line = raw_line.strip()
             event = EVENT.fullmatch(line)
             if event and TIME.fullmatch(event[1]):
-                self.understood = True
+                self.valid = True
                 found.append((int(event[2], 16), int(event[3], 16), self._int32(event[4]), float(event[1])))
             elif axis := AXIS.fullmatch(line):
-                self.understood = True
+                self.valid = True
                 declared = AxisRange(self._int32(axis[2]), self._int32(axis[3]))
                 if declared.minimum < declared.maximum:
                     self._declared[int(axis[1], 16)] = declared
             elif version := VERSION.fullmatch(line):
-                self.understood = True
+                self.valid = True
                 if (int(version[1]), int(version[2])) > NEWEST_VERSION:
                     self.warnings["unknown_version"] += 1
             elif OTHER.fullmatch(line):
-                self.understood = True
+                self.valid = True
             elif line and not line.startswith("#"):
                 self.warnings["garbage_lines"] += 1
         times = rebased([event[3] for event in found], self.warnings)
         return tuple([(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(found, times, strict=True)])
 
     def _int32(self, digits: str) -> int:
-        value = int(digits[:LONGEST_NUMBER])
+        value = int(digits[:MAX_DIGITS])
         if INT32_MIN <= value <= INT32_MAX:
             return value
         self.warnings["value_absurd"] += 1
@@ -178,3 +255,40 @@ class Recording:
         if seen:
             self.warnings["no_axis_lines"] = 1
         return AxisRange(min(seen, default=0), max(seen, default=0))
+
+
+def rebased(raw_s: Sequence[float], warnings: Counter[str]) -> list[float]:
+    """Times from the first event: from 0, never decreasing, without impossible gaps.
+
+    An event earlier than the one before, or more than a minute later, or with a time that is not a number, takes the time
+    of the one before. If the events after it stay off, the clock was set while recording: they keep their intervals.
+
+    Parameters
+    ----------
+    raw_s : sequence of float
+        As recorded, in s; any values.
+    warnings : Counter of str
+        Counts `time_backwards` and `time_absurd`.
+
+    Returns
+    -------
+    list of float
+        In s, as long as `raw_s`.
+    """
+    times: list[float] = []
+    offset_s = 0.0
+    now_s = -math.inf  # before the first event with a time
+    for index, raw in enumerate(raw_s):
+        time_s = raw - offset_s
+        if not abs(time_s) < 1e15:
+            warnings["time_absurd"] += 1
+        elif now_s == -math.inf:
+            offset_s, now_s = raw, 0.0
+        elif now_s <= time_s <= now_s + MAX_GAP_S:
+            now_s = time_s
+        else:
+            warnings["time_backwards" if time_s < now_s else "time_absurd"] += 1
+            if not any(now_s <= later - offset_s <= now_s + MAX_GAP_S for later in raw_s[index + 1 : index + 1 + CLOCK_SET_EVENTS]):
+                offset_s = raw - now_s
+        times.append(max(now_s, 0.0))
+    return times

@@ -1,4 +1,4 @@
-"""A recording as a source of touch samples: report by report, in its own time."""
+"""A recording as a source of touch samples, one report at a time, in its own time."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from collections import Counter
 
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes
-from controller.touch.panel import Counts
 from controller.touch.recording import Recording
-from controller.touch.samples import TouchSample
+from controller.touch.source import Counts, TouchSample
 
 
 class RecordingSource:
@@ -19,11 +18,11 @@ class RecordingSource:
     Parameters
     ----------
     recording : Recording
-        What to replay.
+        Gives the events.
     axes : Axes
         From `recording.axes(board)`.
     start_s : float
-        Time of its first event in the loop's clock.
+        Time of its first event on the loop's clock.
     """
 
     def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
@@ -35,7 +34,7 @@ class RecordingSource:
         self._report = 0
         self._warnings = recording.warnings
         self._ended = not self._events
-        self._last_words: Counter[str] = Counter()
+        self._end_warnings: Counter[str] = Counter()
 
     @property
     def counts(self) -> Counts:
@@ -44,15 +43,15 @@ class RecordingSource:
 
     @property
     def warnings(self) -> Counter[str]:
-        """Of the file and of what was replayed so far."""
-        return self._warnings + self._decoder.warnings + self._last_words
+        """Anomalies of the file and of the events replayed so far, by kind."""
+        return self._warnings + self._decoder.warnings + self._end_warnings
 
     def fileno(self) -> None:
-        """Nothing to wait on but time."""
+        """None: only time is waited for."""
         return
 
     def next_time_s(self) -> float | None:
-        """When the next report is due; None when all were read."""
+        """When the next report is due; None after the last."""
         if self._ended:
             return None
         if self._report < len(self._report_ends):
@@ -67,8 +66,8 @@ class RecordingSource:
         if self._report == len(self._report_ends):
             self._ended = True
             released = self._decoder.release(due_s)
-            self._last_words["still_down_at_end"] += len(released)
-            self._last_words["never_reported"] += len(self._events) - self._next
+            self._end_warnings["still_down_at_end"] += len(released)
+            self._end_warnings["never_reported"] += len(self._events) - self._next
             return released
         end = self._report_ends[self._report]
         feed = self._decoder.feed
@@ -80,5 +79,5 @@ class RecordingSource:
         return feed(ev.EV_SYN, ev.SYN_REPORT, 0, due_s) or ()
 
     def close(self) -> None:
-        """Nothing is held."""
+        """End the replay."""
         self._ended = True

@@ -1,8 +1,8 @@
 """Touch panels on a serial port: Elo SmartSet, 10-byte packets (Elo "SmartSet Touchscreen Controllers Technical Reference").
 
 A packet is 'U', a letter, seven bytes and a checksum. Touch packets are 'T': status, x, y and z, low byte first. The
-controller sends one when a finger comes (status bit 0), a stream of them while it stays (bit 1) and one when it goes
-(bit 2).
+controller sends one when a finger is put down (status bit 0), a stream of them while it stays (bit 1) and one when it is
+lifted (bit 2).
 """
 
 from __future__ import annotations
@@ -27,51 +27,51 @@ LEAD: Final = ord("U")
 TOUCH: Final = ord("T")
 CHECKSUM_SEED: Final = 0xAA
 TOUCHED: Final = 0x03  # bits of status: initial touch, stream
-LARGEST: Final = 4095  # of a coordinate
+MAX_COORDINATE: Final = 4095
 
-RETRY_S: Final = 0.5  # between attempts to open a port that is gone
-STUCK_S: Final = 0.5  # without a packet of the stream the one that said the finger went must have been lost
-AT_ONCE_BYTES: Final = 64  # read together
+RETRY_S: Final = 0.5  # between attempts to open a lost port
+STUCK_TIMEOUT_S: Final = 0.5  # without a packet of the stream: the packet of the release must have been lost
+READ_BYTES: Final = 64  # with one call
 
 
 class SmartSetParser:
-    """Finds packets in a stream of bytes; after garbage it is in step again with the next whole packet.
+    """Finds packets in a stream of bytes; after invalid bytes it synchronises with the next valid packet.
 
     Attributes
     ----------
-    skipped : int
-        Bytes that were no packet, so far.
+    skipped_bytes : int
+        Bytes so far that belong to no packet.
     """
 
     def __init__(self) -> None:
-        self.skipped = 0
-        self._held = bytearray()
+        self.skipped_bytes = 0
+        self._buffer = bytearray()
 
-    def take(self, data: bytes) -> None:
-        """Append what was read."""
-        self._held += data
+    def feed(self, data: bytes) -> None:
+        """Append `data` from the port."""
+        self._buffer += data
 
     def next_packet(self) -> bytes | None:
-        """The next whole packet with the right checksum; None if there is none yet."""
-        held = self._held
-        self._skip_to(held.find(LEAD))
-        while len(held) >= PACKET_BYTES:
-            if (CHECKSUM_SEED + sum(held[: PACKET_BYTES - 1])) & 0xFF == held[PACKET_BYTES - 1]:
-                packet = bytes(held[:PACKET_BYTES])
-                del held[:PACKET_BYTES]
+        """Remove and return the next packet with a valid checksum; None if there is none yet."""
+        buffer = self._buffer
+        self._skip_to(buffer.find(LEAD))
+        while len(buffer) >= PACKET_BYTES:
+            if (CHECKSUM_SEED + sum(buffer[: PACKET_BYTES - 1])) & 0xFF == buffer[PACKET_BYTES - 1]:
+                packet = bytes(buffer[:PACKET_BYTES])
+                del buffer[:PACKET_BYTES]
                 return packet
-            self._skip_to(held.find(LEAD, 1))  # the packet may begin within what was taken for one
+            self._skip_to(buffer.find(LEAD, 1))  # a packet may begin inside the invalid one
         return None
 
-    def forget(self) -> None:
-        """Drop a packet that has begun."""
-        self._held.clear()
+    def reset(self) -> None:
+        """Discard an incomplete packet."""
+        self._buffer.clear()
 
     def _skip_to(self, start: int) -> None:
-        """Drop what comes before a lead-in; all if there is none."""
-        start = len(self._held) if start < 0 else start
-        self.skipped += start
-        del self._held[:start]
+        """Discard the bytes before `start`; all if it is negative."""
+        start = len(self._buffer) if start < 0 else start
+        self.skipped_bytes += start
+        del self._buffer[:start]
 
 
 class SerialPanel:
@@ -80,7 +80,7 @@ class SerialPanel:
     Parameters
     ----------
     settings : SerialTouch
-        Port and rate.
+        Port and baud rate.
 
     Raises
     ------
@@ -100,48 +100,48 @@ class SerialPanel:
         try:
             self._open()
         except (OSError, ValueError) as error:
-            raise TouchError(_why_not_open(settings, error)) from error
+            raise TouchError(_open_error(settings, error)) from error
 
     @property
     def description(self) -> DeviceDescription:
-        """Of any such panel."""
+        """Description of a SmartSet panel; the same for all."""
         return self._description
 
     @property
     def present(self) -> bool:
-        """Whether the port is open; whether anybody is at its other end only packets say."""
+        """Whether the port is open; only packets show that a panel is connected to it."""
         return self._port is not None
 
     def fileno(self) -> int | None:
-        """The port."""
+        """File of the port; None while it is closed."""
         return self._port.fileno() if self._port else None
 
     def next_time_s(self) -> float | None:
-        """At once while packets are held here; when a stream that has stopped ends a touch; when to open the port again."""
+        """At once while packets are buffered; when a silent stream ends a touch; while the port is lost, when to open it again."""
         if self._port is None or self._more:
             return self._next_s if self._port is None else 0.0
-        return self._packet_s + STUCK_S if self._touched else None
+        return self._packet_s + STUCK_TIMEOUT_S if self._touched else None
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of at most one packet; see `EventReader.read`."""
+        """Events of at most one packet by `now_s`; see `EventReader.read`."""
         if self._port is None:
             if now_s >= self._next_s:
                 self._next_s = now_s + RETRY_S
                 with contextlib.suppress(OSError, ValueError):
                     self._open()
             return ()
-        skipped = self._parser.skipped
+        skipped = self._parser.skipped_bytes
         packet = self._parser.next_packet()
         if packet is None and not self._fill():
             return self._lost(now_s)
         packet = packet or self._parser.next_packet()
-        if self._parser.skipped != skipped:
-            self.warnings["bytes_skipped"] += self._parser.skipped - skipped
+        if self._parser.skipped_bytes != skipped:
+            self.warnings["bytes_skipped"] += self._parser.skipped_bytes - skipped
         self._more = packet is not None
         if packet is not None and packet[1] == TOUCH:
             self._packet_s = now_s
             return self._events(packet, now_s)
-        if packet is None and self._touched and now_s >= self._packet_s + STUCK_S:
+        if packet is None and self._touched and now_s >= self._packet_s + STUCK_TIMEOUT_S:
             self.warnings["contact_stuck"] += 1
             return self._lifted(now_s)
         return ()
@@ -158,23 +158,23 @@ class SerialPanel:
     def _open(self) -> None:
         self._port = serial.Serial(self._settings.device, self._settings.baud, timeout=0, exclusive=True)
         self._poll.register(self._port.fileno(), select.POLLIN)
-        self._parser.forget()
+        self._parser.reset()
         self._more = False
         codes = {ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
-        axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, LARGEST))
+        axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, MAX_COORDINATE))
         self._description = DeviceDescription(
             "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes
         )
 
     def _fill(self) -> bool:
-        """Read what has come; False if the port is gone."""
+        """Read the bytes that have arrived; False if the port is lost."""
         assert self._port is not None
         try:
             for _, happened in self._poll.poll(0):
                 if not happened & select.POLLIN:
                     return False  # hung up
-                data = os.read(self._port.fileno(), AT_ONCE_BYTES)
-                self._parser.take(data)
+                data = os.read(self._port.fileno(), READ_BYTES)
+                self._parser.feed(data)
                 return bool(data)
         except BlockingIOError:
             return True
@@ -204,7 +204,7 @@ class SerialPanel:
         return self._lifted(now_s) if self._touched else ()
 
 
-def _why_not_open(settings: SerialTouch, error: Exception) -> str:
+def _open_error(settings: SerialTouch, error: Exception) -> str:
     device = settings.device
     number = getattr(error, "errno", None)
     if number in (errno.ENOENT, errno.ENXIO, errno.ENODEV, errno.EIO):
@@ -214,3 +214,14 @@ def _why_not_open(settings: SerialTouch, error: Exception) -> str:
     if number in (errno.EBUSY, errno.EAGAIN):
         return f"{device} is in use by another program: end it first"
     return f"{device} could not be opened at {settings.baud} baud: {error}"
+
+
+def open_panel(settings: SerialTouch) -> SerialPanel:
+    """Open the panel of a board with these `settings`.
+
+    Raises
+    ------
+    TouchError
+        If the port cannot be opened.
+    """
+    return SerialPanel(settings)

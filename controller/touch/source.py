@@ -1,95 +1,159 @@
-"""The interfaces between what gives touch samples and the event loop.
+"""Touch samples, and the interfaces between their sources and the event loop.
 
-A source gives samples: a recording, or a panel on a real bus. The tracker stands between a source and the
-loop: it decides what is a finger, and says where a finger will be. The loop waits until `fileno()` is
-readable or `next_time_s()` has come, then calls `read`.
+A source is a recording or a panel on a real bus. The tracker stands between a source and the loop: it decides which contacts
+are fingers, and predicts where each finger will be. The loop waits until `fileno()` is readable or `next_time_s()` has come,
+then calls `read`.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from typing import Protocol
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
 
-from controller.touch.panel import Counts
-from controller.touch.samples import TouchSample
+
+class TouchSample(NamedTuple):
+    """One finger that began, moved or was released.
+
+    A finger keeps its number from its first sample to the one with `contact` False; no later finger has the same number.
+    The last sample repeats the position at which the finger was last reported.
+
+    Attributes
+    ----------
+    finger : int
+        Number of the finger.
+    x_m, y_m : float
+        Position on the plate.
+    time_s : float
+        On the loop's clock.
+    contact : bool
+        False: released.
+    size_m : float
+        Major axis of the contact; 0 if the panel reports none.
+    """
+
+    finger: int
+    x_m: float
+    y_m: float
+    time_s: float
+    contact: bool
+    size_m: float = 0.0
+
+
+@dataclass(slots=True)
+class Counts:
+    """What a source has reported, before any limit of the controller.
+
+    Attributes
+    ----------
+    reports : int
+        SYN_REPORTs with at least one contact down.
+    contacts : int
+        Contacts that began.
+    max_fingers : int
+        Most contacts down in one report.
+    """
+
+    reports: int = 0
+    contacts: int = 0
+    max_fingers: int = 0
 
 
 class TouchSource(Protocol):
-    """A touch panel, or what stands in for one."""
+    """A touch panel, or a recording of one."""
 
     @property
     def counts(self) -> Counts:
-        """Reports, contacts and fingers seen so far."""
+        """Reports, contacts and fingers so far."""
 
     @property
     def warnings(self) -> Counter[str]:
-        """What had to be skipped or clamped so far, counted by kind (`warnings.in_words`)."""
+        """Anomalies that were skipped or clamped so far, counted by kind (`reports.WARNINGS`)."""
 
     def fileno(self) -> int | None:
-        """File to wait on for reading; None where only `next_time_s` says when. Another one after a panel was plugged in again."""
+        """File to wait on for reading; None: wait until `next_time_s` only. It changes when a panel is reconnected."""
 
     def next_time_s(self) -> float | None:
-        """When to call `read`, in the loop's clock; None: when the file is readable, or, without a file, never again."""
+        """When to call `read`, on the loop's clock; None: when the file is readable or, without a file, never again."""
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Samples of at most one report (SYN_REPORT) due by `now_s`; empty if none is due or no finger changed."""
-
-    def close(self) -> None:
-        """Give the device back."""
-
-
-class TrackedTouch(TouchSource, Protocol):
-    """A source behind the tracker: fingers that may be played, and where they will be."""
-
-    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
-        """Where a finger will be, (x_m, y_m) on the plate; None once it is released.
-
-        Parameters
-        ----------
-        finger : int
-            As in the samples.
-        at_s : float
-            In the loop's clock, at most some tens of ms ahead: the T of an emission.
-        """
-
-    @property
-    def report_s(self) -> float:
-        """Time from one report of the panel to the next, as far as it is known."""
-
-    def confirmed(self, finger: int) -> bool:
-        """Whether the panel has confirmed the contact; the emissions of one that is not are capped.
-
-        It is known of a finger that was released too, until the next `read`: lifting it may be felt.
-        """
-
-    def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
-        """An emission sounds from `start_s` to `end_s`: what appears on the panel meanwhile may be a ghost.
-
-        To be told in the order of `start_s`, at the latest when it starts; it ends what was told before.
-
-        Parameters
-        ----------
-        start_s, end_s : float
-            In the loop's clock.
-        period_s : float
-            Above 0 it is repeated so, until the next call; `emitted(now_s, now_s)` where nothing follows.
-        """
-
-    def quiet_until_s(self, now_s: float, next_s: float) -> float:
-        """Until when no emission may begin, so that a contact that may be a ghost shows whether it is one.
-
-        To be asked before anything is played, and while anything is repeated. It is at most one emission and the life of
-        its ghosts ahead, and what it may take of the time is bounded.
+        """Take the samples of at most one report.
 
         Parameters
         ----------
         now_s : float
-            In the loop's clock.
+            Time on the loop's clock; a later report stays where it is.
+
+        Returns
+        -------
+        tuple of TouchSample
+            Empty if no report is due or no finger changed.
+        """
+
+    def close(self) -> None:
+        """Close the device or file."""
+
+
+class TrackedTouch(TouchSource, Protocol):
+    """A source behind the tracker: confirmed fingers with predicted positions."""
+
+    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+        """Predict the position of a finger.
+
+        Parameters
+        ----------
+        finger : int
+            Number as in the samples.
+        at_s : float
+            Time on the loop's clock, at most some tens of ms ahead.
+
+        Returns
+        -------
+        (x_m, y_m) or None
+            On the plate; None once the finger is released.
+        """
+
+    @property
+    def report_s(self) -> float:
+        """Report period of the panel as measured so far, in s."""
+
+    def confirmed(self, finger: int) -> bool:
+        """Whether the panel has confirmed a contact; the loop limits the emissions of an unconfirmed one.
+
+        Parameters
+        ----------
+        finger : int
+            Number as in the samples. A released finger is still known until the next `read`, for its release effect.
+        """
+
+    def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
+        """Announce an emission: contacts first reported during it may be ghosts.
+
+        Call it in the order of `start_s`, at the latest when the emission starts. It ends the one announced before.
+
+        Parameters
+        ----------
+        start_s, end_s : float
+            Start and end of the emission on the loop's clock.
+        period_s : float
+            Above 0: the emission repeats with this period until the next call; `emitted(now_s, now_s)` ends it.
+        """
+
+    def quiet_until_s(self, now_s: float, next_s: float) -> float:
+        """Ask whether emissions must pause so that a suspected ghost can be told from a finger.
+
+        Ask before every emission and while an emission repeats. The pause is at most one emission and the life of its
+        ghosts long, and the share of time spent in pauses is limited.
+
+        Parameters
+        ----------
+        now_s : float
+            Time on the loop's clock.
         next_s : float
             When the next emission would begin, now or later.
 
         Returns
         -------
         float
-            `now_s` or earlier: go ahead.
+            Time until which no emission may begin; `now_s` or earlier: no pause.
         """

@@ -19,11 +19,9 @@ from typing import Any
 
 from controller.board.devices import TouchPanel
 from controller.touch.ghost_guard import GhostGuard, Listening
-from controller.touch.panel import Counts
 from controller.touch.prediction import Motion
-from controller.touch.report_rate import ReportRate
-from controller.touch.samples import TouchSample
-from controller.touch.source import TouchSource
+from controller.touch.reports import ReportRate
+from controller.touch.source import Counts, TouchSample, TouchSource
 
 NEAR_M = 5e-3
 BRIDGED_PERIODS = 1.5

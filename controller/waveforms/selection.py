@@ -110,12 +110,12 @@ class Selection:
 
         Only for one point: of the same amplitude, and at most `near_m` away.
         """
-        wanted, there = self.lone(key), self.lone(resident)
+        wanted, there = self.single_focus(key), self.single_focus(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False
         return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= near_m
 
-    def lone(self, key: Key) -> tuple[float, float, int] | None:
+    def single_focus(self, key: Key) -> tuple[float, float, int] | None:
         """Place and step of amplitude of a key of one point."""
         if isinstance(key, int):
             return (*self._bank.grid.place(key), 0)

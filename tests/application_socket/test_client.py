@@ -13,7 +13,7 @@ from controller.application_socket.client import PanelClient, main
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError, LinkError
 from controller.loop.commands import Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 
 @pytest.fixture
@@ -65,7 +65,7 @@ def test_touches_are_iterated_with_commands_in_between_and_no_more_come_after(se
             assert client.play("click", finger=touch.finger).outcome == "played"
         touches.close()
         assert client.hello().board == "simulated"
-        assert served.socket._subscribers == 0
+        assert served.socket._clients.touch_subscribers == 0
 
 
 def test_scenes_figures_and_who_is_there(served):

@@ -14,11 +14,13 @@ from alone import alone
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from controller.application_socket import command_socket
-from controller.application_socket.command_socket import ACCEPTS_A_TURN, LINES_A_CLIENT, LINES_A_TURN, WAITING_PER_CLIENT
+from controller.application_socket.clients import ACCEPTS_A_TURN, LEAVE_S, PAUSE_S
+from controller.application_socket.command_socket import LINES_A_CLIENT, LINES_A_TURN
 from controller.application_socket.messages import LINE_BYTES
+from controller.application_socket.pending_commands import WAITING_PER_CLIENT
+from controller.application_socket.requests import FIGURES_S
 from controller.loop.commands import CommandSource, Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70}
 
@@ -110,16 +112,25 @@ def test_the_very_edges_are_accepted(panel, edge):
         ({"kind": "play", "effect": "click", "x_mm": 3}, "either x_mm and y_mm, or finger"),
         ({"kind": "play", "effect": "click", "y_mm": 3}, "either x_mm and y_mm, or finger"),
         ({"kind": "play", "effect": "click"}, "either x_mm and y_mm, or finger"),
-        ({"kind": "play", "effect": "click", "finger": -1}, "Expected `int` >= 0 - at `$.finger`"),
-        (POINT | {"x_mm": "100"}, "Expected `float | null`, got `str` - at `$.x_mm`"),
-        (POINT | {"amplitud": 1}, "Object contains unknown field `amplitud`"),
-        (POINT | {"effect": ""}, "Expected `str` of length >= 1 - at `$.effect`"),
+        ({"kind": "play", "effect": "click", "finger": -1}, "finger = -1: must be a whole number from 0 to 9007199254740992"),
+        (POINT | {"x_mm": "100"}, "x_mm = '100': must be a number in mm"),
+        (POINT | {"amplitud": 1}, "amplitud = 1: unknown key; did you mean amplitude?"),
+        (POINT | {"effect": ""}, "effect = '': must be a text of 1 to 64 characters"),
         (POINT | {"effect": "no such"}, "effect 'no such' is unknown"),
-        ({"kind": "stop"}, "Invalid value 'stop' - at `$.kind`"),
-        ({"effect": "click"}, "Object missing required field `kind`"),
+        (
+            {"kind": "stop"},
+            "kind = 'stop': must be one of 'play', 'subscribe', 'unsubscribe', 'arm', 'disarm', 'load_scene', 'figures', 'state',"
+            " 'hello'",
+        ),
+        ({"kind": "subscribe", "to": ["touch"]}, "to[0] = 'touch': must be one of 'state', 'touches'; did you mean touches?"),
+        (
+            {"effect": "click"},
+            "kind is missing: one of 'play', 'subscribe', 'unsubscribe', 'arm', 'disarm', 'load_scene', 'figures', 'state',"
+            " 'hello'",
+        ),
         (
             {"kind": "load_scene", "name": "../../etc/passwd"},
-            "Expected `str` matching regex '^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$' - at `$.name`",
+            "name = '../../etc/passwd': must be a text that matches ^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$",
         ),
         ({"kind": "load_scene", "name": "broken"}, "broken.toml: not valid TOML"),
     ],
@@ -172,7 +183,7 @@ def test_figures_are_told_and_not_counted_anew_for_each_who_asks(panel):
     assert answers[0]["figures"].items() >= {"emissions": 7, "nothing": None}.items()
     assert [answer["figures"]["application_socket"]["lines"] for answer in answers] == list(range(1, 21))
     assert panel.control.times_told == 1
-    panel.now_s += command_socket.FIGURES_S
+    panel.now_s += FIGURES_S
     panel.ask(client, {"kind": "figures"})
     assert panel.control.times_told == 2
 
@@ -230,7 +241,7 @@ def test_a_flood_is_refused_line_by_line_and_read_no_faster_than_the_loop_can_be
     played = 10 + (panel.now_s - started_s) * 100
     assert len(panel.control.plays) == pytest.approx(played, abs=1)
     assert turns >= 1000 / LINES_A_CLIENT
-    assert panel.now_s - started_s >= 1000 / LINES_A_CLIENT * command_socket.PAUSE_S * 0.8
+    assert panel.now_s - started_s >= 1000 / LINES_A_CLIENT * PAUSE_S * 0.8
     assert panel.socket.counters.over_rate == len(refused)
 
 
@@ -394,7 +405,7 @@ def test_one_that_does_not_read_is_told_to_go_and_then_gone_within_a_second(pane
     assert panel.socket.counters.told_to_go == 1
     before_s, files = panel.now_s, open_files()
     panel.settle()
-    assert panel.now_s - before_s <= command_socket.LEAVE_S
+    assert panel.now_s - before_s <= LEAVE_S
     assert open_files() == files - 1
     panel.socket.touches(samples)
 

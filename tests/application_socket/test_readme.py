@@ -7,7 +7,7 @@ from pathlib import Path
 import controller.application_socket
 from controller.board.panel_state import Condition, PanelState
 from controller.loop.commands import Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 README = Path(controller.application_socket.__file__).with_name("README.md")
 

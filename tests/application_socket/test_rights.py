@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from controller.application_socket.client import PanelClient
-from controller.application_socket.command_socket import WAITING_PER_CLIENT
 from controller.application_socket.peers import Peer, Rights
+from controller.application_socket.pending_commands import WAITING_PER_CLIENT
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError
 from controller.loop.commands import Outcome
-from controller.loop.scheduler import MOST_WAITING
+from controller.loop.scheduler import MAX_WAITING_COMMANDS
 
 PLAY_GROUP, OPERATE_GROUP = [group for group in grp.getgrall() if group.gr_gid not in (0, os.getegid(), 65534)][:2]
 GROUPS = {"play_group": PLAY_GROUP.gr_name, "operate_group": OPERATE_GROUP.gr_name}
@@ -150,7 +150,7 @@ def test_an_operator_always_finds_a_place(panel):
     operator = panel.connect(OPERATOR)
     assert panel.ask(operator, {"kind": "disarm", "id": 1}) == [{"kind": "answer", "id": 1, "outcome": "done"}]
     assert panel.socket.counters.gave_way == 1
-    assert panel.socket._subscribers == 7
+    assert panel.socket._clients.touch_subscribers == 7
 
 
 def test_when_one_gives_way_while_it_speaks_nothing_is_mixed_up(panel):
@@ -172,9 +172,9 @@ def test_commands_of_one_user_do_not_push_out_those_of_another(panel_with):
     hog, kiosk = [panel.connect(GUEST), panel.connect(GUEST)], panel.connect(KIOSK)
     panel.settle()
     told = [answer for client in hog for answer in panel.ask(client, *({**PLAY, "id": number} for number in range(50)))]
-    assert len(panel.control.plays) == MOST_WAITING // 2
-    assert Counter(answer["outcome"] for answer in told) == {"refused": 100 - MOST_WAITING // 2}
-    assert panel.ask(kiosk, *({**PLAY, "id": number} for number in range(MOST_WAITING // 2))) == []
+    assert len(panel.control.plays) == MAX_WAITING_COMMANDS // 2
+    assert Counter(answer["outcome"] for answer in told) == {"refused": 100 - MAX_WAITING_COMMANDS // 2}
+    assert panel.ask(kiosk, *({**PLAY, "id": number} for number in range(MAX_WAITING_COMMANDS // 2))) == []
     for ticket, *_ in panel.control.plays:
         panel.socket.outcome(ticket, Outcome.PLAYED, 0.0)
     panel.ask(hog[0], PLAY)
@@ -189,7 +189,7 @@ def test_a_share_is_not_had_anew_by_connecting_again(panel_with):
         panel.ask(hog, *[PLAY] * 20)
         hog.close()
         panel.settle()
-    assert len(panel.control.plays) == MOST_WAITING // 2
+    assert len(panel.control.plays) == MAX_WAITING_COMMANDS // 2
 
 
 def test_a_user_alone_has_all_of_it(panel_with):
@@ -318,8 +318,8 @@ class Clients(RuleBasedStateMachine):
         waiting = panel.socket.waiting
         answered = counters.played + counters.merged + counters.skipped + counters.refused + counters.done
         assert counters.lines == answered + waiting
-        assert sum(panel.socket._waiting_of.values()) == waiting
-        there = [client for client in panel.socket._clients if client.open]
+        assert sum(panel.socket._pending.of_user.values()) == waiting
+        there = list(panel.socket._clients)
         of = Counter(client.peer.uid for client in there if "operate" not in client.rights)
         assert all(count <= 2 for count in of.values())
         assert STRANGER.uid not in of

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from controller.loop.commands import Outcome
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 POINT = {"kind": "play", "effect": "click", "x_mm": 100, "y_mm": 70, "id": 123_456, "amplitude": 0.5}
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from controller.touch import event_codes as ev
+from controller.touch.event_codes import Protocol
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 from controller.touch.linux_input import INPUT_EVENT
-from controller.touch.panel import Protocol
 from controller.touch.recording import Recording
 
 Given = Callable[[float, float, int, bytes, int, int], None]

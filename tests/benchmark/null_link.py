@@ -11,8 +11,9 @@ import zlib
 from collections.abc import Callable, Sequence
 
 from controller.board.board import Board
-from controller.fpga.frames import CRC, FRAME_BYTES, STATUS
+from controller.fpga.frames import CRC, FRAME_BYTES
 from controller.fpga.registers import STATUS_SYNC, Result, State
+from controller.fpga.status import STATUS
 from controller.service.drivers import open_simulated
 
 PAUSE_S = 0.25e-6  # chip select high between frames
@@ -35,7 +36,7 @@ class NullLink:
     def __init__(self, board: Board, now_s: Callable[[], float], sent: Callable[[memoryview, Sequence[int]], None] | None = None):
         self.bytes_sent = 0
         self.wire_ns = 0
-        self.away_ns = 0
+        self.blocked_ns = 0
         self._settings = board.link
         self._now_s = now_s
         self._start_s = now_s()
@@ -49,7 +50,7 @@ class NullLink:
 
     def answer_alone(self) -> None:
         """From now on nothing is computed but statuses; the FPGA has to be armed."""
-        self._free_s = self._model.free_s()
+        self._free_s = self._model.wire_free_s()
         self._alone = True
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
@@ -78,15 +79,15 @@ class NullLink:
             if started_ns > self._rested_ns + REST_EVERY_NS:
                 time.sleep(REST_S)
                 self._rested_ns = time.perf_counter_ns()
-        self.away_ns += time.perf_counter_ns() - started_ns
+        self.blocked_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
         """The edge comes when the wire is free."""
         return max(self._now_s(), self._free_s) if self._alone else self._model.trigger()
 
-    def free_s(self) -> float:
+    def wire_free_s(self) -> float:
         """When the frames sent so far have gone."""
-        return self._free_s if self._alone else self._model.free_s()
+        return self._free_s if self._alone else self._model.wire_free_s()
 
     def close(self) -> None:
         """Nothing is held."""

@@ -7,8 +7,8 @@ from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.benchmark.amplitude import amplitude_figures
+from controller.benchmark.focus_figures import emit
 from controller.benchmark.plot_amplitude import plot_amplitude
-from controller.benchmark.work_precision import emit
 from controller.commands.tables import amplitude_table
 from controller.errors import ConfigError
 from controller.physics.plate_twin import PlateTwin

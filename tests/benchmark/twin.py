@@ -217,7 +217,7 @@ class Twin:
             "response_stride": bank._response_stride,
             "nx": grid.nx,
             "ny": grid.ny,
-            "regions": len(scene.areas),
+            "regions": len(scene.regions),
             "slots": board.link.slots,
             "pitch_m": grid.pitch_m,
             "x0_m": grid.x0_m,
@@ -233,9 +233,9 @@ class Twin:
         }
         for name, value in values.items():
             setattr(config, name, value)
-        for index, area in enumerate(scene.areas):
-            config.rectangle[index][:] = area.shape.bounds
-            config.spacing_m[index] = area.spacings[0].spacing_m if area.spacings else 0.0
+        for index, region in enumerate(scene.regions):
+            config.rectangle[index][:] = region.shape.bounds
+            config.spacing_m[index] = region.spacings[0].spacing_m if region.spacings else 0.0
         return config
 
 

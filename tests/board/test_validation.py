@@ -1,6 +1,7 @@
-"""What is refused in a file is told with its key, what may stand there, and the nearest of what was meant."""
+"""Every refusal of a file or message names the key, the value found, what is valid there, and the nearest valid name."""
 
 import copy
+import re
 import tomllib
 
 import msgspec
@@ -8,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from controller.application_socket.messages import AnyRequest
 from controller.board.board import Board, find_board
 from controller.board.records import as_record
-from controller.board.validation import in_words
+from controller.board.validation import explain
 from controller.errors import ConfigError
 from controller.scene.scene_file import SceneTable
 
@@ -24,7 +26,7 @@ ANYTHING = st.one_of(
 def refused(tables, kind=Board):
     with pytest.raises(msgspec.ValidationError) as caught:
         msgspec.convert(tables, kind)
-    return in_words(str(caught.value), tables, kind)
+    return explain(str(caught.value), tables, kind)
 
 
 def changed(tables, *path, to):
@@ -41,23 +43,42 @@ def changed(tables, *path, to):
     return found
 
 
+PANELS = "'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'"
+
+
 @pytest.mark.parametrize(
     ("path", "to", "said"),
     [
-        (("touch", "lag_ms"), 300.0, "touch.lag_ms = 300.0: must be a number from 0 to 200"),
+        (("touch", "lag_ms"), 300.0, "touch.lag_ms = 300.0: must be a number from 0 to 200 ms"),
         (("touch", "lagms"), 1.0, "touch.lagms = 1.0: unknown key; did you mean lag_ms?"),
-        (
-            ("touch", "kind"),
-            "gt912",
-            "touch.kind = 'gt912': must be one of 'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'; did you mean",
-        ),
+        (("touch", "kind"), "gt912", f"touch.kind = 'gt912': must be one of {PANELS}; did you mean gt911?"),
+        (("touch", "kind"), "cst999", f"touch.kind = 'cst999': must be one of {PANELS}"),
+        (("touch", "kind"), 3, f"touch.kind = 3: must be one of {PANELS}"),
+        (("touch", "kind"), None, f"touch.kind is missing: one of {PANELS}"),
+        (("link", "kind"), "spy", "link.kind = 'spy': must be one of 'serial', 'simulated', 'spi'; did you mean spi?"),
         (("link", "slots"), 17, "link.slots = 17: must be a whole number from 1 to 16"),
+        (("link", "slots"), 1.5, "link.slots = 1.5: must be a whole number from 1 to 16"),
+        (("link", "baud"), 1, "link.baud = 1: must be a whole number from 9600 to 12000000"),
+        (("link", "clock_hz"), 1, "link.clock_hz = 1: must be a whole number from 1000000 to 400000000 Hz"),
         (("plate", "edge"), "free", "plate.edge = 'free': must be 'simply_supported'"),
         (("plate", "xyz"), 1, "plate.xyz = 1: unknown key; there are: length_mm, width_mm, thickness_mm, "),
-        (("plate", "thickness_mm"), None, "plate.thickness_mm is missing: a number from 0.05 to 20"),
+        (("plate", "thickness_mm"), None, "plate.thickness_mm is missing: a number from 0.05 to 20 mm"),
+        (("plate", "poisson_ratio"), 0.5, "plate.poisson_ratio = 0.5: must be a number at least 0, below 0.5"),
+        (("plate", "density_kg_m3"), 1, "plate.density_kg_m3 = 1: must be a number from 100 to 25000 kg/m³"),
+        (("driver", "moment_n_per_v"), 2, "driver.moment_n_per_v = 2: must be a number from 1e-06 to 1 N/V"),
+        (("driver", "supply_v"), 61, "driver.supply_v = 61: must be a number above 0, at most 60 V"),
         (("actuators", 3, "channel"), 32, "actuators[3].channel = 32: must be a whole number from 0 to 31"),
-        (("touch", "x_mm_from_axes"), [1.0], "touch.x_mm_from_axes: must be a list of 3 values, each a number"),
+        (("actuators", 3, "x_mm"), "left", "actuators[3].x_mm = 'left': must be a number from -1000 to 3000 mm"),
+        (
+            ("touch", "x_mm_from_axes"),
+            [1.0],
+            "touch.x_mm_from_axes: must be a list of 3 values, each a number from -100000 to 100000 mm",
+        ),
+        (("touch", "x_mm_from_axes", 1), "a", "touch.x_mm_from_axes[1] = 'a': must be a number from -100000 to 100000 mm"),
         (("plate",), [], "plate: must be a table"),
+        (("plate",), None, "plate is missing: a table"),
+        (("realtime",), {"lock_memory": 1}, "realtime.lock_memory = 1: must be true or false"),
+        (("application_socket",), {"path": ""}, "application_socket.path = '': must be a text of at least 1 character"),
         (("folder",), "elsewhere", "folder = 'elsewhere': unknown key"),
         (("name",), "x" * 200, f"name = '{'x' * 59}…: must be a text that matches "),
     ],
@@ -68,11 +89,36 @@ def test_a_board_is_refused_in_words(path, to, said):
     assert "`" not in found, "nothing of the library's own words"
 
 
-def test_a_scene_is_refused_in_words():
-    found = refused(changed(SCENE, "regions", 0, "shape", to="rectangel"), SceneTable)
-    assert found.startswith("regions[0].shape = 'rectangel': must be one of 'rectangle', 'circle', 'polygon', 'plate'")
-    assert found.endswith("; did you mean rectangle?")
-    assert refused(changed(SCENE, "regions", to=[]), SceneTable) == "regions: must be a list of at least 1"
+@pytest.mark.parametrize(
+    ("path", "to", "said"),
+    [
+        (("regions",), [], "regions: must be a list of at least 1"),
+        (("regions",), None, "regions is missing: a list of at least 1"),
+        (
+            ("regions", 0, "shape"),
+            "rectangel",
+            "regions[0].shape = 'rectangel': must be one of 'rectangle', 'circle', 'polygon', 'plate'; did you mean rectangle?",
+        ),
+        (("regions", 0, "polcy"), "compose", "regions[0].polcy = 'compose': unknown key; did you mean policy?"),
+        (("regions", 0, "policy"), "alone", "regions[0].policy = 'alone': must be one of 'alternate', 'compose'"),
+        (("regions", 0, "amplitude"), 2, "regions[0].amplitude = 2: must be a number from 0.25 to 1"),
+        (("regions", 0, "effects"), [{"when": "pres"}], "regions[0].effects[0].when = 'pres': must be one of 'always', 'command',"),
+        (("regions", 0, "effects"), [{"when": ["pres"]}], "regions[0].effects[0].when[0] = 'pres': must be one of 'always', "),
+        (("regions", 0, "effects"), [3], "regions[0].effects[0] = 3: must be a text or a table"),
+        (("regions", 0, "effects"), [{"rate_hz": 0}], "regions[0].effects[0].rate_hz = 0: must be a number from 0.1 to 1000 Hz"),
+        (("regions", 0, "effects"), [{"envelope": [[1]]}], "regions[0].effects[0].envelope[0]: must be a list of 2 values"),
+        (("effects",), {"": {}}, "effects: a name in it must be a text of 1 to 64 characters"),
+    ],
+)
+def test_a_scene_is_refused_in_words(path, to, said):
+    found = refused(changed(SCENE, *path, to=to), SceneTable)
+    assert found.startswith(said)
+    assert "`" not in found
+
+
+def test_of_a_misspelt_value_among_several_kinds_the_nearest_is_named():
+    found = refused(changed(SCENE, "regions", 0, "effects", to=[{"when": "pres"}]), SceneTable)
+    assert found.endswith("; did you mean press?")
 
 
 def places(value, path=()):
@@ -97,3 +143,52 @@ def test_whatever_stands_somewhere_is_taken_or_refused_in_one_line_with_its_key(
         refusal = str(error)
     assert refusal.startswith("file: ")
     assert "\n" not in refusal
+
+
+POLYGON = next(index for index, region in enumerate(SCENE["regions"]) if region["shape"] == "polygon")
+LENGTHS = [
+    *((SCENE, SceneTable, ("regions", POLYGON, "corners_mm", 1, axis)) for axis in (0, 1)),
+    *((SCENE, SceneTable, ("regions", 0, key)) for key in ("x_mm", "y_mm", "width_mm", "height_mm")),
+    *((BOARD, Board, ("actuators", 0, key)) for key in ("x_mm", "y_mm", "size_mm")),
+    (BOARD, Board, ("waveform", "duration_ms")),
+    *((BOARD, Board, ("touch", f"{axis}_mm_from_axes", 2)) for axis in "xy"),
+]
+
+
+@pytest.mark.parametrize("value", [1.8e308, 1e300, -1e300, 1e154, 10**400, float("nan"), float("inf"), -float("inf")])
+@pytest.mark.parametrize(
+    ("tables", "kind", "path"), LENGTHS, ids=lambda value: ".".join(map(str, value)) if type(value) is tuple else ""
+)
+def test_a_length_that_no_plate_has_is_refused_with_its_key(tables, kind, path, value):
+    with pytest.raises(ConfigError) as caught:
+        as_record("file: ", changed(tables, *path, to=value), kind)
+    shown = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
+    assert str(caught.value).startswith(f"file: {shown} = ")
+    assert "\n" not in str(caught.value)
+
+
+MESSAGES = [
+    {"kind": "play", "effect": "click", "x_mm": 1.0, "y_mm": 2.0, "amplitude": 0.5, "id": 1},
+    {"kind": "subscribe", "to": ["touches", "state"], "id": "a"},
+    {"kind": "load_scene", "name": "drums", "id": None},
+]
+
+
+@given(st.sampled_from(MESSAGES), st.data())
+def test_whatever_a_message_holds_is_taken_or_refused_in_one_line_without_the_librarys_words(message, data):
+    path = data.draw(st.sampled_from(list(places(message))))
+    if isinstance(path[-1], str) and data.draw(st.booleans()):
+        path = (*path[:-1], data.draw(st.text(st.characters(codec="utf-8"), min_size=1)))
+    wrong = changed(message, *path, to=data.draw(ANYTHING.filter(lambda value: value is not None)))
+    try:
+        msgspec.convert(wrong, AnyRequest)
+    except msgspec.ValidationError as error:
+        said = explain(str(error), wrong, AnyRequest)
+        assert "\n" not in said
+        assert re.search(r": (must be|unknown key)| is missing", said)
+        assert "`" not in said or "`" in str(wrong)
+
+
+@given(st.text(max_size=10_000))
+def test_any_message_at_all_is_translated_to_one(message):
+    assert isinstance(explain(message, {"kind": "play"}, AnyRequest), str)

@@ -23,11 +23,11 @@ from controller.fpga.frames import (
     pack_play,
     pack_store,
     pack_unlock,
-    parse_status,
 )
 from controller.fpga.registers import IDENTITY_MAGIC, TRIGGER_LATENCY_TICKS, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink
+from controller.fpga.status import parse_status
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "conformance"))
 
@@ -144,7 +144,7 @@ def test_a_frame_damaged_on_its_way_is_refused_and_the_next_one_taken(pi):
     damaged = iter([True])
     pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
     with pytest.raises(Refused) as caught:
-        session.exchange.short(end)
+        session.exchange.send_short(end)
     assert caught.value.result is Result.BAD_CRC
     session.heartbeat()
 

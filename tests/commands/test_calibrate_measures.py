@@ -13,8 +13,8 @@ from controller.errors import CalibrationError, FaultError
 from controller.gateware_model.gateware import Permit
 from controller.service.drivers import open_simulated
 from controller.simulation.ghostly_panel import GhostlyPanel, pins_of
-from controller.touch.board_lines import with_value
-from controller.touch.kept_events import KeptEvents
+from controller.touch.event_capture import EventCapture
+from controller.touch.touch_table import with_value
 
 
 @pytest.fixture
@@ -120,7 +120,7 @@ def played(board, bank_file, fingers=(), permit=True):
         link.gateware.permit(0, False, next(iter(Permit)))
     panel = GhostlyPanel(board, fingers, pins_of(link), probability=0.0, lives=(1, 1), until_s=1e6)
     with Bank.open(bank_file, board) as bank:
-        return calibrate_ghosts._play(board, bank, clock, link, KeptEvents(panel)), clock.now_s()
+        return calibrate_ghosts._play(board, bank, clock, link, EventCapture(panel)), clock.now_s()
 
 
 def test_a_finger_on_the_panel_ends_the_measurement_early_and_is_said(board, bank_file):

@@ -471,7 +471,7 @@ def test_a_demo_that_a_busy_machine_spoiled_says_so_instead_of_figures():
     assert "the host was late by 40 ms" in said
     assert spoiled(counters, real_time=False) == "", "in virtual time a busy machine changes nothing"
     counters = Counters(host_silent=2)
-    assert "the host fell silent (2 ×)" in spoiled(counters, real_time=True)
+    assert "the host stopped its heartbeat (2 ×)" in spoiled(counters, real_time=True)
 
 
 def test_the_table_of_a_spoiled_run_has_no_worst_figures_of_foci(capsys, small_board, monkeypatch):

@@ -15,8 +15,8 @@ from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.frames import parse_status
 from controller.fpga.registers import Control, Register
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import (
     READY_TICKS,
     SELECT_HIGH_TICKS,

@@ -14,9 +14,10 @@ from controller.board.board import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, FrameType, Kind, Register, Start, State
 from controller.fpga.serial_link import SerialLink
+from controller.fpga.status import parse_status
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
 

@@ -11,8 +11,9 @@ import pytest
 from pin_script import BUILD_HASH, open_gateware
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import READY_TICKS
 
 QUICK, SLOW = 3_000, 1_000_000

@@ -20,8 +20,9 @@ from pin_script import (
 )
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result, Start, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import frame_ticks
 
 HEARTBEAT_TICKS = 20_000

@@ -10,8 +10,9 @@ from pin_script import MODEL, Script, assert_same, perform_on_both
 from random_script import SEEDS, random_script
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 
 SLOW_FRAMES = 100_000

@@ -5,8 +5,9 @@ from pin_script import MODEL, Script
 from random_script import MOVING, SEEDS, random_script
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CONSTANTS, FrameType, Kind, Register, Result
+from controller.fpga.status import parse_status
 
 ASIDE = {Register.CONTROL}  # a command, whose words are no values
 LONG = {register for register in Register if register.kind is Kind.TIME_HIGH}  # they move after 2**32 ticks

@@ -18,8 +18,9 @@ from pin_script import (
 )
 
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, Control, Fault, Register, Start, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 
 WORDS = [0x1111 * number for number in range(1, 9)]

@@ -6,8 +6,9 @@ from hypothesis import strategies as st
 
 from controller.fpga import frames
 from controller.fpga.diagnosis import BITS, diagnose
-from controller.fpga.frames import FRAME_BYTES, Status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import Status, pack_status
 
 SENT = bytearray(FRAME_BYTES)
 frames.pack_nop(SENT, 0, 77)
@@ -30,7 +31,7 @@ STATUSES = st.builds(
 
 def packed(status):
     answer = bytearray(FRAME_BYTES)
-    frames.pack_status(answer, 0, status)
+    pack_status(answer, 0, status)
     return bytes(answer)
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from controller.errors import LinkError
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, HEADER, Status, pack_status, parse_status, upload_slices
+from controller.fpga.frames import FRAME_BYTES, HEADER
 from controller.fpga.registers import (
     CRC_RESIDUE,
     IDENTITY_MAGIC,
@@ -20,7 +20,9 @@ from controller.fpga.registers import (
     Start,
     State,
 )
-from controller.gateware_model.decoder import judge
+from controller.fpga.status import Status, pack_status, parse_status
+from controller.fpga.upload_image import UploadImage, upload_slices
+from controller.gateware_model.decoder import decode
 
 u8, u16, u32 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32))
 bytes_of_words = st.integers(1, 125).flatmap(lambda words: st.binary(min_size=4 * words, max_size=4 * words))
@@ -119,7 +121,7 @@ def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
         when_ticks & 0xFFFFFFFF,
         when_ticks >> 32,
     )
-    frame = judge(memoryview(buffer)[offset:end])
+    frame = decode(memoryview(buffer)[offset:end])
     assert frame[:6] == (Result.OK, FrameType.PLAY, sequence & 0xFF, slot, words, 0)
     assert not any(buffer[:offset])
     assert not any(buffer[end:])
@@ -128,7 +130,7 @@ def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
 def test_a_play_without_more_is_the_whole_slot_once_with_the_next_trigger_on_every_channel():
     buffer = bytearray(FRAME_BYTES)
     frames.pack_play(buffer, 0, 1, 3)
-    assert judge(memoryview(buffer)).words == (0, 1, 0, 0xFFFFFFFF, 0, 0)
+    assert decode(memoryview(buffer)).words == (0, 1, 0, 0xFFFFFFFF, 0, 0)
 
 
 @pytest.mark.parametrize(
@@ -153,7 +155,7 @@ def test_a_play_without_more_is_the_whole_slot_once_with_the_next_trigger_on_eve
 def test_each_command_says_what_it_should(pack, kind, argument, words):
     buffer = bytearray(b"\xff" * FRAME_BYTES)
     assert pack(buffer) == FRAME_BYTES
-    frame = judge(memoryview(buffer))
+    frame = decode(memoryview(buffer))
     assert frame == (Result.OK, kind, 1, argument, words + (0,) * (6 - len(words)), 0, 6, b"")
 
 
@@ -161,7 +163,7 @@ def test_each_command_says_what_it_should(pack, kind, argument, words):
 def test_a_test_frame_carries_its_bytes_and_loads_nothing(payload, offset):
     buffer = bytearray(b"\xff" * (offset + frames.LOAD_FRAME_BYTES))
     end = frames.pack_test(buffer, offset, 9, payload)
-    frame = judge(memoryview(buffer)[offset:end])
+    frame = decode(memoryview(buffer)[offset:end])
     assert (frame.refusal, frame.kind, frame.sequence, frame.loaded_words) == (Result.OK, FrameType.TEST, 9, 0)
     assert buffer[offset + HEADER.size : end - 4] == payload
 
@@ -173,7 +175,7 @@ def test_a_long_frame_holds_20_to_500_bytes_in_words(kind, size, good):
     frames.pack_test(buffer, 0, 1, bytes(size))
     buffer[2] = kind
     buffer[-4:] = zlib.crc32(buffer[:-4]).to_bytes(4, "little")
-    assert judge(memoryview(buffer)).refusal is (Result.OK if good else Result.BAD_LENGTH)
+    assert decode(memoryview(buffer)).refusal is (Result.OK if good else Result.BAD_LENGTH)
 
 
 @pytest.mark.parametrize("kind", [FrameType.NOP, FrameType.READ, FrameType.WRITE, FrameType.STORE, FrameType.PLAY, 7, 255])
@@ -183,14 +185,14 @@ def test_any_other_frame_holds_24_bytes(kind, size, good):
     frames.pack_test(buffer, 0, 1, bytes(size))
     buffer[2] = kind
     buffer[-4:] = zlib.crc32(buffer[:-4]).to_bytes(4, "little")
-    assert judge(memoryview(buffer)).refusal is (Result.OK if good else Result.BAD_LENGTH)
+    assert decode(memoryview(buffer)).refusal is (Result.OK if good else Result.BAD_LENGTH)
 
 
 @given(bytes_of_words, st.integers(0, 7))
 def test_a_load_carries_its_words_and_a_good_crc(payload, chunk):
     buffer = bytearray(b"\xff" * frames.LOAD_FRAME_BYTES)
     end = frames.pack_load(buffer, 0, 5, chunk, memoryview(payload))
-    frame = judge(memoryview(buffer)[:end])
+    frame = decode(memoryview(buffer)[:end])
     assert (frame.refusal, frame.kind, frame.argument) == (Result.OK, FrameType.LOAD, chunk)
     assert frame.loaded_words == max(len(payload) // 4, 5)
     sent = buffer[HEADER.size : end - 4]
@@ -210,20 +212,20 @@ def test_a_frame_with_a_bit_flipped_or_bytes_lost_or_added_is_refused(payload, d
         (frame[:lost], (1, 2)),
         (frame + b"\0", (2,)),
     ):
-        assert judge(memoryview(damaged)).refusal in reasons
+        assert decode(memoryview(damaged)).refusal in reasons
 
 
 @given(st.integers(1, 1000))
 def test_an_upload_lies_where_its_slices_say(length):
     words = bytes(range(256)) * 16
     buffer = bytearray(frames.UPLOAD_BYTES)
-    end = frames.pack_upload(buffer, 0, 250, memoryview(words)[: 4 * length])
+    end = UploadImage(memoryview(buffer), length).pack(250, memoryview(words)[: 4 * length])
     slices = upload_slices(length)
     assert slices[-1].stop == end
     assert slices[0].start == 0
     received = b""
     for chunk, place in enumerate(slices):
-        frame = judge(memoryview(buffer)[place])
+        frame = decode(memoryview(buffer)[place])
         assert (frame.refusal, frame.argument, frame.sequence) == (Result.OK, chunk, (250 + chunk) & 0xFF)
         received += buffer[place][HEADER.size : -4]
     assert received[: 4 * length] == words[: 4 * length]

@@ -12,7 +12,16 @@ from controller.clocks import VirtualClock
 from controller.fpga.bring_up import BitErrors, bit_errors
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.link_check import MARGIN, SWEEP_STEPS, Speed, counted, error_rate_bound, measured_hz, proposed_hz, sweep
+from controller.fpga.link_check import (
+    MARGIN,
+    SWEEP_STEPS,
+    SpeedResult,
+    bit_error_count,
+    error_rate_bound,
+    measured_sck_hz,
+    proposed_sck_hz,
+    sweep,
+)
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.gateware_model.model import GatewareModel
@@ -56,13 +65,13 @@ def test_no_error_in_n_bits_is_the_rule_of_three():
 
 
 def test_one_damaged_bit_counts_once():
-    assert counted(BitErrors(frames=8, frames_refused=1, answers_damaged=0, bits=30_000, wrong_bits=1)) == (30_000, 1)
-    assert counted(BitErrors(frames=8, frames_refused=0, answers_damaged=0, bits=0, wrong_bits=0)) == (8 * 512 * 8, 0)
+    assert bit_error_count(BitErrors(frames=8, frames_refused=1, answers_damaged=0, bits=30_000, wrong_bits=1)) == (30_000, 1)
+    assert bit_error_count(BitErrors(frames=8, frames_refused=0, answers_damaged=0, bits=0, wrong_bits=0)) == (8 * 512 * 8, 0)
 
 
 def test_a_frame_refused_there_and_an_answer_damaged_on_its_way_back_are_two_errors():
-    assert counted(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=0, wrong_bits=0)) == (8 * 512 * 8, 5)
-    assert counted(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=30_000, wrong_bits=9)) == (30_000, 9)
+    assert bit_error_count(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=0, wrong_bits=0)) == (8 * 512 * 8, 5)
+    assert bit_error_count(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=30_000, wrong_bits=9)) == (30_000, 9)
 
 
 def test_errors_of_before_are_not_counted_again(board, wired):
@@ -71,7 +80,7 @@ def test_errors_of_before_are_not_counted_again(board, wired):
     rng = np.random.default_rng(1)
     assert bit_errors(session, 1e4, rng).wrong_bits > 0
     session.exchange.sent[:FRAME_BYTES] = bytes(FRAME_BYTES)  # no frame at all
-    session.exchange.unchecked([FRAME_BYTES])
+    session.exchange.send_unchecked([FRAME_BYTES])
     assert session.exchange.read(Register.FRAME_ERRORS) > 0
     link.carried_hz = math.inf
     found = bit_errors(session, 1e4, rng)
@@ -89,7 +98,7 @@ def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
     assert [speed.good for speed in speeds] == [step <= carried for step in SWEEP_STEPS]
     assert all("only ones came back" in speed.trouble for speed in speeds if speed.sck_hz > 2 * link.carried_hz)
     assert link.sck_hz == speeds[0].asked_hz
-    proposal_hz = proposed_hz(speeds)
+    proposal_hz = proposed_sck_hz(speeds)
     assert proposal_hz <= link.carried_hz
     assert session.heartbeat().faults == 0
 
@@ -97,15 +106,15 @@ def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
 def test_wires_that_carry_nothing_get_no_proposal(board, wired):
     link, session = wired
     link.carried_hz = 1e5
-    assert proposed_hz(sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))) is None
+    assert proposed_sck_hz(sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))) is None
 
 
 @given(st.lists(st.booleans(), min_size=1, max_size=12))
 @example([True] * 5 + [False])
 @example([True] * 4 + [False])
 def test_the_rule_keeps_its_margin(goods):
-    speeds = [Speed((n + 1) * 1_000_000, (n + 1) * 1e6, 1000, 0 if good else 1, "") for n, good in enumerate(goods)]
-    proposal_hz = proposed_hz(speeds)
+    speeds = [SpeedResult((n + 1) * 1_000_000, (n + 1) * 1e6, 1000, 0 if good else 1, "") for n, good in enumerate(goods)]
+    proposal_hz = proposed_sck_hz(speeds)
     failed_hz = [speed.asked_hz for speed in speeds if not speed.good]
     if proposal_hz is None:
         assert not [speed for speed in speeds if speed.good and speed.asked_hz <= MARGIN * min(failed_hz)]
@@ -120,5 +129,5 @@ def test_sck_is_measured_by_the_time_that_frames_take(wired):
     link, session = wired
     for sck_hz in (25_000_000, 10_000_000):
         link.set_sck_hz(sck_hz)
-        assert measured_hz(session, link) == pytest.approx(sck_hz, rel=2e-3)
-        assert measured_hz(session, link) != pytest.approx(sck_hz * 1.01, rel=2e-3)
+        assert measured_sck_hz(session, link) == pytest.approx(sck_hz, rel=2e-3)
+        assert measured_sck_hz(session, link) != pytest.approx(sck_hz * 1.01, rel=2e-3)

@@ -7,21 +7,21 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from restarting_gateware import RestartingGateware
 
 from controller.board.board import find_board, load_board
 from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.configuration import UnfitFpga
+from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
-from controller.fpga.recovery import Action, Recovery, action_for, permitted, state_after
-from controller.fpga.registers import Fault, Register, Result, State
+from controller.fpga.recovery import Action, Recovery, action_for, arming_permitted, panel_state_after
+from controller.fpga.registers import Control, Fault, Register, Result, State
 from controller.fpga.session import Session
-from controller.fpga.time_base import TimeBase
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.restarting import RestartingGateware
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
@@ -70,7 +70,7 @@ class Panel:
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
         self.counters = Counters()
-        self.outputs = Outputs(self.session, BOARD, self.clock, TimeBase(BOARD.link.clock_hz), self.counters)
+        self.outputs = Outputs(self.session, BOARD, self.clock, ClockEstimate(BOARD.link.clock_hz), self.counters)
         self.come_on(1.0)
 
     def rest(self, until_s):
@@ -79,14 +79,14 @@ class Panel:
             self.clock._now_s = min(until_s, self.session.heartbeat_due_s)
 
     def wait(self, seconds):
-        self.clock._now_s = max(self.clock.now_s(), self.link.free_s()) + seconds
+        self.clock._now_s = max(self.clock.now_s(), self.link.wire_free_s()) + seconds
 
     def recover(self, error, give_up_s=10.0):
         """What the loop does; how long it took."""
         began_s = self.clock.now_s()
         self.outputs.failed(error, began_s)
         self.come_on(began_s + give_up_s)
-        self.counters.emissions += 1  # so that stalls are not in a row
+        self.outputs.emission_started()  # so that stalls are not in a row
         return self.clock.now_s() - began_s
 
     def come_on(self, until_s):
@@ -133,7 +133,7 @@ def panel():
 def test_a_reset_while_armed_is_noticed_by_the_next_heartbeat_and_all_is_well_again(panel):
     assert panel.plays()
     panel.link.reset()
-    lost_s = panel.link.free_s()
+    lost_s = panel.link.wire_free_s()
     error = panel.lost()
     assert isinstance(error, FpgaReset | LinkError)
     took_s = panel.recover(error)
@@ -161,7 +161,7 @@ def test_a_reset_before_arming_never_arms_without_the_boards_limits(ran_s, away_
     link = BadDay(BOARD.link, clock.now_s, gateware)
     clock._now_s += ran_s
     session = Session(link, BOARD, BUILD, clock.now_s)
-    clock._now_s = max(clock.now_s(), link.free_s()) + 1e-3
+    clock._now_s = max(clock.now_s(), link.wire_free_s()) + 1e-3
     session.heartbeat()
     link.reset(dark_s=1e-3)
     clock._now_s += away_s + 2e-3
@@ -179,7 +179,7 @@ def test_a_clock_that_is_a_little_slow_is_no_reset(panel):
     panel.wait(10.0)
     hz = panel.link.clock_hz
     panel.link.clock_hz = round(hz * 0.9995)  # from its start on
-    panel.session._beat_ticks = round(panel.session._beat_ticks * 0.9995)
+    panel.session._heartbeat_ticks = round(panel.session._heartbeat_ticks * 0.9995)
     panel.session.heartbeat()
 
 
@@ -199,7 +199,7 @@ def test_a_brown_out_in_the_midst_of_an_upload_ends_in_work(panel, frame, dark_s
     panel.link.events = {panel.link.frames + frame: lambda _: panel.link.reset(dark_s)}
     with pytest.raises(LinkError) as caught:
         panel.session.upload_and_play(1, WORDS, 1, 0.0, stop=False)
-    lost_s = panel.link.free_s()
+    lost_s = panel.link.wire_free_s()
     panel.recover(caught.value)
     back_s = panel.clock.now_s()
     assert panel.plays()
@@ -272,19 +272,19 @@ def test_silence_of_this_host_is_cleared_at_once(panel):
 @pytest.mark.parametrize("which", list(Permit))
 def test_a_permit_that_goes_away_is_waited_for(panel, which):
     def permit(level):
-        panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, level, which)
+        panel.gateware.permit(round(panel.link.wire_free_s() * panel.link.clock_hz) + 100, level, which)
 
     permit(False)
     panel.wait(1e-3)
     error = panel.lost()
-    assert action_for(error) is Action.WAIT
+    assert action_for(error) is Action.WAIT_FOR_PERMIT
     panel.outputs.failed(error, panel.clock.now_s())
     assert not panel.advance()
     frames = panel.link.frames
     for _ in range(50):
         assert not panel.advance()
     assert panel.link.frames - frames == 50, "waiting is a heartbeat at a time"
-    panel.session.clear_faults()
+    panel.session.exchange.control(Control.CLEAR, raise_faults=False)
     assert State.HV_ENABLE not in panel.session.heartbeat().state
     permit(True)
     panel.wait(1e-3)
@@ -293,14 +293,14 @@ def test_a_permit_that_goes_away_is_waited_for(panel, which):
 
 
 def test_a_reset_while_waiting_for_the_permit_does_not_leave_old_settings(panel):
-    panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, False, Permit.RUN)
+    panel.gateware.permit(round(panel.link.wire_free_s() * panel.link.clock_hz) + 100, False, Permit.RUN)
     panel.wait(1e-3)
     error = panel.lost()
     panel.outputs.failed(error, panel.clock.now_s())
     panel.advance()
     panel.link.reset()
     panel.wait(2e-3)
-    panel.gateware.permit(round(panel.link.free_s() * panel.link.clock_hz) + 100, True, Permit.RUN)
+    panel.gateware.permit(round(panel.link.wire_free_s() * panel.link.clock_hz) + 100, True, Permit.RUN)
     panel.come_on(panel.clock.now_s() + 2)
     assert panel.session.exchange.read(Register.IDLE_WORD) == BOARD.idle_word
     assert panel.plays()
@@ -312,7 +312,7 @@ def test_a_reset_while_waiting_for_the_permit_does_not_leave_old_settings(panel)
 @pytest.mark.parametrize("beside", [Fault(0), Fault.HOST_SILENT, Fault.NO_PERMIT])
 def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, beside):
     error = FaultError("outputs off", cause | beside)
-    assert action_for(error) is Action.END
+    assert action_for(error) is Action.FAIL
     with pytest.raises(FaultError) as caught:
         panel.outputs.failed(error, panel.clock.now_s())
     assert caught.value is error
@@ -323,14 +323,14 @@ def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, besi
 @pytest.mark.parametrize(
     ("error", "action"),
     [
-        (HostSilent("", Fault.HOST_SILENT), Action.AGAIN),
-        (FaultError("", Fault.NO_PERMIT), Action.WAIT),
-        (FaultError("", Fault.OVER_TEMPERATURE | Fault.HOST_SILENT), Action.WAIT),
-        (FaultError("not known which"), Action.END),
-        (FpgaReset(), Action.AGAIN),
-        (LinkError(""), Action.AGAIN),
-        (Refused(Result.NO_PERMIT), Action.WAIT),
-        (TouchError(""), Action.END),
+        (HostSilent("", Fault.HOST_SILENT), Action.RETRY),
+        (FaultError("", Fault.NO_PERMIT), Action.WAIT_FOR_PERMIT),
+        (FaultError("", Fault.OVER_TEMPERATURE | Fault.HOST_SILENT), Action.WAIT_FOR_PERMIT),
+        (FaultError("not known which"), Action.FAIL),
+        (FpgaReset(), Action.RETRY),
+        (LinkError(""), Action.RETRY),
+        (Refused(Result.NO_PERMIT), Action.WAIT_FOR_PERMIT),
+        (TouchError(""), Action.FAIL),
     ],
 )
 def test_the_rule(error, action):
@@ -348,7 +348,7 @@ def test_the_rule(error, action):
     ],
 )
 def test_how_the_panel_is_called_after_an_error(error, state):
-    assert state_after(error) is state
+    assert panel_state_after(error) is state
 
 
 def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_after_the_next_loss():
@@ -366,16 +366,24 @@ def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_af
         assert np.diff(tried_s) == pytest.approx([min(safe_s * 2**k, 2.0) for k in range(8)])
 
 
+def test_a_permit_is_asked_for_ten_times_a_second():
+    session = SimpleNamespace(fresh=True, heartbeat=lambda: SimpleNamespace(state=State.TEMPERATURE_GOOD))
+    recovery = Recovery(session, BOARD)
+    assert not recovery.step(5.0)
+    assert recovery.state is PanelState.NO_PERMIT
+    assert recovery.next_s == pytest.approx(5.1)
+
+
 def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
     clock = VirtualClock()
     clock._now_s = 1.0
     gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
     session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
-    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), Counters())
+    outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), Counters())
     clock._now_s += 1.0
-    with pytest.raises(UnfitFpga, match="BUILD_HASH"):
+    with pytest.raises(IncompatibleFpga, match="BUILD_HASH"):
         outputs.advance(clock.now_s())
-    assert action_for(UnfitFpga("")) is Action.END
+    assert action_for(IncompatibleFpga("")) is Action.FAIL
     assert not gateware.take_capture().hv.any()
 
 
@@ -393,7 +401,7 @@ def test_a_setting_that_is_damaged_on_its_way_is_no_unfit_fpga(panel):
         except LinkError as error:
             raised.append(error)
     assert len(raised) > 20
-    assert not [error for error in raised if isinstance(error, UnfitFpga)]
+    assert not [error for error in raised if isinstance(error, IncompatibleFpga)]
 
 
 @pytest.mark.parametrize("permit", list(Permit))
@@ -403,7 +411,7 @@ def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_ea
     session = Session(link, BOARD, BUILD, clock.now_s, bring_up=False)
     link.gateware.permit(0, False, permit)
     counters = Counters()
-    outputs = Outputs(session, BOARD, clock, TimeBase(BOARD.link.clock_hz), counters)
+    outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), counters)
     seen = []
 
     def turns(until_s):
@@ -416,7 +424,7 @@ def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_ea
     waits = PanelState.NO_PERMIT if permit is Permit.RUN else PanelState.FAULTED
     assert seen == [PanelState.WAITING_FOR_FPGA, waits]
     assert (outputs.on, outputs.state) == (False, waits)
-    link.gateware.permit(round(link.free_s() * link.clock_hz) + 100, True, permit)
+    link.gateware.permit(round(link.wire_free_s() * link.clock_hz) + 100, True, permit)
     turns(21.0)
     assert (outputs.on, outputs.state, outputs.cause) == (True, PanelState.ARMED, "")
     assert (counters.outages, counters.host_silent) == (0, 0), "waiting at the start is no outage"
@@ -465,6 +473,6 @@ def test_a_step_that_fails_while_the_outputs_come_on_tells_the_fpga_at_once(pane
 
 
 def test_both_permits_are_needed():
-    assert permitted(State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT)
-    assert not permitted(State.RUN_PERMIT)
-    assert not permitted(State.TEMPERATURE_GOOD)
+    assert arming_permitted(State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT)
+    assert not arming_permitted(State.RUN_PERMIT)
+    assert not arming_permitted(State.TEMPERATURE_GOOD)

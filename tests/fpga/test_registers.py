@@ -1,6 +1,6 @@
 import re
 
-from controller.board.board import FEWEST_BIT_TICKS, data_folder
+from controller.board.board import MIN_BIT_TICKS, data_folder
 from controller.fpga import registers
 from controller.fpga.register_table import main, rewritten
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Register, Result, Start, State
@@ -72,4 +72,4 @@ def test_what_can_be_read_besides_registers_does_not_meet_them_or_each_other():
 
 
 def test_the_boards_shortest_word_is_the_gatewares():
-    assert FEWEST_BIT_TICKS == registers.BIT_TICKS_MIN
+    assert MIN_BIT_TICKS == registers.BIT_TICKS_MIN

@@ -18,10 +18,11 @@ from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
 from controller.fpga.session import Session
+from controller.fpga.status import parse_status
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel, decoded
 
@@ -186,7 +187,7 @@ def test_the_trigger_is_a_frame_whose_answer_comes_with_the_next_message(clock, 
     when = link.trigger()
     link.trigger()
     assert when == pytest.approx(5.0 + (FRAME_BYTES + 4) * 10 / BAUD)
-    assert link.free_s() > when
+    assert link.wire_free_s() > when
     first, second = nops(link, 2)
     assert first.sequence != 11, "about the trigger, no answer of which is left over"
     assert second.sequence == 10
@@ -206,14 +207,15 @@ def test_the_trigger_plays(board, clock, line, open_link):
     session.upload_and_play(2, WORDS, 1, 0.0, stop=False)
     link.trigger()
     session.heartbeat()
-    clock._now_s = link.free_s() + 3e-3
+    clock._now_s = link.wire_free_s() + 3e-3
     assert session.heartbeat().emissions == 1
 
 
 def test_a_load_is_answered_at_its_place_with_zeros_behind(open_link):
     link = open_link()
     sent = bytearray(2 * frames.LOAD_FRAME_BYTES + FRAME_BYTES)
-    end = frames.pack_upload(sent, 0, 5, WORDS[:1000])
+    end = frames.pack_load(sent, 0, 5, 0, WORDS[:500])
+    end = frames.pack_load(sent, end, 6, 1, WORDS[500:1000])
     frames.pack_nop(sent, end, 7)
     lengths = [frames.LOAD_FRAME_BYTES] * 2 + [FRAME_BYTES]
     received = memoryview(bytearray(b"\xee" * len(sent)))
@@ -225,7 +227,7 @@ def test_a_load_is_answered_at_its_place_with_zeros_behind(open_link):
     assert link.bytes_sent == len(sent)
     wire_bytes = len(sent) + 3 * len(GUARD) + 3 + sum(len(cobs.encode(sent[:504])) - 504 for _ in range(2)) + 1
     assert link.wire_ns == pytest.approx(wire_bytes * 1e10 / BAUD, rel=3e-3)
-    assert link.away_ns > 0
+    assert link.blocked_ns > 0
 
 
 def test_a_message_longer_than_a_batch_is_answered_frame_by_frame(open_link):

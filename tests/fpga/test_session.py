@@ -16,7 +16,7 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import READ_SLOT_CRC, Fault, Register, Result, Start, State
+from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result, Start, State
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -73,7 +73,7 @@ def armed(board, clock, link):
 
 
 def wait(clock, link, seconds):
-    clock._now_s = max(clock.now_s(), link.free_s()) + seconds
+    clock._now_s = max(clock.now_s(), link.wire_free_s()) + seconds
 
 
 def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock, link, armed):
@@ -189,11 +189,17 @@ def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock
 
 def test_a_missing_permit_is_told_when_arming(board, clock, link):
     session = Session(link, board, BUILD, clock.now_s)
-    link.gateware.permit(round(link.free_s() * link.clock_hz), False, Permit.TEMPERATURE)
+    link.gateware.permit(round(link.wire_free_s() * link.clock_hz), False, Permit.TEMPERATURE)
     clock._now_s += 1e-3
     with pytest.raises(Refused, match="run permit") as caught:
         session.arm()
     assert caught.value.result is Result.NO_PERMIT
+
+
+def test_an_fpga_that_did_not_arm_is_told_with_what_it_is(board, clock, link):
+    session = Session(link, board, BUILD, clock.now_s)
+    with pytest.raises(LinkError, match=r"its state is run permit, temperature good$"):
+        session.require_armed()
 
 
 def test_three_heartbeats_go_into_a_timeout(board, clock, link, armed):
@@ -245,12 +251,21 @@ def test_the_bit_clock_is_scaled_while_nothing_plays_and_kept_over_a_bring_up(bo
     link.close()
     emission_ticks = 1000 * slow >> 16
     assert np.diff(link.take_capture().focus_ticks).tolist() in ([], [emission_ticks] * 2)  # one rise if the pin stays high
-    assert armed.emission_s == emission_ticks / board.link.clock_hz
+    assert armed.timing.emission_ticks == emission_ticks
     clock._now_s = armed.disarm() + 1e-3
     armed.bring_up()
     assert armed.exchange.read(Register.BIT_PERIOD) == slow
     assert armed.set_bit_period(1.0)
     assert armed.exchange.read(Register.BIT_PERIOD) == board.bit_period
+
+
+def test_a_period_without_a_pause_is_one_at_any_bit_clock(board, armed):
+    def emission_s():
+        return armed.timing.emission_ticks / board.link.clock_hz
+
+    assert armed.timing.actual_period_s(board.waveform.duration_s) == emission_s()
+    assert armed.set_bit_period(0.99)
+    assert armed.timing.actual_period_s(board.waveform.duration_s) == emission_s() > board.waveform.duration_s
 
 
 def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board, armed):
@@ -260,7 +275,7 @@ def test_a_bit_clock_beyond_the_gateware_is_refused_and_nothing_is_changed(board
 
 
 def test_a_fault_carries_its_bits(board, clock, link, armed):
-    link.gateware.permit(round(link.free_s() * link.clock_hz) + 100, False, Permit.TEMPERATURE)
+    link.gateware.permit(round(link.wire_free_s() * link.clock_hz) + 100, False, Permit.TEMPERATURE)
     wait(clock, link, 1e-3)
     with pytest.raises(FaultError, match="temperature input went low") as caught:
         armed.heartbeat()
@@ -294,7 +309,6 @@ def test_over_a_good_link_the_fpga_finds_no_gap_in_the_numbers_of_the_frames(clo
         armed.upload_and_play(0, WORDS, 0, 25e-3, stop=stop)
         armed.play(1, 1, 0.0, stop=True)
         armed.stop()
-    armed.clear_faults()
     clock._now_s = armed.disarm()
     armed.bring_up()
     clock._now_s = armed.arm()
@@ -313,7 +327,7 @@ def test_an_upload_whose_slot_is_still_checked_is_waited_for_at_any_sck(board, c
         assert session.heartbeat().queued == 1
         assert session.exchange.read_address(READ_SLOT_CRC) == zlib.crc32(WORDS)
         session.off()
-        clock._now_s = link.free_s() + 0.1
+        clock._now_s = link.wire_free_s() + 0.1
 
 
 def test_refuses_an_fpga_that_somebody_else_has_armed(board, clock, link, armed):
@@ -374,8 +388,8 @@ def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed)
     armed.play(0, 1, 0.0, stop=False)
     assert State.PENDING in armed.heartbeat().state, "sent again: it is there after all"
     link.noise = {link.frames: ("lost, an old NOP instead", 0)}
-    with pytest.raises(LinkError, match="lost on its way"):
-        armed.clear_faults()
+    with pytest.raises(LinkError, match="a frame was lost"):
+        armed.exchange.control(Control.CLEAR, raise_faults=False)
 
 
 @pytest.mark.parametrize("frame", range(12))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from controller.errors import LinkError
 from controller.fpga.spi_link import divided_hz
-from controller.fpga.spi_messages import DMA_ALIGN_BYTES, TRANSFERS_MAX, Messages, message_request, split
+from controller.fpga.spi_messages import DMA_ALIGN_BYTES, TRANSFERS_MAX, SpiMessages, message_request, split
 
 UPLOAD = [512] * 8 + [36] * 4
 LENGTHS = st.lists(st.integers(1, 512), min_size=1, max_size=60)
@@ -71,7 +71,7 @@ def test_transfers_point_at_the_frames_and_chip_select_rises_behind_each(lengths
     sent, received = buffers()
     tx, rx = (ctypes.addressof(ctypes.c_char.from_buffer(view)) for view in (sent, received))
     offset = 0
-    for request, array, size in Messages(sent, received, 4096).of(lengths):
+    for request, array, size in SpiMessages(sent, received, 4096).for_lengths(lengths):
         piece = transfers(array)
         assert request == message_request(len(piece))
         assert sum(one.len for one in piece) == size
@@ -84,17 +84,17 @@ def test_transfers_point_at_the_frames_and_chip_select_rises_behind_each(lengths
 
 
 def test_a_pattern_is_made_once_and_their_number_is_bounded():
-    messages = Messages(*buffers(), 4096)
-    made = messages.of(UPLOAD)
-    assert messages.of(list(UPLOAD)) is made
+    messages = SpiMessages(*buffers(), 4096)
+    made = messages.for_lengths(UPLOAD)
+    assert messages.for_lengths(list(UPLOAD)) is made
     for length in range(1, 513):
-        messages.of([length])
+        messages.for_lengths([length])
     assert len(messages._known) <= 64
 
 
 def test_frames_beyond_the_buffer_are_a_mistake_of_the_caller():
     with pytest.raises(ValueError, match="frames of 72 bytes"):
-        Messages(*buffers(71), 4096).of([36, 36])
+        SpiMessages(*buffers(71), 4096).for_lengths([36, 36])
 
 
 def test_the_ioctl_has_the_kernels_number():

@@ -13,11 +13,14 @@ from controller.bank import reader
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
-from controller.fpga.time_base import TimeBase
-from controller.fpga.upload_image import UploadImage
+from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.upload_image import UploadImage, upload_slices
+from controller.loop.batching import Batch
+from controller.loop.commands import Outcome
+from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.metrics import Counters
-from controller.scene.finger_state import Emission
+from controller.scene.emission import Emission
 from controller.service.drivers import open_session, open_simulated
 from controller.waveforms import selection as selection_module
 from controller.waveforms.selection import Selection
@@ -57,8 +60,8 @@ def count_crcs(monkeypatch, *modules):
 
 
 def test_packing_an_upload_is_one_crc_pass(monkeypatch):
-    checked = count_crcs(monkeypatch, frames)
-    frames.pack_upload(BUFFER, 0, 0, WORDS)
+    checked = count_crcs(monkeypatch, upload_image)
+    UploadImage(BUFFER, 1000).pack(0, WORDS)
     assert checked == [8 + 500] * 8
 
 
@@ -83,24 +86,25 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
     clock._now_s += 0.02
     with Bank.open(bank_file, board) as bank:
         selection = Selection(bank, 1e-3, board.idle_word)
+        estimate = ClockEstimate(link.clock_hz)
         playback = Playback(
-            fpga, selection, TimeBase(link.clock_hz), lambda *_: None, slots=4, duration_s=2e-3, max_duty=1.0, upload_s=1.4e-3,
-            command_s=1e-5, counters=counters,
+            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4, upload_s=1.4e-3, command_s=1e-5,
+            counters=counters,
         )  # fmt: skip
         checked = count_crcs(monkeypatch, frames, session, upload_image, reader, selection_module)
         passes = []
         for x_m, y_m in [tuple(place) for place in bank.grid.points()[[60, 61, 62, 63, 64]]] * 2:  # of four slots none serves
             checked.clear()
             clock._now_s += 0.01
-            assert playback.prepare([Emission(0.0, x_m, y_m, None, "")], 0) is not None
+            assert playback.prepare(Batch([Emission(0.0, x_m, y_m, None, "")]), 0).outcome is Outcome.PLAYED
             passes.append(sum(size > frames.FRAME_BYTES for size in checked))
     assert counters.uploads == 10
     assert passes == [8 + 1] * 5 + [8] * 5
 
 
 def test_every_byte_of_the_payload_arrives_in_its_chunk():
-    frames.pack_upload(BUFFER, 0, 0, WORDS)
-    payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in frames.upload_slices(1000))
+    UploadImage(BUFFER, 1000).pack(0, WORDS)
+    payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in upload_slices(1000))
     assert payload == bytes(WORDS)
 
 
@@ -111,6 +115,8 @@ def test_the_image_of_an_upload_is_what_packing_it_frame_by_frame_gives(samples,
     image = UploadImage(kept, samples)
     image.pack(sequence ^ 0x55, WORDS[-4 * samples :])
     kept[: len(between)] = between
-    end = frames.pack_upload(plain, 0, sequence, words)
+    end = 0
+    for chunk in range(-(-samples // 125)):
+        end = frames.pack_load(plain, end, sequence + chunk, chunk, words[500 * chunk : 500 * (chunk + 1)])
     assert image.pack(sequence, words) == end == sum(image.lengths)
     assert kept[:end] == plain[:end]

@@ -6,8 +6,9 @@ import numpy as np
 
 from controller.fpga import frames
 from controller.fpga.build_parameters import Parameters
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit, frame_ticks
 from controller.gateware_model.model import GatewareModel
 

@@ -1,4 +1,4 @@
-"""Runs in the container, as root: a panel of one's own put into service, word by word as README.md and systemd/README.md say.
+"""Runs in the container, as root: a panel of one's own put into service, by the lines of boards/README.md and systemd/README.md.
 
 The board is a copy of the ULX3S's with another plate, other actuators and another kind of touch panel, whose axes lie
 otherwise; its FPGA is the model. Lines are taken from the documents; `editor` is a program that makes our changes.
@@ -50,7 +50,7 @@ def blocks(document, heading):
 
 
 PACKAGE, SYSTEM, SERVICE = blocks("systemd/README.md", "Install")
-STEPS = blocks("README.md", "On a device")[0]
+STEPS = blocks("boards/README.md", "A panel of your own")[0]
 HOME = Path("/root")
 
 
@@ -157,7 +157,7 @@ def seven_inches(text):
 
 
 def step(wanted):
-    """The one line of the README that has this in it."""
+    """The one line of boards/README.md that has this in it."""
     (line,) = [line for line in STEPS if wanted in line]
     return line
 

@@ -111,7 +111,7 @@ def test_a_damaged_frame_is_refused_and_the_next_one_taken():
     end = pack_nop(exchange.sent, 0, exchange.sequence)
     end = pack_nop(exchange.sent, end, exchange.sequence + 1)  # brings what became of the first
     panel().far_end.ask("damage", 1)
-    error = raised(lambda: exchange.short(end))
+    error = raised(lambda: exchange.send_short(end))
     assert isinstance(error, Refused), error
     assert error.result is Result.BAD_CRC
     panel().session.heartbeat()
@@ -123,6 +123,6 @@ def test_after_silence_it_is_off_by_itself_until_it_is_armed_again():
     assert panel().level("word") == 0
     assert isinstance(raised(panel().session.heartbeat), HostSilent)
     panel().session.off()
-    panel().session.clear_faults()
+    panel().session.bring_up()
     panel().arm()
     assert panel().level("hv") == 1

@@ -18,11 +18,11 @@ from controller.board.board import data_folder, find_board, load_board
 from controller.board.devices import LinkSettings, Temperature
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
+from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import FpgaReset
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
-from controller.fpga.time_base import TimeBase
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
 from controller.service.doctor import examine_link, look
@@ -100,7 +100,7 @@ class Panel:
         self.far_end = FarEnd(BOARD, NAMES, slowness=SLOWNESS)
         self.link = SpiLink(SETTINGS, CLOCK.now_s)
         self.session = session_on(self.link)
-        self.outputs = Outputs(self.session, BOARD, CLOCK, TimeBase(SETTINGS.clock_hz), Counters())
+        self.outputs = Outputs(self.session, BOARD, CLOCK, ClockEstimate(SETTINGS.clock_hz), Counters())
         self.come_on()
 
     def come_on(self):
@@ -165,7 +165,7 @@ def test_each_frame_is_a_transfer_of_its_own_chip_select_and_comes_back_in_its_p
         link.exchange(sent, lengths, received)
         assert link.bytes_sent == sum(lengths)
         assert 0 < link.effective_hz < link.sck_hz == 25e6
-        assert link.free_s() <= CLOCK.now_s()
+        assert link.wire_free_s() <= CLOCK.now_s()
     thread.join()
     os.close(wires)
     start = 0

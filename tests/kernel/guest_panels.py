@@ -28,12 +28,12 @@ from peers.gt911_chip import STATUS, Gt911Chip  # noqa: E402
 from controller.board.board import find_board, load_board  # noqa: E402
 from controller.board.devices import Ft5x06Touch, Gt911Touch  # noqa: E402
 from controller.errors import TouchError  # noqa: E402
-from controller.touch.ft5x06 import open_ft5x06  # noqa: E402
-from controller.touch.gt911 import open_gt911  # noqa: E402
+from controller.touch.event_codes import Protocol  # noqa: E402
+from controller.touch.ft5x06 import open_panel as open_ft5x06  # noqa: E402
+from controller.touch.gt911 import open_panel as open_gt911  # noqa: E402
 from controller.touch.linux_input import LinuxInput  # noqa: E402
 from controller.touch.live_source import LiveSource  # noqa: E402
 from controller.touch.mouse import Mouse  # noqa: E402
-from controller.touch.panel import Protocol  # noqa: E402
 from controller.touch.recording import Recording  # noqa: E402
 from controller.touch.replay import RecordingSource  # noqa: E402
 
@@ -518,7 +518,7 @@ def test_a_gt911_that_goes_silent_about_a_finger_is_started_again():
 
 def test_another_chip_at_the_address_is_refused():
     with bench(Gt911Chip(product=b"1158")):
-        assert "'1158', which this driver does not know" in raised(gt911)
+        assert "'1158', which this driver does not support" in raised(gt911)
     with bench(Gt911Chip(width=0)):
         assert "width and height" in raised(gt911)
         gt911(width=100, height=100).close()
@@ -630,6 +630,6 @@ def test_lines_and_buses_that_are_not_there_are_named():
         with far_end.lock:
             far_end.chip.silent = False
         first = gt911()
-        assert "is taken by another program" in raised(gt911)
+        assert "is in use by another program" in raised(gt911)
         first.close()
         gt911().close()

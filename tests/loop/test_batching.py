@@ -6,9 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.loop.batching import APART_M, MOST, SAME_M, common_period_s, together
-from controller.scene.finger_state import Emission
-from controller.scene.scene import Spot
+from controller.loop.batching import MAX_FOCI, MERGE_RADIUS_M, SEPARATION_M, select_batch
+from controller.scene.emission import Emission
 
 T_S = 2e-3
 
@@ -21,8 +20,8 @@ def owners(emissions):
     return [e.owner for e in emissions]
 
 
-def chosen_of(*due, most=MOST):
-    chosen, rest = together(due, T_S, most)
+def chosen_of(*due, most=MAX_FOCI):
+    chosen, rest = select_batch(due, T_S, most)
     assert sorted(owners(chosen) + owners(rest)) == sorted(owners(due))
     return owners(chosen)
 
@@ -39,7 +38,13 @@ def test_alternating_emissions_go_alone_and_the_others_do_not_take_them_along():
 
 @pytest.mark.parametrize(
     ("apart_m", "both"),
-    [(0.0, True), (0.99 * SAME_M, True), (1.01 * SAME_M, False), (0.99 * APART_M, False), (1.01 * APART_M, True)],
+    [
+        (0.0, True),
+        (0.99 * MERGE_RADIUS_M, True),
+        (1.01 * MERGE_RADIUS_M, False),
+        (0.99 * SEPARATION_M, False),
+        (1.01 * SEPARATION_M, True),
+    ],
 )
 @pytest.mark.parametrize("angle", [0.0, 1.0, 2.5])
 def test_two_foci_are_one_place_or_apart_or_take_turns(apart_m, both, angle):
@@ -78,7 +83,7 @@ def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
                 next_ms[owner] += period_ms
         if not due:
             continue
-        chosen, rest = together(list(due.values()), T_S)
+        chosen, rest = select_batch(list(due.values()), T_S)
         assert chosen
         assert len(chosen) == 1 or not any(e.alternate for e in chosen)
         for e in chosen:
@@ -93,7 +98,7 @@ def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
 @given(st.lists(st.tuples(places, st.floats(0, 5), st.booleans()), min_size=1, max_size=14), st.integers(1, 10))
 def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
     due = [emission(k, x, at, y_mm=y, alternate=alone) for k, ((x, y), at, alone) in enumerate(wanted)]
-    chosen, rest = together(due, T_S, most)
+    chosen, rest = select_batch(due, T_S, most)
     assert sorted((*chosen, *rest), key=lambda e: e.owner) == due
     assert chosen[0] is due[0]
     assert len(chosen) <= most
@@ -101,13 +106,4 @@ def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
     for k, one in enumerate(chosen):
         for other in chosen[:k]:
             apart_m = math.dist((one.x_m, one.y_m), (other.x_m, other.y_m))
-            assert apart_m <= SAME_M * 1.0001 or apart_m >= APART_M * 0.9999
-
-
-def test_spots_that_one_waveform_serves_have_a_common_period_and_others_none():
-    spot = Spot(0.06, 0.07, 20.0, "a")
-    far = spot._replace(x_m=0.1, region="b")
-    assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05
-    assert common_period_s([]) is None
-    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.065}):
-        assert common_period_s([spot, far._replace(**changed)]) is None, changed
+            assert apart_m <= MERGE_RADIUS_M * 1.0001 or apart_m >= SEPARATION_M * 0.9999

@@ -21,9 +21,9 @@ from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
-from controller.loop.event_loop import PREFETCH_AFTER_S
-from controller.loop.playback import _Repetition
-from controller.loop.scene_source import Prepared
+from controller.loop.dispatcher import PREFETCH_SLACK_S
+from controller.loop.occupancy import Repetition
+from controller.loop.scene_source import PreparedScene
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
@@ -172,7 +172,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
-    monkeypatch.setattr(Session, "away_ns", property(lambda _: next(ages_ns)))
+    monkeypatch.setattr(Session, "blocked_ns", property(lambda _: next(ages_ns)))
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.counters.upload_latency.host.count == 1
     assert run.counters.upload_latency.host.worst_ns == 0
@@ -465,7 +465,7 @@ def test_another_bank_is_played_from_with_nothing_of_the_one_before(board, bank_
     with Bank.open(bank_file, board) as bank, Bank.open(shutil.copy(bank_file, tmp_path / "other.bank"), board) as other:
         another = Selection(other, board.bank.snap_mm * 1e-3, board.idle_word)
         (tmp_path / "same.toml").write_text(CLICK)
-        change = Change(clock, Prepared(0, load_scene(tmp_path / "same.toml", board), another))
+        change = Change(clock, PreparedScene(0, load_scene(tmp_path / "same.toml", board), another))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change)
         loop.run()
         link.close()
@@ -623,7 +623,7 @@ def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, t
     )  # fmt: skip
     clock, taps = At(), [(0.2 * k + more_s, {0: at}) for k in range(2) for more_s, at in ((0.0, cell[1]), (0.1, None))]
     with Bank.open(bank_file, board) as bank:
-        change = Change(clock, Prepared(ticket, None, None, "bad.toml"))
+        change = Change(clock, PreparedScene(ticket, None, None, "bad.toml"))
         link, counters, loop = loop_of(
             board, bank, tmp_path, clock, taps, evemu_text, CLICK, change=change, commands=commands if ticket else None
         )
@@ -633,6 +633,22 @@ def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, t
     assert (counters.scenes_loaded, counters.scenes_refused, counters.scene_refused) == (0, 1, "bad.toml")
     assert (counters.reloads, counters.reload_refused, counters.foci) == ((0, "", 2) if ticket else (1, "bad.toml", 2))
     assert told == ([(7, "bad.toml")] if ticket else [])
+
+
+def test_a_spot_of_another_scene_stays_resident_whatever_is_played_between_its_beats(board, bank_file, tmp_path, evemu_text):
+    clock, places = VirtualClock(), [(30.0 + 13.0 * k, 110.0) for k in range(10)]
+    taps = [report for k, place in enumerate(places) for report in ((0.6 + 0.04 * k, {0: place}), (0.62 + 0.04 * k, {0: None}))]
+    (tmp_path / "other.toml").write_text(SPOT.replace("rate_hz = 20.0", "rate_hz = 2.0") + CLICK)
+    change = Change(clock, PreparedScene(0, load_scene(tmp_path / "other.toml", board)))
+    with Bank.open(bank_file, board) as bank:
+        reports = [(0.0, {}), *taps, (2.2, {})]
+        link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, CLICK, change=change)
+        loop.run()
+        assert not loop.reloading
+        change.fileno = lambda: 0
+        assert loop.reloading
+        link.close()
+    assert counters.uploads == len(places) + 1
 
 
 def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text):
@@ -683,23 +699,23 @@ def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, t
         clock = VirtualClock()
         reports.append((1.0, {0: None, 1: None}))
         link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, "".join(halves), slots=16)
-        prefetch, expected, ahead_s, wanted = loop._playback.prefetch, loop._performance.expected, [], []
+        prefetch, expected, ahead_s, wanted = loop._playback.prefetch, loop._scheduler.predict, [], []
 
         def noting(*how):
             wanted.append(expected(*how))
             return wanted[-1]
 
         def sending(*what):
-            ahead_s.append(loop._time_base.host_s(loop._performance.next_s()) - clock.now_s())
+            ahead_s.append(loop._clock_estimate.host_s(loop._scheduler.next_s()) - clock.now_s())
             return prefetch(*what)
 
-        loop._playback.prefetch, loop._performance.expected = sending, noting
+        loop._playback.prefetch, loop._scheduler.predict = sending, noting
         loop.run()
         link.close()
     assert counters.emissions > 80
     during = [at_s for at_s in ahead_s if at_s < 1.0]  # the train goes on
     assert len(during) > 5
-    assert min(during) > loop._lead_s + PREFETCH_AFTER_S
+    assert min(during) > loop._dispatcher.lead_s + PREFETCH_SLACK_S
     assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
 
 
@@ -709,11 +725,23 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {}), (1.0, {})], evemu_text, CLICK)
         loop._outputs = SimpleNamespace(on=True, wanted=True, next_s=lambda: 10.5)
         loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
-        loop._quiet_until_s = 10.2
+        loop._dispatcher.quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2
-        loop._playback.begins_s, loop._playback._running = 10.1, _Repetition(loop._time_base.fpga_s(10.1), 0.025)
+        occupancy = loop._playback.occupancy
+        occupancy.last_start_s, occupancy.repetition = 10.1, Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()
+
+
+def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, cell, evemu_text):
+    """Which has run for 100 s when this host begins."""
+    with Bank.open(bank_file, board) as bank:
+        link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
+        loop._clock_estimate.offset_s, given = 100.0, []
+        loop._scheduler.touch = given.append
+        loop._read(loop._source.next_time_s())
+        link.close()
+    assert [sample.time_s for sample in given] == [pytest.approx(100.1)]
 
 
 def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
@@ -727,13 +755,13 @@ def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp
     reports = [(0.01 * k, {0: (30.0 + k, 54.0)}) for k in range(60)]
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, Late(), [*reports, (0.7, {0: None})], evemu_text, TEXTURE)
-        expected, asked_s = loop._performance.expected, []
+        expected, asked_s = loop._scheduler.predict, []
 
         def asking(finger, place, now_s, *more):
             asked_s.append(now_s)
             return expected(finger, place, now_s, *more)
 
-        loop._performance.expected = asking
+        loop._scheduler.predict = asking
         loop.run()
         link.close()
     assert len(asked_s) > 20
@@ -744,7 +772,7 @@ def test_spots_of_the_scene_before_make_no_ghosts_any_more(board, bank_file, tmp
     """Their shadows touch, as above; a contact that comes after the scene was changed is no suspect."""
     haunted, clock = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=30.0)), VirtualClock()
     (tmp_path / "other.toml").write_text(CLICK)
-    change = Change(clock, Prepared(0, load_scene(tmp_path / "other.toml", haunted)))
+    change = Change(clock, PreparedScene(0, load_scene(tmp_path / "other.toml", haunted)))
     reports = [(0.0, {}), (0.4, {0: cell[1]}), (0.5, {0: None}), (0.6, {})]
     with Bank.open(bank_file, haunted) as bank:
         scene_text = SPOT.replace("20.0", "40.0")

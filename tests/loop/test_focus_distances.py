@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from controller.loop.batching import APART_M, SAME_M
+from controller.loop.batching import MERGE_RADIUS_M, SEPARATION_M
 from controller.physics.impulse_response import ResponseModel
 
 
@@ -30,11 +30,11 @@ def shares(board):
 
 def test_foci_at_one_place_cost_nothing_worth_a_turn_and_those_apart_what_far_ones_cost(shares):
     far = shares(0.04)
-    assert shares(SAME_M) > 0.87
-    assert shares(APART_M) > 0.85 * far
+    assert shares(MERGE_RADIUS_M) > 0.87
+    assert shares(SEPARATION_M) > 0.85 * far
 
 
 def test_foci_between_them_spoil_each_other(shares):
-    assert shares(0.9 * APART_M) < 0.85 * shares(0.04)
+    assert shares(0.9 * SEPARATION_M) < 0.85 * shares(0.04)
     assert shares(7e-3) < 0.6
-    assert shares(1.6 * SAME_M) < 0.8
+    assert shares(1.6 * MERGE_RADIUS_M) < 0.8

@@ -16,7 +16,7 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError
-from controller.loop.scene_source import Prepared
+from controller.loop.scene_source import PreparedScene
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
@@ -204,7 +204,7 @@ class Script:
     def take(self):
         if self._changes and self._changes[0] <= self._now_s:
             self._changes.pop(0)
-            return Prepared(0, self._rng.choice(self._scenes), self.selection() if self._rng.random() < 0.5 else None)
+            return PreparedScene(0, self._rng.choice(self._scenes), self.selection() if self._rng.random() < 0.5 else None)
         return None
 
 
@@ -301,22 +301,22 @@ class Judge:
 
     def watch(self, assembly):
         self._playback = assembly.loop._playback
-        self._performance = assembly.loop._performance
-        self._time_base = assembly.loop._time_base
+        self._scheduler = assembly.loop._scheduler
+        self._clock_estimate = assembly.loop._clock_estimate
         self._words = {}
 
-        take = self._performance.take
+        take = self._scheduler.next_batch
 
         def taken(*how):
             emissions = take(*how)
             for emission in emissions:
                 released_s = self._released.get(emission.finger)
                 if released_s is not None:
-                    due_s = self._time_base.host_s(emission.time_s)
+                    due_s = self._clock_estimate.host_s(emission.time_s)
                     assert due_s >= released_s - 1e-6, f"{emission} is played after its finger was lifted at {released_s}"
             return emissions
 
-        self._performance.take = taken
+        self._scheduler.next_batch = taken
 
     def _uploaded(self, slot, words, *how):
         self._crcs.pop(slot, None)
@@ -341,7 +341,7 @@ class Judge:
                 self._felt.add(name)
 
     def waiting(self):
-        return len(self._performance._due) + (len(p.emissions) if (p := self._playback._prepared) else 0)
+        return len(self._scheduler._due) + (len(a.batch.emissions) if (a := self._playback.accepted) else 0)
 
     def turn(self, _):
         """The slot cache is consistent in itself and with what the FPGA holds."""

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.loop.slot_cache import FEWEST_FREE, SlotCache
+from controller.loop.slot_cache import MIN_UNPINNED, SlotCache
 
 
 def same(_key):
@@ -41,7 +41,7 @@ def test_enough_slots_are_left_to_play_from():
     cache.pin(range(10))
     for key in range(10):
         put(cache, key)
-    assert [key for key in range(10) if cache.find(key) is not None][: 4 - FEWEST_FREE] == [0, 1]
+    assert [key for key in range(10) if cache.find(key) is not None][: 4 - MIN_UNPINNED] == [0, 1]
     assert put(cache, 99)
 
 

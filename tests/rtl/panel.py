@@ -35,8 +35,9 @@ from uart import Wire
 from controller.bank.reader import Bank
 from controller.errors import LinkError
 from controller.fpga import frames
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result, State
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import (
     BAUD,
     READY_TICKS,

@@ -33,7 +33,7 @@ from random_script import random_script
 from controller.errors import LinkError
 from controller.fpga import frames
 from controller.fpga.configuration import LIMITS
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import (
     FILTER_TICKS,
     IDENTITY_MAGIC,
@@ -52,6 +52,7 @@ from controller.fpga.registers import (
     Start,
     State,
 )
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.player import FETCH_TICKS
 

@@ -5,8 +5,9 @@ import random
 import cocotb
 from clocked import after_reset, clocks, pulse, reset
 
-from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, Status, pack_status
+from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES
 from controller.fpga.registers import Fault, Result, State
+from controller.fpga.status import Status, pack_status
 
 NAMES = (
     "result_i",

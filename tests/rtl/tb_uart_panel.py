@@ -13,8 +13,10 @@ from uart import Wire
 
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
-from controller.fpga.frames import FRAME_BYTES, parse_status
+from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Result, State
+from controller.fpga.status import parse_status
+from controller.fpga.upload_image import UploadImage
 
 WORDS = np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32)
 WORDS[100:140] = 0
@@ -81,8 +83,9 @@ def pack_message(upload, sequence):
     lengths = []
     end = 0
     if upload:
-        end = frames.pack_upload(sent, 0, sequence, memoryview(WORDS).cast("B"))
-        lengths = [piece.stop - piece.start for piece in frames.upload_slices(len(WORDS))]
+        image = UploadImage(sent, len(WORDS))
+        end = image.pack(sequence, memoryview(WORDS).cast("B"))
+        lengths = [*image.lengths]
     for _ in range(2 if upload else 5):
         end = frames.pack_nop(sent, end, sequence + len(lengths))
         lengths.append(FRAME_BYTES)

@@ -1,13 +1,19 @@
 """Effects and regions as they stand in a file: what they mean, and what is refused with file, key and value."""
 
 import re
+from typing import get_args
 
 import msgspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene.effects import EffectTable, library
+from controller.scene.effects import EffectTable, When
+from controller.scene.fingers import ActiveEffects
+from controller.scene.library import LIBRARY, library
+from controller.scene.primitives import PRIMITIVES, conflict, primitive_of
 from controller.scene.scene import load_scene
 from controller.scene.trains import Train
 
@@ -87,33 +93,79 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         ("{ spacing_mm = 3 }", ".when is missing"),
         ('{ when = "now" }', ".when = 'now'"),
         ('{ when = ["press", "press"] }', ".when = ['press', 'press'] has one of them twice"),
-        ('{ when = ["press", "move"], spacing_mm = 3 }', "'move' and 'always' stand alone"),
+        (
+            '{ when = ["press", "move"], spacing_mm = 3 }',
+            ".when = ['press', 'move']: 'move' does not go with 'press': a single emission takes press, release, enter, ",
+        ),
         ('{ when = "command" }', 'when = "command": an application plays it'),
         ('"boom"', " = 'boom' is no effect; known: always, buzz, click, detent, double_click, edge, grating, notification, te"),
         (f"{{ {PRESS}, amplitude = 0.2 }}", ".amplitude = 0.2"),
         (f"{{ {PRESS}, amplitude = 1.1 }}", ".amplitude = 1.1"),
-        (f"{{ {BUZZ} }}", "a train needs its end: count or duration_ms"),
-        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", "count = 3 and duration_ms = 30 both say how long"),
+        (
+            f"{{ {BUZZ} }}",
+            ": count or duration_ms is missing: one of them is needed for a train (rate_hz; count or duration_ms; when = ",
+        ),
+        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", ": count = 3 and duration_ms = 30 exclude each other: give one of them"),
         (f"{{ {BUZZ}, count = 0 }}", ".count = 0"),
-        (f"{{ {PRESS}, count = 3 }}", ".count needs a train"),
-        (f"{{ {PRESS}, envelope = [[0, 1]] }}", ".envelope needs a train"),
-        (f"{{ {PRESS}, phase = 0.5 }}", ".phase = 0.5 needs a rate_hz, or lines"),
+        (
+            f"{{ {PRESS}, count = 3 }}",
+            '.count = 3 does not go with when = "press", a single emission; it belongs to a train (rate_hz; ',
+        ),
+        (
+            f"{{ {PRESS}, envelope = [[0, 1]] }}",
+            '.envelope does not go with when = "press", a single emission; it belongs to a train',
+        ),
+        (f"{{ {PRESS}, phase = 0.5 }}", '.phase = 0.5 does not go with when = "press", a single emission; it belongs to a train ('),
         (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
         (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
-        ('{ when = "release", rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        (f"{{ {PRESS}, spacing_mm = 3 }}", '.spacing_mm = 3.0 needs when = "move"'),
-        (f'{{ {PRESS}, along = "x" }}', ".along = 'x' needs when = \"move\""),
-        ('{ when = "move" }', ".spacing_mm is missing"),
+        (
+            '{ when = "release", rate_hz = 100, count = 3 }',
+            '.rate_hz = 100 does not go with when = "release", a single emission',
+        ),
+        ('{ when = "release", phase = 0.5 }', '.phase = 0.5 does not go with when = "release", a single emission'),
+        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', '.rate_hz = 100 does not go with when = "release"'),
+        (
+            '{ when = ["leave", "release"], rate_hz = 100, count = 3 }',
+            "'release' does not go with 'leave': a train takes press, enter, lea",
+        ),
+        (
+            f"{{ {PRESS}, spacing_mm = 3 }}",
+            '.spacing_mm = 3 does not go with when = "press", a single emission; it belongs to a grid of lines (',
+        ),
+        (
+            f'{{ {PRESS}, along = "x" }}',
+            ".along = 'x' does not go with when = \"press\", a single emission; it belongs to a grid of lines (spacing_mm",
+        ),
+        (f'{{ {PRESS}, along = "path" }}', ".along = 'path' does not go with"),
+        ('{ when = "move" }', ".spacing_mm is missing: it is needed for a spacing along the path (spacing_mm; when = move)"),
+        (
+            '{ when = "move", along = "x" }',
+            ".spacing_mm is missing: it is needed for a grid of lines (spacing_mm; along; when = move)",
+        ),
         ('{ when = "move", spacing_mm = 0.05 }', ".spacing_mm = 0.05"),
         ('{ when = "move", spacing_mm = 3, along = "z" }', ".along = 'z'"),
-        ('{ when = "move", spacing_mm = 3, phase = 0.5 }', ".phase = 0.5 needs a rate_hz, or lines along x or y"),
-        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move"'),
-        ('{ when = "move", spacing_mm = 3, count = 2 }', ".count needs a train"),
-        ('{ when = "always" }', ".rate_hz is missing"),
-        ('{ when = "always", rate_hz = 20, count = 3 }', ".count needs a train with an end"),
-        ('{ when = "always", rate_hz = 20, envelope = [[0, 1]] }', ".envelope needs a train with an end"),
-        (f"{{ {PRESS}, x_mm = 3 }}", '.x_mm = 3 needs when = "always"'),
+        (
+            '{ when = "move", spacing_mm = 3, phase = 0.5 }',
+            '.phase = 0.5 does not go with when = "move", a spacing along the path; it',
+        ),
+        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move", a'),
+        (
+            '{ when = "move", spacing_mm = 3, count = 2 }',
+            '.count = 2 does not go with when = "move", a spacing along the path; it belongs',
+        ),
+        ('{ when = "always" }', ".rate_hz is missing: it is needed for a spot (rate_hz; when = always)"),
+        (
+            '{ when = "always", rate_hz = 20, count = 3 }',
+            '.count = 3 does not go with when = "always", a spot; it belongs to a train (',
+        ),
+        (
+            '{ when = "always", rate_hz = 20, envelope = [[0, 1]] }',
+            '.envelope does not go with when = "always", a spot; it belongs to',
+        ),
+        (
+            f"{{ {PRESS}, x_mm = 3 }}",
+            '.x_mm = 3 does not go with when = "press", a single emission; it belongs to a spot (rate_hz; when = always)',
+        ),
         (f"{{ {BUZZ}, count = 3, envelope = [] }}", ".envelope"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [0, 0.5]] }}", ".envelope[1] = [0.0, 0.5] is not later than the point before"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [9, 0.5], [8, 1]] }}", ".envelope[2] = [8.0, 1.0] is not later"),
@@ -179,31 +231,31 @@ def test_regions_that_overlap_in_part_or_only_hold_a_spot_are_accepted(scene_of)
     spot = square('"always"', "spot", 60, 10)
     partly = square(CLICK, "partly", 85, 10)
     corner = 'name = "c"\nshape = "circle"\nx_mm = 70\ny_mm = 70\nradius_mm = 21\neffects = ["click"]'
-    assert len(scene_of(square(CLICK), spot, partly, corner).areas) == 4
+    assert len(scene_of(square(CLICK), spot, partly, corner).regions) == 4
 
 
 def test_trains_of_different_occasions_do_not_add_up(scene_of):
     fast = "rate_hz = 400, count = 2"
-    assert scene_of(square(f'{{ when = "press", {fast} }}, {{ when = "enter", {fast} }}')).areas[0].trains_hz == 400
+    assert scene_of(square(f'{{ when = "press", {fast} }}, {{ when = "enter", {fast} }}')).regions[0].train_rate_hz == 400
 
 
 def test_a_name_a_table_that_builds_on_it_and_the_primitives_mean_the_same(scene_of):
     for effect in ('"double_click"', '{ effect = "double_click" }', f"{{ {PRESS}, rate_hz = 8, count = 2 }}"):
-        assert scene_of(square(effect)).areas[0].press == (Train(1.0, 2, 0.125),)
+        assert scene_of(square(effect)).regions[0].press == (Train(1.0, 2, 0.125),)
 
 
 def test_what_an_effect_builds_on_gives_way_to_what_is_given(scene_of):
-    quick = scene_of(square('{ effect = "buzz", count = 3, when = "enter", amplitude = 0.5 }')).areas[0]
+    quick = scene_of(square('{ effect = "buzz", count = 3, when = "enter", amplitude = 0.5 }')).regions[0]
     assert quick.press == ()
     assert quick.enter == (Train(0.5, 3, 1 / 120),)
-    longer = scene_of(square('{ effect = "double_click", duration_ms = 1000 }')).areas[0]
+    longer = scene_of(square('{ effect = "double_click", duration_ms = 1000 }')).regions[0]
     assert longer.press == (Train(1.0, 8, 0.125),)
 
 
 def test_a_scenes_own_effects_build_on_those_above_them_and_may_take_a_library_name(scene_of):
     effects = "[effects.click]\neffect = 'click'\namplitude = 0.5\n[effects.soft]\neffect = 'click'\nwhen = 'release'\n"
     scene = scene_of(square('"click", "soft"'), effects=effects)
-    assert scene.areas[0].press == scene.areas[0].release == (Train(0.5),)
+    assert scene.regions[0].press == scene.regions[0].release == (Train(0.5),)
     assert scene.effects["click"] == scene.effects["soft"] == Train(0.5)
     with pytest.raises(ConfigError, match=r"effects\.early\.effect = 'late' is no effect"):
         scene_of(square(CLICK), effects="[effects.early]\neffect = 'late'\n[effects.late]\nwhen = 'press'\n")
@@ -224,8 +276,8 @@ def test_every_effect_of_the_library_can_be_named_by_a_region_or_a_command_of_ev
     if library()[effect].occasions == ("command",):
         assert effect in scene_of(square(CLICK), board=board).effects
     else:
-        (area,) = scene_of(square(f'"{effect}"'), board=board).areas
-        assert area.felt or area.spot
+        (region,) = scene_of(square(f'"{effect}"'), board=board).regions
+        assert region.felt or region.spot
 
 
 def test_the_library_scene_names_every_effect_that_a_region_can():
@@ -234,7 +286,30 @@ def test_the_library_scene_names_every_effect_that_a_region_can():
         assert f'"{name}"' in text or effect.occasions == ("command",) or name == "train", name
 
 
-README = (data_folder("boards").parent / "controller" / "README.md").read_text()
+def test_the_table_of_primitives_has_every_occasion_and_every_key():
+    assert {when for primitive in PRIMITIVES for when in primitive.when} == set(get_args(When))
+    assert {key for primitive in PRIMITIVES for key in primitive.keys} == set(EffectTable.__struct_fields__)
+    for when in get_args(When):
+        assert when in primitive_of(EffectTable(when=when)).when
+
+
+KEYS = {"rate_hz": 50.0, "count": 2, "duration_ms": 30.0, "phase": 0.5, "spacing_mm": 3.0, "along": "x", "envelope": ((0.0, 1.0),)}
+
+
+@given(st.lists(st.sampled_from(get_args(When)), min_size=1, max_size=2, unique=True), st.sets(st.sampled_from([*KEYS, "x_mm"])))
+def test_keys_go_together_where_a_row_of_the_table_takes_all_of_them_and_has_all_that_it_needs(occasions, keys):
+    effect = EffectTable(when=tuple(occasions), **{key: KEYS.get(key, 5.0) for key in keys})
+    serving = [
+        primitive
+        for primitive in PRIMITIVES
+        if set(occasions) <= set(primitive.when)
+        and keys <= set(primitive.keys)
+        and all(len(keys & set(alternatives)) == 1 for alternatives in primitive.required)
+    ]
+    assert (conflict(effect) == "") == bool(serving)
+
+
+README = (data_folder("boards").parent / "controller" / "scene" / "README.md").read_text()
 EXAMPLES = re.findall(r"^\| .* \| `([{\"].*[}\"])` \|$", README, re.MULTILINE)
 
 
@@ -246,5 +321,31 @@ def test_the_readme_has_an_example_of_every_key():
 
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_every_example_of_the_readme_is_felt(scene_of, example):
-    (area,) = scene_of(square(example)).areas
-    assert area.felt or area.spot
+    (region,) = scene_of(square(example)).regions
+    assert region.felt or region.spot
+
+
+@pytest.fixture
+def library_file(tmp_path, monkeypatch):
+    """The library's file, to be written before the first use of `library`."""
+    file = tmp_path / "effects.toml"
+    monkeypatch.setattr("controller.scene.library.LIBRARY", file)
+    library.cache_clear()
+    yield file
+    library.cache_clear()
+
+
+def test_a_new_effect_is_a_table_in_the_librarys_file_and_nothing_else(scene_of, library_file):
+    (table,) = re.findall(r"^```toml\n(\[effects\..*?)^```$", README, re.MULTILINE | re.DOTALL)
+    library_file.write_text(f"{LIBRARY.read_text()}\n{table}")
+    scene = scene_of(square('"heartbeat", { effect = "heartbeat", when = "enter", amplitude = 0.5 }'))
+    assert [train.beats for train in (*scene.regions[0].press, *scene.regions[0].enter)] == [5, 5]
+    emissions = ActiveEffects(scene, "command 1", 0.1, 0.1).start("heartbeat", 1.0, 0.0, ticket=1)
+    assert [(e.region, e.amplitude, e.ticket) for e in emissions] == [("heartbeat", 0.5, 1)]
+
+
+def test_a_library_whose_keys_do_not_go_together_is_refused_with_its_key(scene_of, library_file):
+    library_file.write_text("[effects.wrong]\nwhen = 'release'\nrate_hz = 20.0\ncount = 2\n")
+    with pytest.raises(ConfigError) as caught:
+        scene_of(square(CLICK))
+    assert str(caught.value).startswith(f'{library_file}: effects.wrong.rate_hz = 20 does not go with when = "release"')

@@ -13,26 +13,18 @@ from controller.bank.grid import Grid
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
 from controller.scene import scene_file, shapes
-from controller.scene.finger_state import spot_emission
-from controller.scene.fingers import (
-    UnknownEffect,
-    anchored,
-    ended,
-    next_time_s,
-    on_time,
-    on_touch,
-    start_effect,
-    stopped,
-    taken_over,
-)
-from controller.scene.scene import OUTSIDE, Area, Scene, Spot, edge_warnings, load_scene, reach
+from controller.scene.coverage import cells_needed
+from controller.scene.edge_rate import edge_warnings
+from controller.scene.emission import spot_emission
+from controller.scene.fingers import ActiveEffects, UnknownEffect
+from controller.scene.scene import OUTSIDE, Region, Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 from controller.scene.shapes import Boxes, Circle, Polygon, Rectangle
 from controller.scene.trains import Train
 from controller.service.scene_message import pack_scene, unpack_scene
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 from controller.waveforms.selection import LATTICE_M
 
 BOARD = load_board(data_folder("boards") / "simulated")
@@ -65,6 +57,16 @@ def at(x_mm, y_mm=70.0, time_s=0.0, contact=True, finger=3):
     return TouchSample(finger, x_mm * 1e-3, y_mm * 1e-3, time_s, contact)
 
 
+def on_touch(scene, active, sample):
+    """Active effects of a finger after a sample (None: it is lifted), and the emissions that are due; `active` None: it is new."""
+    if active is None:
+        active = ActiveEffects(scene, sample.finger, sample.x_m, sample.y_m)
+        return (active, active.press(sample.time_s)) if sample.contact else (None, ())
+    if sample.contact:
+        return active, active.move(sample.x_m, sample.y_m, sample.time_s)
+    return None, active.release(sample.time_s)
+
+
 def touch(scene, *samples):
     """Emissions of each sample of one finger, as (x in mm, region) or None, and its state after them."""
     state, felt = None, []
@@ -81,13 +83,13 @@ def test_a_click_is_felt_on_press_only(scene_of):
     felt, state = touch(scene, at(60), at(61), at(61, contact=False), at(60))
     assert felt == [(60, "square"), None, None, (60, "square")]
     assert (state.finger, state.x_m, state.y_m, state.region) == (3, 0.060, 0.070, 0)
-    assert ended(state)
+    assert state.ended
 
 
 def test_sliding_into_a_click_or_train_is_not_felt(scene_of):
     felt, state = touch(scene_of(square(CLICK + "," + TRAIN)), at(40), at(60), at(70))
     assert felt == [None, None, None]
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 def test_outside_of_all_regions_nothing_is_felt(scene_of):
@@ -135,58 +137,58 @@ def test_a_train_beats_from_the_press_and_follows_the_finger(scene_of):
     scene = scene_of(square(TRAIN))
     state, first = on_touch(scene, None, at(60, time_s=10.0))
     assert [e.time_s for e in first] == [10.0]
-    assert next_time_s(state) == pytest.approx(10.01)
-    assert on_time(scene, state, 10.0099) == (state, ())
+    assert state.next_s == pytest.approx(10.01)
+    assert state.advance(10.0099) == ()
     state, _ = on_touch(scene, state, at(62, time_s=10.005))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (second,) = state.advance(state.next_s)
     assert (second.time_s, second.x_m, second.region, second.finger) == (pytest.approx(10.01), 0.062, "square", 3)
-    state, (third,) = on_time(scene, state, 10.0213)
+    (third,) = state.advance(10.0213)
     assert third.time_s == pytest.approx(10.02)
-    assert next_time_s(state) is None  # 30 ms at 100 Hz are three
-    assert on_time(scene, state, 99.0) == (state, ())
+    assert state.ended  # 30 ms at 100 Hz are three
+    assert state.advance(99.0) == ()
 
 
 def test_a_late_train_plays_one_and_keeps_its_beat(scene_of):
     scene = scene_of(square(TRAIN.replace("30", "1000")))
     state, _ = on_touch(scene, None, at(60, time_s=0.0))
-    state, (late,) = on_time(scene, state, 0.0455)
+    (late,) = state.advance(0.0455)
     assert late.time_s == pytest.approx(0.04)
-    assert next_time_s(state) == pytest.approx(0.05)
-    state, (last,) = on_time(scene, state, 77.0)
+    assert state.next_s == pytest.approx(0.05)
+    (last,) = state.advance(77.0)
     assert last.time_s == pytest.approx(0.99)
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 def test_a_train_read_at_the_very_time_of_a_beat_plays_that_beat(scene_of):
     scene = scene_of(square(TRAIN.replace("100", "64").replace("30", "100")))
     state, _ = on_touch(scene, None, at(60))
-    assert [on_time(scene, state, beat / 64)[1][0].time_s * 64 for beat in (1, 2)] == [1, 2]
+    assert [state.advance(beat / 64)[0].time_s * 64 for beat in (1, 2)] == [1, 2]
 
 
 @pytest.mark.parametrize("press_s", [5.0, 20.0, 33.3])
 def test_rounding_gives_a_late_train_no_beat_more(scene_of, press_s):
     scene = scene_of(square(TRAIN))
     state, _ = on_touch(scene, None, at(60, time_s=press_s))
-    assert on_time(scene, state, 77.0)[1][0].time_s == pytest.approx(press_s + 0.02)
+    assert state.advance(77.0)[0].time_s == pytest.approx(press_s + 0.02)
 
 
 def test_a_train_of_one_beat_is_over_with_the_press(scene_of):
     state, emissions = on_touch(scene_of(square(TRAIN.replace("30", "10"))), None, at(60))
     assert len(emissions) == 1
-    assert next_time_s(state) is None
+    assert state.ended
 
 
 @pytest.mark.parametrize("end", [at(60, contact=False), at(20)])
 def test_a_train_ends_when_the_finger_is_lifted_or_leaves(scene_of, end):
     _, state = touch(scene_of(square(TRAIN)), at(60), end)
-    assert state is None or next_time_s(state) is None
+    assert state is None or state.ended
 
 
 def test_several_effects_of_one_press_are_one_emission(scene_of):
     scene = scene_of(square(f"{CLICK}, {TRAIN}, {TEXTURE}"))
     felt, state = touch(scene, at(60), at(65))
     assert felt == [(60, "square"), (65, "square")]
-    assert next_time_s(state) == pytest.approx(0.01)
+    assert state.next_s == pytest.approx(0.01)
 
 
 def test_spots_are_at_the_centre_or_where_told(scene_of):
@@ -211,7 +213,7 @@ def test_a_scene_is_not_changed_and_can_be_handed_to_another_process(scene_of):
     assert touch(copy, at(60), at(66))[0] == touch(scene, at(60), at(66))[0]
     assert copy == scene
     with pytest.raises(AttributeError):
-        scene.areas[0].name = "other"
+        scene.regions[0].name = "other"
 
 
 # Occasions
@@ -276,14 +278,14 @@ def test_a_train_that_begins_by_entering_ends_by_leaving_and_one_of_leaving_goes
     entered = scene_of(square(PRESSED.replace("press", "enter")))
     state, _ = on_touch(entered, None, at(40))
     state, (first,) = on_touch(entered, state, at(60, time_s=1.0))
-    assert (first.beat, first.period_s, next_time_s(state)) == (0, 0.01, pytest.approx(1.01))
+    assert (first.beat, first.period_s, state.next_s) == (0, 0.01, pytest.approx(1.01))
     state, _ = on_touch(entered, state, at(40, time_s=1.005))
-    assert next_time_s(state) is None
+    assert state.ended
     left = scene_of(square(PRESSED.replace("press", "leave")), square(CLICK, "other", 10, 25))
     state, _ = on_touch(left, None, at(60))
     state, (first,) = on_touch(left, state, at(40, time_s=1.0))
     state, _ = on_touch(left, state, at(30, time_s=1.005))
-    state, (second,) = on_time(left, state, 1.01)
+    (second,) = state.advance(1.01)
     assert (second.x_m, second.beat, second.region) == (0.030, 1, "square")
     assert on_touch(left, state, at(30, time_s=1.015, contact=False)) == (None, ())
 
@@ -292,19 +294,19 @@ def test_a_phase_delays_a_train_by_a_part_of_its_period(scene_of):
     scene = scene_of(square('{ when = "press", rate_hz = 100, count = 2, phase = 0.25 }'))
     state, none = on_touch(scene, None, at(60, time_s=1.0))
     assert none == ()
-    state, (first,) = on_time(scene, state, next_time_s(state))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (first,) = state.advance(state.next_s)
+    (second,) = state.advance(state.next_s)
     assert (first.time_s, second.time_s) == (pytest.approx(1.0025), pytest.approx(1.0125))
     assert (first.beat, second.beat) == (0, 1)
-    assert ended(state)
+    assert state.ended
 
 
 def test_trains_of_one_finger_keep_their_own_beats(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3, amplitude = 0.5 }}'))
     state, felt = on_touch(scene, None, at(60))
     assert [(e.amplitude, e.period_s) for e in felt] == [(1.0, 0.01)]
-    while (due_s := next_time_s(state)) is not None:
-        state, emissions = on_time(scene, state, due_s)
+    while not state.ended:
+        emissions = state.advance(state.next_s)
         felt += emissions
     fast, slow = ([round(e.time_s, 9) for e in felt if e.period_s == period_s] for period_s in (0.01, 1 / 30))
     assert fast == [0.0, 0.01, 0.02, 0.03, 0.04]
@@ -320,7 +322,7 @@ def test_a_press_that_is_felt_at_once_with_a_train_has_the_trains_beat(scene_of)
 def test_what_was_missed_of_several_trains_comes_in_order_of_time(scene_of):
     scene = scene_of(square(f'{{ when = "press", rate_hz = 30, count = 9 }}, {PRESSED}'))
     state, _ = on_touch(scene, None, at(60))
-    state, emissions = on_time(scene, state, 0.0685)
+    emissions = state.advance(0.0685)
     assert [(round(e.time_s, 4), e.beat) for e in emissions] == [(0.04, 4), (0.0667, 2)]
 
 
@@ -328,7 +330,7 @@ def test_fingers_have_trains_of_their_own(scene_of):
     scene = scene_of(square(PRESSED))
     states = [on_touch(scene, None, at(55 + finger, time_s=0.003 * finger, finger=finger))[0] for finger in range(4)]
     for finger, state in enumerate(states):
-        _, (emission,) = on_time(scene, state, 0.02)
+        (emission,) = state.advance(0.02)
         assert (emission.finger, emission.owner) == (finger, finger)
         assert emission.time_s == pytest.approx(0.02 if finger == 0 else 0.01 + 0.003 * finger)
 
@@ -360,44 +362,45 @@ def test_a_spots_beats_are_its_period_apart_from_its_phase_on(scene_of):
 def test_a_train_keeps_its_beat_from_when_its_first_emission_began_to_play(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ when = "press", rate_hz = 30, count = 3 }}'))
     state, (first,) = on_touch(scene, None, at(60, time_s=1.0))
-    state, (second,) = on_time(scene, anchored(state, first, 1.004), 1.0140001)
+    state.shift(first.time_s, 1.004)
+    (second,) = state.advance(1.0140001)
     assert second.time_s == pytest.approx(1.014, abs=1e-12)
-    assert anchored(state, second, 1.02) is state
-    assert next_time_s(state) == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
-    state, (third, *_) = on_time(scene, state, 1.004 + 1 / 30)
+    state.shift(second.time_s, 1.02)
+    assert state.next_s == pytest.approx(1.024, abs=1e-12), "later beats move nothing"
+    (third, *_) = state.advance(1.004 + 1 / 30)
     assert (third.beat, state.next_s) == (3, pytest.approx(1.044))
-    assert on_time(scene, state, 1.004 + 1 / 30 + 1e-9)[1] == (), "the slower one began with it"
+    assert state.advance(1.004 + 1 / 30 + 1e-9) == (), "the slower one began with it"
 
 
 def test_when_the_outputs_go_off_trains_are_over_and_the_way_goes_on(scene_of):
     scene = scene_of(square(f'{PRESSED}, {{ effect = "texture", spacing_mm = 5 }}'))
     state, _ = on_touch(scene, None, at(60))
     state, _ = on_touch(scene, state, at(64, time_s=0.005))
-    state = stopped(state)
-    assert ended(state)
-    assert next_time_s(state) is None
+    state.end_trains()
+    assert state.ended
     assert on_touch(scene, state, at(65, time_s=0.5))[1][0].region == "square"
 
 
 # Commands
 
 
-def command(scene, state=None, name="buzz", *, finger=None, amplitude=1.0, time_s=5.0, ticket=17):
-    return start_effect(scene, state, name, x_m=0.1, y_m=0.05, finger=finger, amplitude=amplitude, time_s=time_s, ticket=ticket)
+def command(scene, state=None, name="buzz", *, amplitude=1.0, time_s=5.0, ticket=17):
+    active = ActiveEffects(scene, f"command {ticket}", 0.1, 0.05) if state is None else state
+    return active, active.start(name, amplitude, time_s, ticket)
 
 
 def test_a_command_plays_an_effect_at_a_point_and_its_ticket_comes_back_once(scene_of):
     scene = scene_of(square(CLICK))
     state, emissions = command(scene, name="double_click")
-    assert next_time_s(state) == pytest.approx(5.125)
-    state, more = on_time(scene, state, 6.0)
-    assert ended(state)
+    assert state.next_s == pytest.approx(5.125)
+    more = state.advance(6.0)
+    assert state.ended
     first, second = emissions + more
     assert (first.ticket, second.ticket) == (17, 0)
     assert first.owner == second.owner == "command 17"
     assert {(e.x_m, e.y_m, e.finger, e.region) for e in (first, second)} == {(0.1, 0.05, None, "double_click")}
     state, (click,) = command(scene, name="click")
-    assert ended(state)
+    assert state.ended
     assert click.ticket == 17
 
 
@@ -412,11 +415,10 @@ def test_a_commands_amplitude_multiplies_down_to_the_weakest(scene_of):
 def test_a_command_for_a_finger_follows_it_over_borders_until_it_is_lifted(scene_of):
     scene = scene_of(square(TRAIN))
     state, _ = on_touch(scene, None, at(60, time_s=4.995))
-    same, (first,) = command(scene, state, finger=3)
-    assert same is state
+    _, (first,) = command(scene, state)
     assert (first.x_m, first.owner, first.finger, first.ticket) == (0.060, 3, 3, 17)
     state, _ = on_touch(scene, state, at(20, time_s=5.001))
-    state, (second,) = on_time(scene, state, next_time_s(state))
+    (second,) = state.advance(state.next_s)
     assert (second.x_m, second.time_s, second.region) == (0.020, pytest.approx(5 + 1 / 120), "buzz")
     assert on_touch(scene, state, at(20, contact=False)) == (None, ())
 
@@ -428,11 +430,11 @@ def test_the_ticket_waits_for_the_first_emission_that_is_not_silent(tmp_path):
     scene = load_scene(file, BOARD)
     state, none = command(scene, name="late")
     assert none == ()
-    assert state.unfelt == ((17, 5.0),)
-    assert not ended(state)
-    state, emissions = on_time(scene, state, 5.021)
+    assert state.unplayed_commands == ((17, 5.0),)
+    assert not state.ended
+    emissions = state.advance(5.021)
     assert [(e.ticket, e.beat) for e in emissions] == [(17, 2)]
-    assert state.unfelt == ()
+    assert state.unplayed_commands == ()
 
 
 @pytest.mark.parametrize("name", ["boom", "texture", "detent", "always"])
@@ -445,19 +447,21 @@ def test_an_effect_that_no_command_can_play_is_refused_and_the_others_are_listed
 def test_under_another_scene_a_finger_keeps_its_commands_and_nothing_else(scene_of):
     old, new = scene_of(square(f"{TRAIN}, {TEXTURE}")), scene_of(square('"edge"', "new", 40), square(TEXTURE, "other", 95))
     state, _ = on_touch(old, None, at(60, time_s=5.0))
-    state, _ = command(old, state, finger=3)
-    state = taken_over(new, state)
-    assert new.areas[state.region].name == "new"
-    state, emissions = on_time(new, state, 5.02)
+    state, _ = command(old, state)
+    state.change_scene(new)
+    assert new.regions[state.region].name == "new"
+    emissions = state.advance(5.02)
     assert [e.region for e in emissions] == ["buzz"]
     state, (edge,) = on_touch(new, state, at(85, time_s=5.03))
     assert edge.region == "new"
     leaving = scene_of(square(PRESSED.replace("press", "leave")))
     state, _ = on_touch(leaving, None, at(60))
     state, _ = on_touch(leaving, state, at(20))
-    assert ended(taken_over(new, state))
+    state.change_scene(new)
+    assert state.ended
     point, _ = command(old)
-    assert on_time(new, taken_over(new, point), 5.0084)[1][0].region == "buzz"
+    point.change_scene(new)
+    assert point.advance(5.0084)[0].region == "buzz"
 
 
 LIBRARY_SCENE = load_scene(BOARD.folder / "library.toml", BOARD)
@@ -474,11 +478,10 @@ def test_whatever_a_finger_does_time_moves_on_and_every_emission_can_be_played(t
         now_s += wait_s
         felt = ()
         if state is not None:
-            state, felt = on_time(scene, state, now_s)
-            assert next_time_s(state) is None or next_time_s(state) > now_s
-            assert ended(state) == (next_time_s(state) is None)
+            felt = state.advance(now_s)
+            assert state.next_s > now_s
         if what == "command" and state is not None:
-            state, more = command(scene, state, name, finger=3, time_s=now_s)
+            state, more = command(scene, state, name, time_s=now_s)
         elif what == "command":
             continue
         else:
@@ -505,7 +508,7 @@ def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
         states, emissions = {}, 0
         for sample in samples:
             for state in states.values():
-                emissions += len(on_time(LIBRARY_SCENE, state, sample.time_s)[1])
+                emissions += len(state.advance(sample.time_s))
             state, more = on_touch(LIBRARY_SCENE, states.pop(sample.finger, None), sample)
             emissions += len(more)
             if state is not None:
@@ -527,8 +530,8 @@ def test_a_long_day_of_four_fingers_leaves_no_memory_behind():
 
 @given(st.floats(-0.01, 0.22), st.floats(-0.01, 0.16))
 def test_a_region_is_found_as_by_asking_one_after_the_other(x_m, y_m):
-    for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.areas[:-1]), Scene(())):
-        asked = [index for index, area in enumerate(scene.areas) if area.shape.contains(x_m, y_m)]
+    for scene in (LIBRARY_SCENE, Scene(LIBRARY_SCENE.regions[:-1]), Scene(())):
+        asked = [index for index, region in enumerate(scene.regions) if region.shape.contains(x_m, y_m)]
         assert scene.region_at(x_m, y_m) == (asked[0] if asked else OUTSIDE)
 
 
@@ -620,7 +623,7 @@ def test_a_file_without_regions_is_refused(tmp_path, text):
 
 
 def test_the_highest_rate_that_emissions_fit_into_is_accepted(scene_of):
-    assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).areas[0].press == (Train(1.0, 2, 1 / 500),)
+    assert scene_of(square('{ effect = "train", rate_hz = 500, duration_ms = 4 }')).regions[0].press == (Train(1.0, 2, 1 / 500),)
 
 
 def test_what_reaches_just_to_the_limits_is_accepted_rounding_included(scene_of, tmp_path):
@@ -629,7 +632,7 @@ def test_what_reaches_just_to_the_limits_is_accepted_rounding_included(scene_of,
     assert scene_of(square(corner + "," + fine, "wide", 100.1).replace("width_mm = 40", "width_mm = 109.9")).spots
     board = msgspec.structs.replace(BOARD, limits=msgspec.structs.replace(BOARD.limits, max_duty=0.7))
     scene_of(square('{ effect = "train", rate_hz = 350, duration_ms = 4 }'))
-    assert load_scene(tmp_path / "scene.toml", board).areas[0].press  # 350 Hz × 2 ms is above 0.7 in binary
+    assert load_scene(tmp_path / "scene.toml", board).regions[0].press  # 350 Hz × 2 ms is above 0.7 in binary
 
 
 def test_a_scene_is_found_by_path_or_name_and_an_unknown_one_lists_those_that_exist(tmp_path):
@@ -669,7 +672,7 @@ def point_in(shape, u, v):
 @given(u=fractions, v=fractions)
 def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v):
     grid = Grid.of(BOARD.plate, pitch_mm * 1e-3)
-    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(shape), grid.points(), grid.pitch_m)
     point = point_in(shape, u, v)
     if point:
         cells, _ = grid.corners(*point)
@@ -677,13 +680,13 @@ def test_every_point_of_a_shape_has_its_four_cells_reached(shape, pitch_mm, u, v
 
 
 def _scene(shape):
-    return Scene((Area("a", shape, press=(Train(),)),))
+    return Scene((Region("a", shape, press=(Train(),)),))
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
     grid = Grid.of(BOARD.plate, 5e-3)
-    reached = reach(_scene(shape), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(shape), grid.points(), grid.pitch_m)
     needed = np.zeros(len(reached), bool)
     for u in np.linspace(0, 1, 150):
         for v in np.linspace(0, 1, 150):
@@ -702,7 +705,7 @@ def test_cells_that_no_point_of_a_shape_needs_are_not_reached(shape):
 def test_a_region_in_a_corner_of_the_plate_reaches_the_four_outermost_cells_only(far):
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = (BOARD.plate.length_m - 1e-3, BOARD.plate.width_m - 1e-3) if far else (0.0, 0.0)
-    reached = reach(_scene(Rectangle(x_m, y_m, x_m + 1e-3, y_m + 1e-3)), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(Rectangle(x_m, y_m, x_m + 1e-3, y_m + 1e-3)), grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(x_m, y_m)[0])
 
 
@@ -710,22 +713,22 @@ def test_a_region_in_a_corner_of_the_plate_reaches_the_four_outermost_cells_only
 def test_every_effect_of_a_finger_reaches_the_cells_of_its_region(scene_of, effect):
     grid = Grid.of(BOARD.plate, 5e-3)
     asked = np.array([grid.corners(x, y)[0] for x in (0.050, 0.090) for y in (0.050, 0.090)])
-    assert reach(scene_of(square(effect)), grid.points(), grid.pitch_m)[asked].all()
+    assert cells_needed(scene_of(square(effect)), grid.points(), grid.pitch_m)[asked].all()
 
 
-def test_a_region_within_one_mesh_reaches_its_four_cells_only():
+def test_a_region_within_one_grid_square_reaches_its_four_cells_only():
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
-    reached = reach(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
+    reached = cells_needed(_scene(Rectangle(x_m + 0.5e-3, y_m + 0.5e-3, x_m + 4.5e-3, y_m + 4.5e-3)), grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(x_m + 1e-3, y_m + 1e-3)[0])
 
 
-def test_a_region_that_nearly_touches_the_next_mesh_reaches_it_because_points_are_rounded():
+def test_a_region_that_nearly_touches_the_next_grid_square_reaches_it_because_points_are_rounded():
     grid = Grid.of(BOARD.plate, 5e-3)
     x_m, y_m = grid.x0_m + 10 * grid.pitch_m, grid.y0_m + 7 * grid.pitch_m
     near = Rectangle(x_m + 1e-3, y_m + 1e-3, x_m + grid.pitch_m - LATTICE_M / 3, y_m + grid.pitch_m - LATTICE_M / 3)
     over = grid.corners(near.x_high + LATTICE_M / 2, near.y_high + LATTICE_M / 2)[0]
-    assert reach(_scene(near), grid.points(), grid.pitch_m)[list(over)].all()
+    assert cells_needed(_scene(near), grid.points(), grid.pitch_m)[list(over)].all()
 
 
 @given(u=fractions, v=fractions, dx=st.floats(-1, 1), dy=st.floats(-1, 1), shape=st.sampled_from(SHAPES))
@@ -734,19 +737,19 @@ def test_points_rounded_to_the_bank_lattice_are_reached_too(u, v, dx, dy, shape)
     point = point_in(shape, u, v)
     if point:
         rounded = point[0] + dx * LATTICE_M / 2, point[1] + dy * LATTICE_M / 2
-        assert reach(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
+        assert cells_needed(_scene(shape), grid.points(), grid.pitch_m)[list(grid.corners(*rounded)[0])].all()
 
 
 def test_what_begins_by_leaving_a_region_may_be_felt_anywhere(scene_of):
     points = Grid.of(BOARD.plate, 5e-3).points()
-    assert reach(scene_of(square(LEAVE)), points, 5e-3).all()
-    assert not reach(scene_of(square(ENTER)), points, 5e-3).all()
+    assert cells_needed(scene_of(square(LEAVE)), points, 5e-3).all()
+    assert not cells_needed(scene_of(square(ENTER)), points, 5e-3).all()
 
 
 def test_a_margin_reaches_what_a_prediction_may_ask_for(scene_of):
     grid = Grid.of(BOARD.plate, 5e-3)
     scene = scene_of(square(CLICK), square(ALWAYS, "spot", 140))
-    near, wide = (reach(scene, grid.points(), grid.pitch_m, margin_m) for margin_m in (0.0, 12e-3))
+    near, wide = (cells_needed(scene, grid.points(), grid.pitch_m, margin_m) for margin_m in (0.0, 12e-3))
     asked = list(grid.corners(0.050 - 11.9e-3, 0.090 + 11.9e-3)[0])
     assert wide[asked].all()
     assert not near[asked].all()
@@ -757,7 +760,7 @@ def test_a_margin_reaches_what_a_prediction_may_ask_for(scene_of):
 def test_spots_reach_their_four_cells_and_their_region_none(scene_of):
     scene = scene_of(square(ALWAYS.replace("20", "20, x_mm = 101, y_mm = 71")))
     grid = Grid.of(BOARD.plate, 5e-3)
-    reached = reach(scene, grid.points(), grid.pitch_m)
+    reached = cells_needed(scene, grid.points(), grid.pitch_m)
     assert set(np.flatnonzero(reached)) == set(grid.corners(0.101, 0.071)[0])
 
 
@@ -823,10 +826,9 @@ def test_every_real_recording_is_felt_where_its_fingers_went(file):
     source, tracks = RecordingSource(recording, axes, 0.0), recording.tracks(axes)
     states, felt = {}, []
     while (due_s := source.next_time_s()) is not None:
-        for finger, state in states.items():
-            if (beat_s := next_time_s(state)) is not None and beat_s <= due_s:
-                states[finger], emissions = on_time(scene, state, beat_s)
-                felt += emissions
+        for state in states.values():
+            if state.next_s <= due_s:
+                felt += state.advance(state.next_s)
         for sample in source.read(due_s):
             state, emissions = on_touch(scene, states.pop(sample.finger, None), sample)
             felt += emissions
@@ -840,11 +842,11 @@ def test_every_real_recording_is_felt_where_its_fingers_went(file):
 
 def test_the_demo_shows_every_kind_of_region():
     scene = load_scene(find_scene(BOARD, BOARD.scene), BOARD)
-    assert {type(area.shape) for area in scene.areas} == {Rectangle, Circle, Polygon}
-    assert scene.areas[-1].shape == Rectangle(0, 0, BOARD.plate.length_m, BOARD.plate.width_m)
+    assert {type(region.shape) for region in scene.regions} == {Rectangle, Circle, Polygon}
+    assert scene.regions[-1].shape == Rectangle(0, 0, BOARD.plate.length_m, BOARD.plate.width_m)
     assert [spot.region for spot in scene.spots] == ["beacon"]
     grid = Grid.of(BOARD.plate, 5e-3)
-    assert reach(scene, grid.points(), grid.pitch_m).all()
+    assert cells_needed(scene, grid.points(), grid.pitch_m).all()
 
 
 def test_thousands_of_regions_are_not_compared_each_with_each(tmp_path, monkeypatch):
@@ -859,7 +861,7 @@ def test_thousands_of_regions_are_not_compared_each_with_each(tmp_path, monkeypa
         for y in range(36)
     ]
     file.write_text("".join(keys))
-    assert len(load_scene(file, BOARD).areas) == 1800
+    assert len(load_scene(file, BOARD).regions) == 1800
     assert not compared
     file.write_text("".join(keys) + keys[7].replace("0 7", "again"))
     with pytest.raises(ConfigError, match=r"regions\[1800\] \('again'\) is never felt: regions\[7\] \('0 7'\) covers it"):

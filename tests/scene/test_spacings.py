@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from controller.scene.effects import EffectTable
 from controller.scene.shapes import Circle, Polygon, Rectangle
-from controller.scene.spacings import REARM, REARM_MOST_M, REST_M, Spacing, spacing_of
+from controller.scene.spacings import MAX_REARM_M, REARM_SHARE, REST_M, Spacing, spacing_of
 
-places = st.lists(st.tuples(st.integers(-4, 4), st.floats(REARM + 0.001, 1 - REARM - 0.001)), min_size=2, max_size=60)
+places = st.lists(st.tuples(st.integers(-4, 4), st.floats(REARM_SHARE + 0.001, 1 - REARM_SHARE - 0.001)), min_size=2, max_size=60)
 
 
 def hits(spacing, points):
@@ -33,7 +33,7 @@ def test_every_report_that_crosses_lines_is_felt_once_however_many_it_crosses(ax
 
 @given(st.floats(1e-3, 0.03), st.integers(-5, 5), st.lists(st.floats(-1, 1), max_size=50))
 def test_a_finger_that_trembles_on_a_line_feels_it_once(spacing_m, line, noise):
-    rest_m = 0.99 * min(REARM * spacing_m, REARM_MOST_M)
+    rest_m = 0.99 * min(REARM_SHARE * spacing_m, MAX_REARM_M)
     way = [(line - 0.5) * spacing_m, *(line * spacing_m + part * rest_m for part in noise)]
     assert len(hits(Spacing(spacing_m, 0, 0.0, 1.0), along(0, way))) <= 1
 
@@ -106,7 +106,7 @@ def test_the_way_to_go_is_the_way_after_which_something_is_felt(axis, spacing_m,
     for part, felt in ((0.999, False), (1.001, True)):
         progress = Spacing(spacing_m, axis, 0.01, 1.0).begin(x_m, y_m)
         assume(not progress.crossed(*here))
-        to_go_m = progress.to_go_m(*here, x, y)
+        to_go_m = progress.remaining_m(*here, x, y)
         across_m = to_go_m * abs((x, y)[axis]) if axis is not None else to_go_m
         assume(across_m > 1e-5)  # a thousandth of it is more than rounding
         assert progress.crossed(here[0] + part * to_go_m * x, here[1] + part * to_go_m * y) == felt
@@ -119,11 +119,11 @@ def test_the_line_just_felt_is_not_the_next_one_on_the_way_back(way, x, to_go_m)
     progress = Spacing(10e-3, 0, 0.0, 1.0).begin(way[0] * 1e-3, 0.0)
     for at_mm in way[1:]:
         progress.crossed(at_mm * 1e-3, 0.0)
-    assert progress.to_go_m(way[-1] * 1e-3, 0.0, x, 0.0) * 1e3 == pytest.approx(to_go_m, abs=1e-5)
+    assert progress.remaining_m(way[-1] * 1e-3, 0.0, x, 0.0) * 1e3 == pytest.approx(to_go_m, abs=1e-5)
 
 
 def test_a_finger_that_goes_along_the_lines_never_comes_to_one():
-    assert Spacing(0.01, 0, 0.0, 1.0).begin(0.005, 0.005).to_go_m(0.005, 0.005, 0.0, 1.0) == math.inf
+    assert Spacing(0.01, 0, 0.0, 1.0).begin(0.005, 0.005).remaining_m(0.005, 0.005, 0.0, 1.0) == math.inf
 
 
 def test_the_way_round_a_small_circle_is_its_circumference_within_a_percent():

@@ -2,12 +2,12 @@
 
 import pytest
 
-from controller.loop.batching import together
-from controller.scene.finger_state import Emission
-from controller.scene.fingers import on_time, on_touch, start_effect
+from controller.loop.batching import select_batch
+from controller.scene.emission import Emission
+from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
-from controller.touch.samples import TouchSample
+from controller.touch.source import TouchSample
 
 REPORTS = 1000
 
@@ -27,18 +27,20 @@ def test_a_thousand_touch_reports(benchmark, scene, way):
     samples = [TouchSample(1, x_m + (k * step_m) % 0.11, y_m, k * 1e-3, True) for k in range(REPORTS)]
 
     def slide():
-        state = None
-        for sample in samples:
-            state, _ = on_touch(scene, state, sample)
+        finger = ActiveEffects(scene, 1, x_m, y_m)
+        finger.press(0.0)
+        for _, x, y, time_s, _, _ in samples:
+            finger.move(x, y, time_s)
 
     benchmark(slide)
 
 
 def test_a_thousand_beats_of_a_train(benchmark, scene):
     def beat():
-        state, _ = start_effect(scene, None, "train", x_m=0.1, y_m=0.1, finger=None, amplitude=1.0, time_s=0.0, ticket=1)
+        active = ActiveEffects(scene, "command 1", 0.1, 0.1)
+        active.start("train", 1.0, 0.0, ticket=1)
         for k in range(REPORTS):
-            state, _ = on_time(scene, state, k * 0.02)
+            active.advance(k * 0.02)
 
     benchmark(beat)
 
@@ -46,4 +48,4 @@ def test_a_thousand_beats_of_a_train(benchmark, scene):
 @pytest.mark.parametrize("count", [1, 4, 10])
 def test_choose_what_plays_together(benchmark, count):
     due = [Emission(0.0, 0.02 * k, 0.07, k, "r", owner=k) for k in range(count)]
-    benchmark(together, due, 2e-3)
+    benchmark(select_batch, due, 2e-3)

@@ -7,19 +7,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.scene.effects import EffectTable
-from controller.scene.trains import NO_BEAT, Running, Train, silent, train_of
+from controller.scene.trains import NO_BEAT, ActiveTrain, Train, silent, train_of
 
 TENTH = ((0.0, 0.5), (0.1, 1.0))
 
 
-def running(train, start_s=10.0, share=1.0):
-    return Running(train, start_s, 0, bound=True, share=share)
+def started(train, start_s=10.0, gain=1.0):
+    return ActiveTrain(train, start_s, 0, ends_on_leave=True, gain=gain)
 
 
 def felt(train, asked_s, start_s=10.0):
     """Beats of a train that is asked at some times."""
-    under_way = running(train, start_s)
-    return [under_way.take(at_s)[0] for at_s in asked_s], under_way
+    active = started(train, start_s)
+    return [active.take(at_s)[0] for at_s in asked_s], active
 
 
 @given(
@@ -40,31 +40,31 @@ def test_a_train_gives_the_last_of_the_beats_that_are_due_each_at_most_once(star
         due = [beat for beat, time_s in enumerate(times_s) if beat > taken and time_s <= at_s]
         taken = max(due, default=taken)
         expected.append(max(due, default=NO_BEAT))
-    given, under_way = felt(train, asked_s, start_s)
+    given, active = felt(train, asked_s, start_s)
     assert given == expected
-    assert under_way.over == (taken == beats - 1)
-    if not under_way.over:
-        assert under_way.next_s == times_s[taken + 1]
+    assert active.over == (taken == beats - 1)
+    if not active.over:
+        assert active.next_s == times_s[taken + 1]
 
 
 @given(st.floats(0, 1e6), st.floats(0.1, 1000), st.integers(2, 500))
 def test_a_train_asked_at_each_beats_own_time_plays_them_all(start_s, rate_hz, beats):
-    under_way = running(Train(1.0, beats, 1 / rate_hz), start_s)
+    active = started(Train(1.0, beats, 1 / rate_hz), start_s)
     for beat in range(beats):
-        assert under_way.take(under_way.next_s) == (beat, 1.0)
-    assert under_way.over
+        assert active.take(active.next_s) == (beat, 1.0)
+    assert active.over
 
 
 def test_the_hundredth_beat_tells_a_rate_one_percent_off():
-    right, wrong = (running(Train(1.0, 1000, 1 / rate_hz), 0.0) for rate_hz in (50.0, 50.5))
+    right, wrong = (started(Train(1.0, 1000, 1 / rate_hz), 0.0) for rate_hz in (50.0, 50.5))
     assert right.take(2.0)[0] == 100
     assert wrong.take(2.0)[0] == 101
 
 
 def test_rounding_of_the_beat_does_not_add_up():
-    under_way = running(Train(1.0, 1_000_000, 1 / 300), 0.0)
-    under_way.take(3000.0)
-    assert under_way.next_s == pytest.approx(900_001 / 300, abs=1e-12)
+    active = started(Train(1.0, 1_000_000, 1 / 300), 0.0)
+    active.take(3000.0)
+    assert active.next_s == pytest.approx(900_001 / 300, abs=1e-12)
 
 
 @given(st.integers(0, 40))
@@ -77,11 +77,11 @@ def test_an_envelope_is_linear_between_its_points_and_level_beyond_them(beat):
         expected = 0.4 + 6 * (at_s - 0.1)
     else:
         expected = max(1.0 - 5 * (at_s - 0.2), 0.5)
-    assert train.loudness(beat, 1.0) == pytest.approx(expected, abs=1e-9)
+    assert train.amplitude_of(beat, 1.0) == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("level", "amplitude", "share", "loudness"),
+    ("level", "amplitude", "gain", "played"),
     [
         (1, 1, 1, 1),
         (0.5, 0.8, 1, 0.4),
@@ -92,13 +92,13 @@ def test_an_envelope_is_linear_between_its_points_and_level_beyond_them(beat):
         (0, 1, 1, 0),
     ],
 )
-def test_what_comes_below_the_weakest_amplitude_is_that_or_silence(level, amplitude, share, loudness):
-    assert Train(amplitude, 1, 0.0, 0.0, ((0.0, level),)).loudness(0, share) == pytest.approx(loudness)
+def test_what_comes_below_the_weakest_amplitude_is_that_or_silence(level, amplitude, gain, played):
+    assert Train(amplitude, 1, 0.0, 0.0, ((0.0, level),)).amplitude_of(0, gain) == pytest.approx(played)
 
 
 def test_silent_beats_are_passed_over_and_the_last_one_that_sounds_is_given():
     train = Train(1.0, 6, 0.1, 0.0, ((0.0, 1.0), (0.1, 0.5), (0.15, 0.0), (0.35, 0.0), (0.4, 1.0), (0.5, 0.0)))
-    assert [round(train.loudness(beat, 1.0), 2) for beat in range(6)] == [1.0, 0.5, 0.0, 0.0, 1.0, 0.0]
+    assert [round(train.amplitude_of(beat, 1.0), 2) for beat in range(6)] == [1.0, 0.5, 0.0, 0.0, 1.0, 0.0]
     assert felt(train, [10.35], 10.0)[0] == [1]
     assert felt(train, [10.15, 10.35, 11.0], 10.0)[0] == [1, NO_BEAT, 4]
 

@@ -54,8 +54,9 @@ def kept(board, bank_file, tmp_path, sensor, evemu_text, capsys):
         with Bank.open(bank_file, warm) as bank:
             source = tracked(RecordingSource(recording, recording.axes(warm), 0.2), warm)
             scene = load_scene(tmp_path / "s.toml", warm)
-            assembly = assemble(warm, scene, bank, clock, session, source, progress=progress)
-            housekeeping.watch(assembly.loop, assembly.counters, None)
+            told = {"emission_started": housekeeping.emission_started, "scene_changed": housekeeping.scene_changed}
+            assembly = assemble(warm, scene, bank, clock, session, source, progress=progress, **told)
+            housekeeping.watch(assembly.loop, None)
             assembly.loop.run()
             link.close()
         return link, housekeeping, assembly.counters, capsys.readouterr().err

@@ -67,7 +67,7 @@ def test_the_same_scene_read_again_is_the_one_in_the_file(changer, folder):
     changer.begin(None, 0)
     done = prepared(changer)
     assert isinstance(done.scene, Scene)
-    assert [area.name for area in done.scene.areas] == ["another"]
+    assert [region.name for region in done.scene.regions] == ["another"]
     assert (done.ticket, done.selection, done.reason) == (0, None, "")
     assert changer.fileno() is None
 
@@ -277,7 +277,7 @@ def test_a_scene_comes_over_as_it_was_and_a_request_too(board):
         scene = load_scene(board.folder / f"{name}.toml", board)
         copy = unpack_scene(pack_scene(scene))
         assert copy == scene
-        assert copy.meshes == scene.meshes
+        assert copy.index == scene.index
         assert copy.spots == scene.spots
     request = unpack_request(pack_request(board, "drums", board.folder / "x.bank"))
     assert (request.board, request.scene, request.bank) == (board, "drums", str(board.folder / "x.bank"))
@@ -419,7 +419,7 @@ def test_whatever_the_helper_answers_the_loop_gets_a_scene_that_is_right_or_a_li
         assert "\n" not in done.reason
     else:
         for x_m in (-1.0, 0.0, 0.1, 0.2, 5.0):
-            assert -1 <= done.scene.region_at(x_m, 0.07) < len(done.scene.areas)
+            assert -1 <= done.scene.region_at(x_m, 0.07) < len(done.scene.regions)
 
 
 def test_an_answer_that_says_it_is_too_large_is_refused_before_it_is_there(lied_to):

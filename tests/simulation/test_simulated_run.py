@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from controller.simulation.simulated_run import judge
-from controller.touch.tracks import Track
+from controller.touch.recording import Track
 
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 20.0 }]\n'
 STEP_S = 8e-3

@@ -2,8 +2,7 @@
 
 from collections import Counter
 
-from controller.touch.panel import Counts
-from controller.touch.samples import TouchSample
+from controller.touch.source import Counts, TouchSample
 
 
 def touch(finger, x_mm, y_mm=50.0, size_mm=0.0):

@@ -13,10 +13,17 @@ from controller.board.board import data_folder, load_board
 from controller.cli import main
 from controller.errors import CalibrationError, ConfigError, TouchError
 from controller.touch.axes import Axes, AxisRange
-from controller.touch.board_lines import board_lines, with_calibration, write_calibration
-from controller.touch.calibration import Calibration, calibrate, check_targets, default_targets
-from controller.touch.held_touches import HELD_S, STILL_M, HeldTouches
-from controller.touch.samples import TouchSample
+from controller.touch.calibration import (
+    HOLD_S,
+    STATIONARY_RADIUS_M,
+    Calibration,
+    StationaryTouches,
+    calibrate,
+    check_targets,
+    default_targets,
+)
+from controller.touch.source import TouchSample
+from controller.touch.touch_table import board_lines, with_calibration, write_calibration
 
 BOARD = load_board(data_folder("boards") / "simulated")
 PLATE = BOARD.plate  # 210 mm x 148 mm
@@ -131,11 +138,11 @@ def shares(points):
         ([*GOOD[:2], (211, 20)], shares(GOOD[:3]), "not on the plate"),
         ([*GOOD[:2], (math.nan, 20)], shares(GOOD[:3]), "not on the plate"),
         ([(20, 20), (100, 20), (190, 20.5)], shares(GOOD[:3]), "targets lie on one line"),
-        ([(20, 20), (25, 25), (190, 120)], shares(GOOD[:3]), "targets 1 and 2 are at one place"),
-        (GOOD[:3], [(0.1, 0.1), (0.9, 0.1), (0.1, 0.1)], "touches 1 and 3 are at one place"),
+        ([(20, 20), (25, 25), (190, 120)], shares(GOOD[:3]), "targets 1 and 2 coincide"),
+        (GOOD[:3], [(0.1, 0.1), (0.9, 0.1), (0.1, 0.1)], "touches 1 and 3 coincide"),
         (GOOD[:3], [(0.1, 0.1), (0.9, 0.1), (0.5, 0.1)], "touches lie on one line"),
-        (GOOD[:3], [(0.1, 0.1), (0.9, math.nan), (0.5, 0.1)], "has no place"),
-        (GOOD[:3], [(0.1, 0.1), (0.9, math.inf), (0.5, 0.1)], "has no place"),
+        (GOOD[:3], [(0.1, 0.1), (0.9, math.nan), (0.5, 0.1)], "has no position"),
+        (GOOD[:3], [(0.1, 0.1), (0.9, math.inf), (0.5, 0.1)], "has no position"),
         (GOOD, shares([GOOD[1], GOOD[0], *GOOD[2:]]), "mm off what the others say"),
         (GOOD, shares([*GOOD[:4], (GOOD[4][0] + 8, GOOD[4][1])]), r"touch 5 is 8\.0 mm off"),
         (GOOD[:3], shares([GOOD[0], GOOD[1], GOOD[3]]), "oblique"),
@@ -181,7 +188,7 @@ def test_the_default_targets_are_fit_for_any_plate(count):
 
 def hold(*samples):
     """What counts of samples `(time_s, finger, x_mm, contact)`; time goes on for a second after them."""
-    held, found = HeldTouches(), []
+    held, found = StationaryTouches(), []
     for time_s, finger, x_mm, contact in samples:
         if held.due_s < time_s:
             found.append(held.take((), held.due_s))
@@ -198,8 +205,8 @@ def test_a_finger_held_still_counts_once_at_the_median_of_its_reports():
 
 
 def test_a_tap_too_short_or_a_finger_that_slides_does_not_count():
-    assert hold((0, 0, 100, True), (HELD_S - 1e-3, 0, 100, False)) == []
-    assert hold(*[(0.1 * k, 0, 100 + 1.1e3 * STILL_M * k, True) for k in range(10)], (0.95, 0, 120, False)) == []
+    assert hold((0, 0, 100, True), (HOLD_S - 1e-3, 0, 100, False)) == []
+    assert hold(*[(0.1 * k, 0, 100 + 1.1e3 * STATIONARY_RADIUS_M * k, True) for k in range(10)], (0.95, 0, 120, False)) == []
 
 
 def test_a_finger_that_slides_and_then_stays_counts_where_it_stayed():
@@ -368,5 +375,5 @@ def test_a_board_that_cannot_be_written_is_told_before_anything_is_touched(tmp_p
     monkeypatch.setattr("os.access", lambda *_, **__: False)
     assert main(["calibrate-touch", "--board", str(tmp_path), "--write"]) == 1
     said = capsys.readouterr().err
-    assert "board.toml: cannot be written (Permission denied): do it as root, or without --write" in said
+    assert "board.toml: cannot be written (Permission denied): run this as root, or without --write" in said
     assert said.count("\n") == 1, "nobody was asked to touch a mark"

@@ -6,7 +6,7 @@ from controller.board.board import data_folder, load_board
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.contact_events import MAX_CONTACTS, Contact, ContactEvents, describe
 from controller.touch.decoder import Decoder
-from controller.touch.panel import Protocol, protocol_of_device
+from controller.touch.event_codes import Protocol, protocol_of_device
 
 ABS, KEY, SYN = 3, 1, 0
 SLOT, MAJOR, X, Y, ID, TOUCH = 0x2F, 0x30, 0x35, 0x36, 0x39, 0x14A

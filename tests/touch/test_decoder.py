@@ -10,7 +10,7 @@ from controller.board.board import data_folder, load_board
 from controller.touch.associate import assignment
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, MAX_UNNAMED, Decoder
-from controller.touch.panel import Protocol, protocol_of, protocol_of_device
+from controller.touch.event_codes import Protocol, protocol_of, protocol_of_device
 
 BOARD = load_board(data_folder("boards") / "simulated")
 AXES = Axes(BOARD, AxisRange(0, 2100), AxisRange(0, 1480))  # a tenth of a millimetre each

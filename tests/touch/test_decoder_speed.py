@@ -2,7 +2,7 @@
 
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
-from controller.touch.panel import Protocol
+from controller.touch.event_codes import Protocol
 
 
 def report(moved, *, first=False):

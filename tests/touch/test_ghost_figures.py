@@ -7,9 +7,9 @@ import pytest
 from controller.board.board import data_folder, load_board
 from controller.errors import CalibrationError
 from controller.simulation.ghostly_panel import GhostlyPanel
+from controller.touch.event_capture import EventCapture, emission_event, recording_text
+from controller.touch.event_codes import Protocol
 from controller.touch.ghost_figures import FEWEST_EMISSIONS, MARGIN_MS, MARGIN_OF_FEW_MS, ghost_figures
-from controller.touch.kept_events import KeptEvents, emission_event, recording_text
-from controller.touch.panel import Protocol
 from controller.touch.recording import Recording
 
 BOARD = load_board(data_folder("boards") / "simulated")
@@ -34,7 +34,7 @@ def measured(*, emissions=300, fingers=(), gap_s=(0.18, 0.23), seed=0, **panel):
         return heard
 
     panel = {"probability": 0.3, "lives": (1, 3)} | panel
-    kept = KeptEvents(GhostlyPanel(BOARD, fingers, disturbed, seed=seed, until_s=at_s, **panel))
+    kept = EventCapture(GhostlyPanel(BOARD, fingers, disturbed, seed=seed, until_s=at_s, **panel))
     while (next_s := kept.next_time_s()) is not None:
         kept.read(next_s)
     return Recording(recording_text(kept.description, [*kept.events, *(emission_event(start_s, T_S) for start_s in sounds)]))

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from controller.board.board import data_folder, load_board
 from controller.board.devices import TouchPanel
 from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel
+from controller.touch.event_codes import Protocol
 from controller.touch.ghost_guard import SHARE, GhostGuard, Listening
 from controller.touch.live_source import LiveSource
-from controller.touch.panel import Protocol
 from controller.touch.tracker import Tracker
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -16,10 +16,9 @@ from peers.gt911_chip import STATUS, Gt911Chip
 from controller.board.board import find_board, load_board
 from controller.board.devices import Ft5x06Touch, Gt911Touch
 from controller.errors import TouchError
-from controller.touch import i2c_bus, i2c_reader, panel_lines
+from controller.touch import ft5x06, gt911, i2c_bus, i2c_reader, panel_lines
 from controller.touch.event_codes import ABS_MT_TOUCH_MAJOR
-from controller.touch.ft5x06 import open_ft5x06
-from controller.touch.gt911 import PRODUCTS, open_gt911
+from controller.touch.gt911 import PRODUCTS
 from controller.touch.live_source import LiveSource
 
 BOARD = load_board(find_board("simulated"))
@@ -53,10 +52,10 @@ class Bench:
         self.now_s += wait_s
 
     def gt911(self, **more):
-        return self._open(open_gt911, Gt911Touch, more)
+        return self._open(gt911.open_panel, Gt911Touch, more)
 
     def ft5x06(self, **more):
-        return self._open(open_ft5x06, Ft5x06Touch, {"width": 2100, "height": 1480} | more)
+        return self._open(ft5x06.open_panel, Ft5x06Touch, {"width": 2100, "height": 1480} | more)
 
     def _open(self, open_panel, settings, more):
         reader = open_panel(settings(**{"bus": str(self._path), **LINES, **more}))
@@ -158,7 +157,7 @@ def test_another_goodix_is_refused_by_name_with_the_list(bench, product):
 
 
 @pytest.mark.parametrize(
-    ("product", "words"), [(bytes(4), "nothing but 0x00"), (b"\xff" * 4, "0xFF"), (b"\x12\x34\x80\0", "no Goodix")]
+    ("product", "words"), [(bytes(4), "with 0x00 only"), (b"\xff" * 4, "0xFF"), (b"\x12\x34\x80\0", "no Goodix")]
 )
 def test_what_is_no_goodix_is_refused(bench, product, words):
     bench.put(Gt911Chip(product=product))
@@ -368,7 +367,7 @@ def test_a_panel_that_went_is_tried_every_half_second_and_started_step_by_step_w
 
 def test_what_keeps_a_bus_from_being_opened_is_said(bench, tmp_path, monkeypatch):
     bench.put(Gt911Chip(), functions=0x10000)
-    with pytest.raises(TouchError, match="cannot do plain I2C"):
+    with pytest.raises(TouchError, match="has no plain I2C"):
         bench.gt911()
     assert bench.open_buses() == 0
     with pytest.raises(TouchError, match=r"there is no I2C bus .*i2c-9"):

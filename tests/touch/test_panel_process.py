@@ -18,11 +18,11 @@ from controller.errors import TouchError
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
-from controller.touch import panel_messages as messages
-from controller.touch.awaited_reader import LOST, UNSEEN
+from controller.touch import panel_process as messages
+from controller.touch.awaited_reader import LOST, NO_DEVICE
 from controller.touch.contact_events import describe
 from controller.touch.live_source import LiveSource
-from controller.touch.panel_process import HANGS_S, PanelProcess, serve_panel
+from controller.touch.panel_process import HANG_S, PanelProcess, serve_panel
 
 PROGRAM = Path(__file__).parent / "peers" / "gt911_process.py"
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -107,7 +107,7 @@ def test_what_the_driver_says_of_itself_is_what_the_loop_sees(ends):
         return [(0, 0, 0, 3.0)]
 
     panel = PanelProcess(ends)
-    assert (panel.present, panel.cause, panel.description, panel.next_time_s()) == (False, "", UNSEEN, None)
+    assert (panel.present, panel.cause, panel.description, panel.next_time_s()) == (False, "", NO_DEVICE, None)
     reader = Scripted(lambda _: [(3, 53, 100, 1.0), (0, 0, 0, 1.0)], lost, back, last)
     serve_panel(lambda: reader, ends.theirs)
     assert reader.closed
@@ -150,10 +150,10 @@ def test_a_panel_that_cannot_be_opened_is_told_and_tried_again(ends):
 
 def test_a_bus_that_hangs_from_the_start_on_is_told(ends):
     panel = PanelProcess(ends)
-    for now_s in (1000.0, 1000.0 + HANGS_S - 0.1):
+    for now_s in (1000.0, 1000.0 + HANG_S - 0.1):
         panel.read(now_s)
         assert panel.cause == ""
-    panel.read(1000.0 + HANGS_S)
+    panel.read(1000.0 + HANG_S)
     assert "its bus hangs" in panel.cause
     ends.theirs.send(messages.presence_message(None))
     panel.read(2000.0)

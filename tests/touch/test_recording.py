@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError, TouchError
 from controller.touch.axes import AxisRange
-from controller.touch.panel import Protocol
+from controller.touch.event_codes import Protocol
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
-from controller.touch.warnings import KINDS, in_words
+from controller.touch.reports import WARNINGS, describe_warnings
 
 BOARD = load_board(data_folder("boards") / "simulated")
 FOLDER = Path(__file__).parent / "recordings"
@@ -84,7 +84,7 @@ def test_samples_of_real_recordings_are_the_positions_of_the_file(name):
     assert x_mm == {round((value - x.minimum) / (x.maximum - x.minimum) * 210, 3) for value in xs}
     assert samples[0].time_s == pytest.approx(1000.0, abs=1e-3)  # the first report's end is a few µs after its begin
     assert [s.time_s for s in samples] == sorted(s.time_s for s in samples)
-    assert not set(in_words(played.warnings)) - {f"1 × {KINDS['no_axis_lines']}"}
+    assert not set(describe_warnings(played.warnings)) - {f"1 × {WARNINGS['no_axis_lines']}"}
     begun = [s.finger for s in samples if s.contact]
     assert len(set(begun)) == played.counts.contacts
     assert sorted(s.finger for s in samples if not s.contact) == sorted(set(begun))
@@ -248,7 +248,7 @@ def test_a_line_that_cannot_be_meant_costs_one_counted_warning_and_nothing_else(
     recording = Recording(begin + f"{line}\n" * 3 + "E: 0.5" + end)
     assert recording.warnings[kind] == 3
     assert set(recording.warnings) == {kind}
-    assert len(in_words(recording.warnings)) == 1
+    assert len(describe_warnings(recording.warnings)) == 1
     assert [tuple(s) for s in replay(recording)[0]] == [tuple(s) for s in replay(Recording(clean))[0]]
 
 
@@ -356,7 +356,7 @@ def test_any_text_is_replayed_to_its_end(found):
     samples, played = replay(recording)
     assert [s.time_s for s in samples] == sorted(s.time_s for s in samples)
     assert sum(not s.contact for s in samples) == len({s.finger for s in samples})
-    assert set(played.warnings) <= set(KINDS)
+    assert set(played.warnings) <= set(WARNINGS)
 
 
 @settings(max_examples=100)

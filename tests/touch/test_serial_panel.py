@@ -10,7 +10,7 @@ from peers.elo_panel import INITIAL, STREAM, UNTOUCH, packet, touch
 from controller.board.devices import SerialTouch
 from controller.errors import TouchError
 from controller.touch.live_source import LiveSource
-from controller.touch.serial_panel import LARGEST, RETRY_S, STUCK_S, SerialPanel, SmartSetParser
+from controller.touch.serial_panel import MAX_COORDINATE, RETRY_S, STUCK_TIMEOUT_S, SerialPanel, SmartSetParser
 
 
 def settings(device):
@@ -61,9 +61,9 @@ def samples(source, now_s):
 def test_a_finger_comes_moves_and_goes(port, source):
     assert source.fileno() is not None
     assert samples(source, 1.0) == []
-    port.send(touch(0, LARGEST, INITIAL) + touch(LARGEST, 0, STREAM))
+    port.send(touch(0, MAX_COORDINATE, INITIAL) + touch(MAX_COORDINATE, 0, STREAM))
     assert samples(source, 1.1) == [(0, 0, 148, True), (0, 210, 0, True)]
-    port.send(touch(LARGEST, 0, UNTOUCH))
+    port.send(touch(MAX_COORDINATE, 0, UNTOUCH))
     assert samples(source, 1.2) == [(0, 210, 0, False)]
     assert source.next_time_s() is None
     assert not source.warnings
@@ -96,9 +96,9 @@ def test_after_garbage_it_is_in_step_again(port, source):
 def test_a_finger_whose_going_was_lost_does_not_stay(port, source):
     port.send(touch(1, 1, INITIAL))
     samples(source, 1.0)
-    assert source.next_time_s() == 1.0 + STUCK_S
-    assert samples(source, 1.0 + STUCK_S - 0.01) == []
-    assert [s[3] for s in samples(source, 1.0 + STUCK_S)] == [False]
+    assert source.next_time_s() == 1.0 + STUCK_TIMEOUT_S
+    assert samples(source, 1.0 + STUCK_TIMEOUT_S - 0.01) == []
+    assert [s[3] for s in samples(source, 1.0 + STUCK_TIMEOUT_S)] == [False]
     assert source.warnings == {"contact_stuck": 1}
     port.send(touch(1, 1, STREAM))
     assert [(s[0], s[3]) for s in samples(source, 2.0)] == [(1, True)]
@@ -147,30 +147,30 @@ def test_a_port_that_cannot_be_opened_is_named(device, words):
 def test_packets_are_found_however_the_bytes_are_cut(pieces):
     whole, cut = SmartSetParser(), SmartSetParser()
     stream = b"".join(pieces)
-    whole.take(stream)
+    whole.feed(stream)
     found = []
     while (one := whole.next_packet()) is not None:
         found.append(one)
     again = []
     for k in range(len(stream)):
-        cut.take(stream[k : k + 1])
+        cut.feed(stream[k : k + 1])
         while (one := cut.next_packet()) is not None:
             again.append(one)
     assert found == again
-    assert whole.skipped == cut.skipped
-    assert 0 <= len(stream) - whole.skipped - 10 * len(found) < 10
+    assert whole.skipped_bytes == cut.skipped_bytes
+    assert 0 <= len(stream) - whole.skipped_bytes - 10 * len(found) < 10
 
 
 @given(st.binary(max_size=40).filter(lambda noise: b"U" not in noise), st.integers(0, 4095), st.integers(0, 4095))
 def test_noise_costs_no_packet_after_it(noise, x, y):
     parser = SmartSetParser()
-    parser.take(noise + touch(x, y))
+    parser.feed(noise + touch(x, y))
     assert parser.next_packet() == touch(x, y)
-    assert parser.skipped == len(noise)
+    assert parser.skipped_bytes == len(noise)
 
 
 def test_a_wrong_checksum_is_noticed():
     parser = SmartSetParser()
     good = touch(100, 200)
-    parser.take(good[:-1] + bytes([good[-1] ^ 0x10]))
+    parser.feed(good[:-1] + bytes([good[-1] ^ 0x10]))
     assert parser.next_packet() is None

@@ -150,6 +150,13 @@ def test_reports_of_another_finger_count_for_one_that_keeps_still():
     assert sorted(in_short(t.read(1.01))) == [(0, 100, 1.01, True), (1, 21, 1.01, True)]
 
 
+def test_a_finger_that_is_played_wakes_nobody_when_something_sounds():
+    t = tracker(*reports(100), ghost_ms=30.0)
+    t.read(1.0)
+    t.emitted(1.001, 1.003)
+    assert t.next_time_s() is None
+
+
 def test_each_report_of_another_finger_counts_once():
     still = touch(0, 100)
     t = tracker(*[(1 + k * PERIOD_S, [still, touch(1, 20 + k)]) for k in range(4)], confirm_reports=4)

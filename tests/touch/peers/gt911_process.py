@@ -17,7 +17,7 @@ from peers.gt911_chip import Gt911Chip
 
 from controller.board.devices import Gt911Touch
 from controller.touch import i2c_bus, panel_lines
-from controller.touch.gt911 import open_gt911
+from controller.touch.gt911 import open_panel
 from controller.touch.panel_process import serve_panel
 
 
@@ -88,7 +88,7 @@ def main():
     axes_mm = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
     settings = Gt911Touch(bus=sys.argv[1] + ".bus", interrupt_chip="panel", interrupt_line="INT", **axes_mm)
     with socket.socket(fileno=sys.stdin.fileno()) as loop:
-        serve_panel(lambda: open_gt911(settings), loop)
+        serve_panel(lambda: open_panel(settings), loop)
 
 
 main()

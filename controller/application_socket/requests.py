@@ -1,0 +1,268 @@
+"""Clients' lines: decoded, checked, carried out through a `PanelControl`, and answered."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import msgspec
+
+from controller import __version__
+from controller.application_socket import messages
+from controller.application_socket.clients import Clients
+from controller.application_socket.connection import Connection, LineTooLong, MessageTooLong
+from controller.application_socket.counters import SocketCounters
+from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, Id, Play
+from controller.application_socket.notifications import Notifications
+from controller.application_socket.pending_commands import PendingCommands
+from controller.application_socket.switched_off import SwitchedOff
+from controller.application_socket.tickets import FULL
+from controller.board.board import Board
+from controller.board.descriptions import type_info
+from controller.board.validation import explain
+from controller.errors import ControllerError
+from controller.log import log
+from controller.loop.commands import PanelControl
+
+FIGURES_S = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
+REASON_CHARACTERS = 200
+
+
+class Requests:
+    """Answers each line of each client exactly once.
+
+    Parameters
+    ----------
+    board : Board
+        Its plate limits where effects can be played.
+    max_amplitude : float
+        Largest amplitude that a client may ask for, 0.25 to 1.
+    clients : Clients
+    pending : PendingCommands
+    notifications : Notifications
+        Holds the panel's condition.
+    switched_off : SwitchedOff
+    counters : SocketCounters
+    """
+
+    def __init__(
+        self,
+        board: Board,
+        max_amplitude: float,
+        clients: Clients,
+        pending: PendingCommands,
+        notifications: Notifications,
+        switched_off: SwitchedOff,
+        counters: SocketCounters,
+    ) -> None:
+        self._board = board
+        self._max_amplitude = max_amplitude
+        self._clients = clients
+        self._pending = pending
+        self._notifications = notifications
+        self._switched_off = switched_off
+        self._counters = counters
+        self._decoder = messages.request_decoder()
+        type_info(AnyRequest)  # made now: it takes a millisecond, and the first invalid line comes between two turns of the loop
+        self._ids = msgspec.json.Decoder(messages.Numbered)
+        self._figures: dict[str, Any] = {}
+        self._figures_until_s = -float("inf")
+
+    def serve(self, client: Connection, most: int, now_s: float, control: PanelControl) -> int:
+        """Answer at most `most` lines of a client; returns how many there were."""
+        for done in range(most):
+            if client.leaving_reason:
+                return done
+            try:
+                line = client.next_line()
+            except LineTooLong as error:
+                self._counters.lines += 1
+                client.take_token(now_s)
+                self._refuse_invalid(client, None, str(error))
+                continue
+            if line is None:
+                return done
+            self._counters.lines += 1
+            client.heard_s = now_s
+            if client.take_token(now_s):
+                self._answer_line(client, line, now_s, control)
+            else:
+                self._counters.over_rate += 1
+                self._clients.pause(client, now_s)
+                self._answer(client, self._id_of(line), "refused", "rate")
+        return most
+
+    def answer_ticket(self, ticket: int, outcome: messages.Outcome, *, age_ms: float | None = None, reason: str = "") -> None:
+        """Answer the command that took a ticket, and send the answer.
+
+        Parameters
+        ----------
+        age_ms : float, optional
+            From the command to its outcome.
+        reason : str
+            Of a refusal.
+        """
+        found = self._pending.give_back(ticket)
+        if found is None:
+            self._counters.stray_outcomes += 1
+            return
+        self._counters.count(outcome)
+        holder, client = found
+        if client is None:
+            self._counters.unanswered += 1
+            return
+        client.put(messages.Answer(id=holder.id, outcome=outcome, age_ms=age_ms, reason=reason))
+        self._clients.send(client)
+
+    def loaded(self, ticket: int, reason: str) -> None:
+        """Answer a command to load a scene; an empty reason: the scene is in force."""
+        self.answer_ticket(ticket, "refused" if reason else "done", reason=reason)
+
+    def _answer_line(self, client: Connection, line: memoryview, now_s: float, control: PanelControl) -> None:
+        try:
+            request = self._decoder.decode(line)
+        except UnicodeDecodeError:
+            self._refuse_invalid(client, self._id_of(line), "not UTF-8")
+            return
+        except (msgspec.DecodeError, RecursionError) as error:
+            self._refuse_invalid(client, self._id_of(line), _why_invalid(line, error)[:REASON_CHARACTERS])
+            return
+        if isinstance(request, Play):
+            self._play(client, request, now_s, control)
+        else:
+            self._do(client, request, now_s, control)
+
+    def _play(self, client: Connection, play: Play, now_s: float, control: PanelControl) -> None:
+        amplitude = self._max_amplitude if play.amplitude is None else play.amplitude
+        reason = self._why_not(play, amplitude)
+        if reason:
+            self._refuse_invalid(client, play.id, reason)
+            return
+        ticket = self._ticket(client, play.id)
+        if ticket == FULL:
+            return
+        x_m, y_m = (play.x_mm or 0.0) * 1e-3, (play.y_mm or 0.0) * 1e-3
+        try:
+            control.play(ticket, play.effect, x_m, y_m, play.finger, amplitude, now_s)
+        except ControllerError as error:
+            self.answer_ticket(ticket, "refused", reason=str(error))
+
+    def _why_not(self, play: Play, amplitude: float) -> str:
+        """What is wrong with a command to play; empty if nothing is."""
+        if not LEAST_AMPLITUDE <= amplitude <= self._max_amplitude:
+            return f"amplitude = {amplitude:g} is not {LEAST_AMPLITUDE:g} to {self._max_amplitude:g}"
+        if play.finger is not None:
+            return "" if play.x_mm is None and play.y_mm is None else "either x_mm and y_mm, or finger"
+        if play.x_mm is None or play.y_mm is None:
+            return "either x_mm and y_mm, or finger"
+        plate = self._board.plate
+        if not 0.0 <= play.x_mm <= plate.length_mm:
+            return f"x_mm = {play.x_mm:g} is off the plate (0 to {plate.length_mm:g})"
+        if not 0.0 <= play.y_mm <= plate.width_mm:
+            return f"y_mm = {play.y_mm:g} is off the plate (0 to {plate.width_mm:g})"
+        return ""
+
+    def _do(self, client: Connection, request: AnyRequest, now_s: float, control: PanelControl) -> None:
+        """Carry out a request other than `Play`."""
+        rights = self._clients.rights
+        match request:
+            case messages.Arm() | messages.Disarm() | messages.LoadScene() if "operate" not in client.rights:
+                self._counters.not_allowed += 1
+                self._answer(client, request.id, "refused", rights.why_not(client.peer, "operate"))
+            case messages.Arm() | messages.Disarm():
+                on = isinstance(request, messages.Arm)
+                log(f"{rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
+                control.switch(on)
+                self._switched_off.remember(not on)
+                self._answer(client, request.id, "done")
+            case messages.AskState(id=number):
+                self._reply(client, self._notifications.state(number))
+            case messages.LoadScene(id=number, name=name):
+                self._load_scene(client, number, name, control)
+            case messages.AskFigures(id=number):
+                self._reply(client, messages.Figures(id=number, figures=self._all_figures(now_s, control)))
+            case messages.Hello(id=number):
+                self._reply(client, self._greeting(client, number, control))
+            case messages.Subscribe(to=to):
+                self._clients.subscribe(client, client.subscribed or "touches" in to)
+                self._answer(client, request.id, "done")
+                if "state" in to:
+                    client.informed = True
+                    client.put(self._notifications.state())
+            case messages.Unsubscribe():
+                self._clients.unsubscribe(client)
+                self._answer(client, request.id, "done")
+
+    def _load_scene(self, client: Connection, number: Id, name: str, control: PanelControl) -> None:
+        ticket = self._ticket(client, number)
+        if ticket == FULL:
+            return
+        try:
+            control.load_scene(ticket, name)
+        except ControllerError as error:
+            self.loaded(ticket, str(error))
+        else:
+            log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}")
+
+    def _all_figures(self, now_s: float, control: PanelControl) -> dict[str, Any]:
+        if now_s >= self._figures_until_s:
+            self._figures, self._figures_until_s = control.figures(), now_s + FIGURES_S
+        condition = self._notifications.condition
+        return self._figures | {
+            "state": condition.state.value,
+            "cause": condition.cause,
+            "application_socket": asdict(self._counters),
+        }
+
+    def _greeting(self, client: Connection, number: Id, control: PanelControl) -> messages.Greeting:
+        return messages.Greeting(
+            id=number,
+            version=__version__,
+            board=self._board.name,
+            length_mm=self._board.plate.length_mm,
+            width_mm=self._board.plate.width_mm,
+            max_amplitude=self._max_amplitude,
+            effects=control.effects(),
+            rights=client.rights,
+        )
+
+    def _ticket(self, client: Connection, number: Id) -> int:
+        """A ticket for a command; FULL if the command was refused because too many are pending."""
+        ticket = self._pending.take(client, number)
+        if ticket == FULL:
+            most = max(client.waiting, self._pending.of_user[client.peer.uid])
+            self._answer(client, number, "refused", f"{most} commands wait for their outcome already")
+        return ticket
+
+    def _reply(self, client: Connection, message: messages.Figures | messages.Greeting | messages.State) -> None:
+        """Answer with data; a message that is too long for the client's buffer is refused."""
+        try:
+            client.put(message)
+        except MessageTooLong as error:
+            self._answer(client, message.id, "refused", str(error))
+        else:
+            self._counters.count("done")
+
+    def _refuse_invalid(self, client: Connection, number: Id, reason: str) -> None:
+        self._counters.not_valid += 1
+        self._answer(client, number, "refused", reason)
+
+    def _answer(self, client: Connection, number: Id, outcome: messages.Outcome, reason: str = "") -> None:
+        self._counters.count(outcome)
+        client.put(messages.Answer(id=number, outcome=outcome, reason=reason))
+
+    def _id_of(self, line: memoryview) -> Id:
+        """Id of a line that is refused; None if it has none that can be read."""
+        try:
+            return self._ids.decode(line).id
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            return None
+
+
+def _why_invalid(line: memoryview, error: Exception) -> str:
+    """What is wrong with a line that is no request."""
+    try:
+        value = msgspec.json.decode(line)  # also what follows the place at which the typed decoder stopped
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as malformed:
+        return f"not valid JSON: {malformed}"
+    return explain(str(error), value, AnyRequest) if isinstance(value, dict) else "must be a JSON object"

@@ -1,0 +1,58 @@
+"""Which cells of a bank a scene needs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.scene.scene import Scene
+from controller.scene.shapes import Boxes
+
+SLACK_M = 0.25e-3  # a point may be rounded by this much before its cells are looked up (waveforms/selection.py)
+FAR_M = 1e3  # beyond every plate
+
+
+def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0) -> NDArray[np.bool_]:
+    """Cells that a scene can ask for: the four cells around every point where it may emit.
+
+    A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere.
+
+    Parameters
+    ----------
+    points_m : (cell, 2) array
+        Cells of a whole regular grid, in any order.
+    pitch_m : float
+        Distance of neighbouring cells.
+    margin_m : float
+        How far beyond its region's border an emission for a finger may be, because its place is predicted.
+
+    Returns
+    -------
+    (cell,) bool array
+    """
+    x, y = points_m[:, 0], points_m[:, 1]
+    near, wide = (
+        Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
+        for half_m in (pitch_m + SLACK_M, pitch_m + SLACK_M + margin_m)
+    )
+    needed = np.zeros(len(points_m), bool)
+    for region in scene.regions:
+        if region.leave:
+            needed[:] = True
+        elif region.felt:
+            needed |= region.shape.meets(wide)
+        if region.spot:
+            needed |= near.contain(region.spot.x_m, region.spot.y_m)
+    return needed
+
+
+def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Along one axis, lower and upper end of the points that need each cell, both (cell,): a pitch to either side.
+
+    The interval of the two outermost rows has no end: a point beyond the outermost row is treated as if it lay on that row, and
+    there the second row counts too (with weight 0).
+    """
+    rim_m = 1.5 * pitch_m
+    low = np.where(at < at.min() + rim_m, at - FAR_M, at - half_m)
+    high = np.where(at > at.max() - rim_m, at + FAR_M, at + half_m)
+    return low, high

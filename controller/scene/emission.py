@@ -1,0 +1,64 @@
+"""One focus to be played: where and when it is due, for whom, and how strong."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from controller.clocks import FpgaTime
+from controller.scene.scene import Spot
+
+
+class Emission(NamedTuple):
+    """One focus to be played.
+
+    Attributes
+    ----------
+    time_s : FpgaTime
+        When it is due, in FPGA time.
+    x_m, y_m : float
+        Place on the plate.
+    finger : int or None
+        None: for no finger.
+    region : str
+        Name of the region whose effect it is; for a command, name of the effect.
+    amplitude : float
+        0.25 to 1.
+    owner : int or str
+        Finger, region of the spot, or command. A newer emission of the same owner replaces one that waits.
+    ticket : int
+        Of a command, on its first emission only; else 0.
+    beat, period_s : int, float
+        The emission is number `beat`, from 0, of a train with this period; period 0: it is a single emission.
+    alternate : bool
+        It is to be played alone, in turn with others, not composed with them.
+    """
+
+    time_s: FpgaTime
+    x_m: float
+    y_m: float
+    finger: int | None
+    region: str
+    amplitude: float = 1.0
+    owner: int | str = ""
+    ticket: int = 0
+    beat: int = 0
+    period_s: float = 0.0
+    alternate: bool = False
+
+
+def spot_emission(spot: Spot, start_s: FpgaTime, beat: int) -> Emission:
+    """Emission number `beat` of a spot that plays since `start_s`."""
+    period_s = 1 / spot.rate_hz
+    return Emission(
+        start_s + (beat + spot.phase) * period_s,
+        spot.x_m,
+        spot.y_m,
+        None,
+        spot.region,
+        spot.amplitude,
+        spot.region,
+        0,
+        beat,
+        period_s,
+        spot.alternate,
+    )

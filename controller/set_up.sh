@@ -1,0 +1,18 @@
+#!/bin/sh
+# Sets up a checkout: Debian packages that are missing (as root, or with sudo), then .venv with the package and an extra.
+# usage: sh controller/set_up.sh offline | test | test,gateware
+set -eu
+cd "$(dirname "$0")/.."
+extra=${1:?"usage: sh controller/set_up.sh offline | test | test,gateware"}
+packages='build-essential python3-dev python3-venv' megabytes=80
+case $extra in test*) packages="$packages iverilog strace" megabytes=250 ;; esac
+echo "haptic-panel: Debian packages, then Python packages (about $megabytes MB): 1 to 4 minutes"
+if ! command -v apt-get >/dev/null; then
+  echo "no apt-get here; needed are a C compiler, and Python 3.11 or later with its headers and venv" >&2
+elif ! dpkg -s $packages >/dev/null 2>&1; then
+  as_root=$([ "$(id -u)" = 0 ] || echo sudo)
+  $as_root apt-get update -q
+  $as_root apt-get install -y -q --no-install-recommends $packages
+fi
+python3 -m venv .venv
+exec .venv/bin/pip install --disable-pip-version-check -e ".[$extra]"

@@ -1,0 +1,52 @@
+"""The FPGA's clock on the host's: what exchanges tell of it, however late they are."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from controller.fpga.clock_estimate import ClockEstimate
+
+CLOCK_HZ = 80_000_000
+
+
+def exchanges(drift, delays_s, every_s=0.033, start_ticks=1_000_000):
+    """(before_s, after_s, ticks) of exchanges that lasted so long, of which the frame was on the wire half way."""
+    for number, delay_s in enumerate(delays_s):
+        before_s = 5.0 + number * every_s
+        at_s = before_s + delay_s / 2
+        yield before_s, before_s + delay_s, start_ticks + round((at_s - 5.0) * (1 + drift) * CLOCK_HZ)
+
+
+@given(st.floats(-200e-6, 200e-6), st.lists(st.floats(20e-6, 5e-3), min_size=1, max_size=60))
+def test_the_true_time_is_within_the_error_it_states(drift, delays_s):
+    estimate = ClockEstimate(CLOCK_HZ)
+    for before_s, after_s, ticks in exchanges(drift, delays_s):
+        estimate.add(before_s, after_s, ticks)
+        true_s = (1_000_000 / CLOCK_HZ) + (after_s - 5.0) * (1 + drift)
+        slack_s = 1 / CLOCK_HZ + 300e-6 * 5e-3
+        assert abs(estimate.fpga_s(after_s) - true_s) <= estimate.error_s + slack_s
+        assert estimate.host_s(estimate.fpga_s(after_s)) == pytest.approx(after_s, abs=1e-9)
+
+
+def test_an_exchange_that_was_held_up_does_not_spoil_what_is_known():
+    estimate = ClockEstimate(CLOCK_HZ)
+    for exchange in exchanges(0.0, [40e-6] * 5):
+        estimate.add(*exchange)
+    known_s = estimate.error_s
+    for exchange in list(exchanges(0.0, [40e-6] * 5 + [20e-3]))[5:]:
+        estimate.add(*exchange)
+    assert estimate.error_s < known_s + 20e-6
+    assert estimate.error_s < 1e-3, "what 20 ms alone would have left"
+
+
+def test_an_fpga_that_was_reset_is_known_anew():
+    estimate = ClockEstimate(CLOCK_HZ)
+    estimate.add(10.0, 10.0001, 800_000_000)
+    estimate.add(11.0, 11.0001, 8_000)
+    assert estimate.fpga_s(11.0001) == pytest.approx(8_000 / CLOCK_HZ, abs=1e-4)
+
+
+def test_a_time_is_the_nearest_clock():
+    estimate = ClockEstimate(CLOCK_HZ)
+    assert estimate.ticks(1.0) == CLOCK_HZ
+    assert estimate.ticks(1.0 + 0.6 / CLOCK_HZ) == CLOCK_HZ + 1
