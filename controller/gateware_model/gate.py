@@ -40,7 +40,6 @@ class OutputGate:
         self.state = Gate.OFF
         self.faults = Fault(0)
         self._rest_until = 0  # the tick from which on a fault by a limit can be cleared
-        self.fault_count = 0
         self.fault_tick = 0
         self.permits = dict.fromkeys(Permit, False)
         self.silent_from = 0  # the tick from which on the host counts as silent
@@ -143,14 +142,13 @@ class OutputGate:
         self.faults |= cause
         if cause & LIMITS:
             self._rest_until = tick + 1 + self._registers.parameters.edge_window_ticks
-        self.fault_count += 1
         self.fault_tick = tick
         self.state = Gate.OFF
         self._live_until = tick + 1
         self.pins.put_word(tick + 1, 0, hv=0)
         self.pins.cut_focus()
         self.limits.activity(tick + 1, active=False)
-        self.limits.emission(tick + 1, sounding=False)
+        self.limits.emission(tick + 1, playing=False)
 
     def clear(self, tick: int) -> None:
         """Forget the causes of a fault, but for those of a limit while it rests."""

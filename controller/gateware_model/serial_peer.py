@@ -13,7 +13,6 @@ import threading
 import time
 import tty
 from collections.abc import Callable
-from types import TracebackType
 
 from cobs import cobs
 
@@ -140,7 +139,7 @@ class PseudoTerminal:
     def __enter__(self) -> PseudoTerminal:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 

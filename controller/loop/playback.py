@@ -1,7 +1,6 @@
-"""From due emissions to an accepted play command and its start.
+"""From a batch of emissions to an accepted play command and its start.
 
-The plate plays one thing at a time: T of emission, then silence for as long as the duty limit asks.
-A play command is prepared (uploaded, or found resident) while the emission before still sounds. It is
+A play command is prepared (its waveform uploaded, or found resident) while the emission before still sounds. It is
 started by the trigger pin as soon as the plate is free, or by the FPGA itself at a time of its clock.
 """
 
@@ -13,33 +12,94 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from controller.clocks import NEVER
+from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
+from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
+from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
+from controller.loop.prefetch import PrefetchRecord
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key, Selection
 
-MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
-HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
-ENDLESS = 0
-PREFETCH_AFTER_HITS = 2  # so many times in a row must have come true what was expected, before a waveform is sent ahead
+Locate = Callable[[int, float], tuple[float, float] | None]
+"""Where a finger will be at a time of the host, (x_m, y_m); None if it is not down."""
 
-Where = Callable[[int, float], tuple[float, float] | None]
-"""Where a finger will be at a time of the host."""
+
+class Plan(NamedTuple):
+    """How a batch is played.
+
+    Attributes
+    ----------
+    points : list of Point
+        Where each emission meets its finger, and its amplitude.
+    key : Key
+        Waveform for these points.
+    resident : Key or None
+        Waveform in a slot of the FPGA that serves for it; None: it has to be uploaded.
+    start_s : FpgaTime
+        Earliest start.
+    """
+
+    points: list[Point]
+    key: Key
+    resident: Key | None
+    start_s: FpgaTime
+
+
+class Accepted(NamedTuple):
+    """A batch whose play command the FPGA has accepted, and what that took."""
+
+    batch: Batch
+    plan: Plan
+    ready_s: float  # host time at which the command had arrived
+    start_s: float  # host time
+    start_ticks: int | None  # of the FPGA's clock, if it starts the batch by itself
+    decide_ns: int
+    frame_ns: int
+    wire_ns: int
+
+
+class Attempt(NamedTuple):
+    """What became of a batch.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
+    start_s : FpgaTime
+        When it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
+    started : bool
+        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
+    """
+
+    outcome: Outcome
+    start_s: FpgaTime = FpgaTime(math.nan)
+    started: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """One start: when, where its foci are, and its repetition (count 0: until replaced).
+    """One start, for those who watch.
 
-    `at_ticks` is the clock of the FPGA at which it starts, where the FPGA was given one; else the trigger pin rose.
+    Attributes
+    ----------
+    trigger_s : float
+        Host time at which it starts.
+    emissions : tuple of Emission
+        With the places at which they meet their fingers.
+    count, period_s : int, float
+        Repetition by the FPGA; count 0: until replaced.
+    resident : bool
+        Whether the waveform was in a slot already.
+    at_ticks : int or None
+        Tick of the FPGA's clock at which it was told to start; None: the trigger pin rose.
     """
 
     trigger_s: float
@@ -50,55 +110,8 @@ class Played:
     at_ticks: int | None = None
 
 
-class Attempt(NamedTuple):
-    """What became of a batch of emissions.
-
-    Attributes
-    ----------
-    outcome : Outcome
-        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
-    start_s : float
-        FPGA time at which it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
-    started : bool
-        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
-    """
-
-    outcome: Outcome
-    start_s: float = math.nan
-    started: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class _Repetition:
-    """An endless repetition, in FPGA time, in which it keeps its period for hours."""
-
-    first_s: float
-    period_s: float
-
-    def last_s(self, at_s: float) -> float:
-        """When the emission began that sounds, or sounded last, at a time after the first."""
-        return self.first_s + math.floor((at_s - self.first_s) / self.period_s) * self.period_s
-
-
-@dataclass(slots=True)
-class _Prepared:
-    """An accepted play command, and what it took."""
-
-    emissions: Sequence[Emission]
-    points: Sequence[Point]
-    count: int
-    period_s: float
-    resident: bool
-    ready_s: float
-    start_s: float  # in host time
-    at_ticks: int | None
-    decide_ns: int
-    frame_ns: int
-    wire_ns: int
-
-
 class Playback:
-    """The FPGA's slots and what plays from them.
+    """The slots of an armed FPGA, and what plays from them.
 
     Parameters
     ----------
@@ -107,19 +120,25 @@ class Playback:
     selection : Selection
         Drive words for points.
     clock_estimate : ClockEstimate
-        The FPGA's clock.
-    where : callable
-        Place of a finger at a time: an emission meets it where it will be at T.
+        The FPGA's clock on the host's.
+    occupancy : Occupancy
+        When the plate is free.
+    locate : callable
+        Where a finger will be: an emission is focused where its finger is when the focus forms.
     slots : int
         Waveforms that the FPGA keeps.
-    duration_s, max_duty : float
-        T, and the share of the time that may be emission.
     upload_s, command_s : float
         Time on the wire of an upload with its play command, and of a play command alone.
     counters : Counters
-        Where emissions, latencies and skipped work are counted.
-    played : callable or None
-        Told of every start.
+        Counts emissions, latencies and skipped work.
+    played : callable, optional
+        Called with every start.
+
+    Attributes
+    ----------
+    occupancy : Occupancy
+    accepted : Accepted or None
+        What `trigger` is to start.
     """
 
     def __init__(
@@ -127,172 +146,131 @@ class Playback:
         session: Session,
         selection: Selection,
         clock_estimate: ClockEstimate,
-        where: Where,
+        occupancy: Occupancy,
+        locate: Locate,
         *,
         slots: int,
-        duration_s: float,
-        max_duty: float,
         upload_s: float,
         command_s: float,
         counters: Counters,
         played: Callable[[Played], None] | None = None,
     ) -> None:
-        self.free_s = -NEVER  # when the plate may play again
-        self.last_start_s = -NEVER  # of the newest play; until then no other is handed over, or plays would pile up
-        self.duration_s = duration_s
+        self.occupancy = occupancy
+        self.accepted: Accepted | None = None
         self.upload_s = upload_s
         self._session = session
         self._selection = selection
         self._clock_estimate = clock_estimate
-        self._where = where
+        self._locate = locate
         self._command_s = command_s
-        self._nominal_s = duration_s
-        self._max_duty = max_duty
-        self._busy_s = duration_s / max_duty
         self._counters = counters
         self._played = played
         self._slots = SlotCache(slots, selection.single_focus)
-        self._latest: int | None = None  # slot of the last play
-        self._expected: tuple[int, Key] | None = None  # who is to be played next, and what
-        self._prefetch_hits = 0  # of what was expected, in a row
-        self._ahead: set[int] = set()  # slots whose waveform was sent ahead, and not played so far
-        self._prepared: _Prepared | None = None
-        self._running: _Repetition | None = None
-        self._free_fpga_s = -NEVER  # `free_s` in the FPGA's time; what was started there is known there to the clock
-
-    @property
-    def trigger_at_s(self) -> float | None:
-        """When `trigger` is due; None while nothing waits for it."""
-        return None if self._prepared is None else self._prepared.start_s
+        self._prefetch = PrefetchRecord(counters)
+        self._last_slot: int | None = None  # of the newest play
 
     @property
     def repeating(self) -> bool:
         """Whether the FPGA repeats an emission by itself, or is about to."""
-        return self._running is not None or (self._prepared is not None and self._prepared.count == ENDLESS)
-
-    def free_after_next_s(self, now_s: float) -> float:
-        """When the plate and the wire are free for a beat, if something else is uploaded now and played before it."""
-        start_s = max(now_s + self.upload_s, self.free_s + MARGIN_S)
-        return start_s + max(self._busy_s, self.upload_s + HANDOVER_S) + 2 * MARGIN_S
-
-    def next_repetition_s(self, at_s: float) -> float:
-        """When the endless repetition next starts an emission, after a time; never without one."""
-        if self._running is None:
-            return NEVER
-        next_s = self._clock_estimate.host_s(self._running.last_s(self._clock_estimate.fpga_s(at_s)) + self._running.period_s)
-        return max(next_s, self.last_start_s)  # before the first it is that, whatever was rounded on the way
+        accepted = self.accepted
+        return self.occupancy.repetition is not None or (accepted is not None and accepted.batch.repetitions == ENDLESS)
 
     def stop_repeating(self, now_s: float) -> float | None:
-        """End the endless repetition; when its last emission began, or None if its first one has yet to."""
-        running = self._running
-        if running is None or now_s < self.last_start_s:
+        """End the endless repetition; host time at which its last emission began, or None if its first one has yet to."""
+        repetition = self.occupancy.repetition
+        if repetition is None or now_s < self.occupancy.last_start_s:
             return None
         self.stop()
-        return self._clock_estimate.host_s(running.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
+        return self._clock_estimate.host_s(repetition.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
 
-    def prepare(
-        self,
-        emissions: Sequence[Emission],
-        started_ns: int,
-        *,
-        count: int = 1,
-        period_s: float = 0.0,
-        at_s: float | None = None,
-        ahead: bool = True,
-    ) -> Attempt:
-        """Bring one emission, of one or several foci, to an accepted play command.
+    def prepare(self, batch: Batch, started_ns: int, *, predicted: bool = True) -> Attempt:
+        """Have a batch accepted for playing, and start it if the plate is free.
 
         Parameters
         ----------
-        emissions : sequence of Emission
-            What is due; several are composed into one waveform. Those of a finger are moved to where it will be at T.
+        batch : Batch
         started_ns : int
             When the work for it began (perf_counter_ns).
-        count, period_s
-            Repetitions by the FPGA, start to start; count 0 repeats until replaced.
-        at_s : float, optional
-            FPGA time at which the FPGA shall start it by itself, or as soon after as can be.
-        ahead : bool
+        predicted : bool
             Meet fingers where they will be. Where the bank has nothing there, they are met where they were.
 
-        Returns
-        -------
-        Attempt
+        Raises
+        ------
+        LinkError, FaultError
+            As the session says; nothing is left to play then.
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
-        for wire_s in (self._command_s, self.upload_s):  # an upload starts later, and so meets a finger elsewhere
-            start_s = self._start_s(wire_s, at_s)
-            points = self._aim(emissions, start_s, ahead)
-            key = self._selection.key(points)
-            resident = self._slots.find(key)
-            if resident is not None:  # there, too, something may be resident: never is a key looked up but not this one
-                break
-        if self._expected is not None and any(emission.finger == self._expected[0] for emission in emissions):
-            self._prefetch_hits = self._prefetch_hits + 1 if self._foreseen(emissions[0].finger, key) else 0
-            self._expected = None
-        start = Start.TRIGGER if at_s is None else Start.TIME
-        when_ticks = 0 if at_s is None else self._clock_estimate.ticks(start_s)
+        emissions, count, period_s, at_s = batch
+        plan = self._plan(batch, predicted)
+        self._prefetch.compare(emissions, plan.key, self._selection)
+        start, start_ticks = Start.TRIGGER, 0
+        if at_s is not None:
+            start, start_ticks = Start.TIME, self._clock_estimate.ticks(plan.start_s)
         try:
-            if resident is None:
-                self._upload(key, count, period_s, start, when_ticks)
+            if plan.resident is None:
+                self._upload(plan.key, count, period_s, start, start_ticks)
             else:
-                self._play(resident, count, period_s, start, when_ticks)
-                self._counters.near += resident != key
+                self._play(plan.resident, count, period_s, start, start_ticks)
+                self._counters.near += plan.resident != plan.key
         except BankError as error:
-            if ahead and any(emission.finger is not None for emission in emissions):
-                return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=False)
+            if predicted and any(emission.finger is not None for emission in emissions):
+                return self.prepare(batch, started_ns, predicted=False)
             self._counters.skipped.bad_entries += len(emissions)
             self._counters.bad_entry = self._counters.bad_entry or str(error)
             return Attempt(Outcome.SKIPPED)
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
-                return self.prepare(emissions, started_ns, count=count, period_s=period_s)
-            if resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot is dropped: sent anew
-                return self.prepare(emissions, started_ns, count=count, period_s=period_s, at_s=at_s, ahead=ahead)
+                return self.prepare(batch._replace(at_s=None), started_ns)
+            if plan.resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot was dropped: uploaded again
+                return self.prepare(batch, started_ns, predicted=predicted)
             self._counters.skipped.refused += len(emissions)
             return Attempt(Outcome.REFUSED)
         ready_s = session.earliest_trigger_s()
         blocked_ns = session.blocked_ns - blocked_before_ns
-        prepared = _Prepared(
-            emissions,
-            points,
-            count,
-            period_s,
-            resident is not None,
+        accepted = Accepted(
+            batch,
+            plan,
             ready_s,
-            max(ready_s, self.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(start_s),
-            None if at_s is None else when_ticks,
+            max(ready_s, self.occupancy.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(plan.start_s),
+            None if at_s is None else start_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - blocked_ns,
             session.wire_ns - wire_before_ns,
         )
         if at_s is not None:
             self._counters.scheduled += 1
-            self._account(prepared, prepared.start_s, 0)
-            return Attempt(Outcome.PLAYED, when_ticks / self._clock_estimate.clock_hz, True)
-        self._prepared = prepared
-        at_once = prepared.start_s <= ready_s
+            self._started(accepted, accepted.start_s, 0)
+            return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s_of(start_ticks), True)
+        self.accepted = accepted
+        at_once = accepted.start_s <= ready_s
         if at_once:
             self.trigger()
-        return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s(prepared.start_s), at_once)
+        return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s(accepted.start_s), at_once)
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
-        """Send ahead the waveform of a point at which a finger is expected to be played next, if that is certain enough.
+        """Upload the waveform of a predicted emission without playing it, if predictions have come true of late.
 
-        How certain is told by the record of what was expected before, sent or not: PREFETCH_AFTER_HITS in a row have come true.
+        Parameters
+        ----------
+        finger : int
+        x_m, y_m, amplitude : float
+            Predicted focus.
 
         Returns
         -------
         bool
-            Whether it was sent; not if it is there already, or cannot be had.
+            Whether it was sent: not if it is resident already, or the bank or the FPGA cannot serve it.
+
+        Raises
+        ------
+        LinkError, FaultError
+            As the session says.
         """
         key = self._selection.key(((x_m, y_m, amplitude),))
-        if self._expected is not None and not self._foreseen(finger, key):
-            self._prefetch_hits = 0
-        self._expected = finger, key
-        if self._prefetch_hits < PREFETCH_AFTER_HITS or self._slots.slots == 1 or self._slots.find(key) is not None:
+        likely = self._prefetch.predict(finger, key, self._selection)
+        if not likely or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             words = self._selection.words(key)
@@ -301,31 +279,18 @@ class Playback:
         except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
-        self._ahead.add(slot)
-        self._counters.prefetched += 1
-        self._counters.prefetch_wasted += 1  # until it is played
+        self._prefetch.sent(slot)
         return True
 
-    def _foreseen(self, finger: int | None, key: Key) -> bool:
-        """Whether this is what was expected last: a waveform sent for that serves for this."""
-        assert self._expected is not None
-        expected_of, expected = self._expected
-        return finger == expected_of and (key == expected or self._selection.reusable(key, expected))
-
-    def pin(self, points: Sequence[tuple[float, float, float]]) -> None:
+    def pin(self, points: Sequence[Point]) -> None:
         """Keep the waveforms of these points (x_m, y_m, amplitude) in their slots once they are there."""
         self._slots.pin(self._selection.key((point,)) for point in points)
-
-    def stretch(self, factor: float) -> None:
-        """Emissions last this much longer than the board says: the bit clock follows the plate's temperature."""
-        self.duration_s = self._nominal_s * factor
-        self._busy_s = self.duration_s / self._max_duty
 
     def reselect(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.single_focus)
-        self._ahead.clear()
+        self._prefetch.clear()
 
     def stop(self) -> None:
         """End an endless repetition with the emission that sounds, or before its first one.
@@ -335,128 +300,130 @@ class Playback:
         LinkError, FaultError
             As the session says.
         """
-        if self._running is not None:
+        if self.occupancy.repetition is not None:
             self._session.stop()
             self._stopped()
 
     def trigger(self) -> None:
-        """Play what is prepared, now."""
-        prepared = self._prepared
-        if prepared is None:
+        """Start what was accepted, now.
+
+        Raises
+        ------
+        LinkError
+            If the trigger line cannot be driven.
+        """
+        accepted = self.accepted
+        if accepted is None:
             return
-        self._prepared = None
+        self.accepted = None
         called_ns, blocked_ns = time.perf_counter_ns(), self._session.blocked_ns
         trigger_s = self._session.trigger()
-        self._account(prepared, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
+        self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
 
     def forget(self) -> None:
-        """Take it that the FPGA holds and plays nothing: after a fault."""
+        """The FPGA holds and plays nothing: after a fault."""
         self._slots.forget()
-        self._ahead.clear()
-        if self._prepared is not None:
-            self._counters.skipped.outputs_off += len(self._prepared.emissions)
-        self._prepared = None
-        self._running = None
-        self.free_s = self.last_start_s = self._free_fpga_s = -NEVER
+        self._prefetch.clear()
+        if self.accepted is not None:
+            self._counters.skipped.outputs_off += len(self.accepted.batch.emissions)
+        self.accepted = None
+        self.occupancy.reset()
 
-    def _start_s(self, wire_s: float, at_s: float | None) -> float:
-        """When, in FPGA time, an emission can start whose command begins to go out now."""
-        arrived_s = self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s)
-        if at_s is not None:
-            arrived_s += HANDOVER_S
-        free_s = self._free_fpga_s
-        if self._running is not None:  # it is stopped by the command: what it has begun by then sounds to its end
-            free_s = max(free_s, self._running.last_s(arrived_s) + self._busy_s)
-        start_s = max(arrived_s, free_s + MARGIN_S)
-        return start_s if at_s is None else max(start_s, at_s)
+    def _plan(self, batch: Batch, predicted: bool) -> Plan:
+        """Where and when a batch can be played: as a play command alone if that is enough, else with an upload before it.
 
-    def _aim(self, emissions: Sequence[Emission], start_s: float, ahead: bool) -> list[Point]:
-        """Where each emission meets its finger, at T or where it was, and how strong it is."""
-        focus_s = self._clock_estimate.host_s(start_s) + self.duration_s
+        An upload starts later, and so meets a moving finger elsewhere: there another waveform may be resident.
+        """
+        start_s = self._start_s(self._command_s, batch.at_s)
+        points = self._aim(batch.emissions, start_s, predicted)
+        key = self._selection.key(points)
+        resident = self._slots.find(key)
+        if resident is None:
+            start_s = self._start_s(self.upload_s, batch.at_s)
+            later = self._aim(batch.emissions, start_s, predicted)
+            if later != points:
+                points = later
+                key = self._selection.key(points)
+                resident = self._slots.find(key)
+        return Plan(points, key, resident, start_s)
+
+    def _start_s(self, wire_s: float, at_s: FpgaTime | None) -> FpgaTime:
+        """Earliest start of what begins to go out now."""
+        return self.occupancy.earliest_start_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s), at_s)
+
+    def _aim(self, emissions: Sequence[Emission], start_s: FpgaTime, predicted: bool) -> list[Point]:
+        """Where the focus of each emission is to be, and its amplitude."""
+        focus_s = self._clock_estimate.host_s(start_s) + self.occupancy.duration_s
         points = []
         for emission in emissions:
-            place = None if emission.finger is None or not ahead else self._where(emission.finger, focus_s)
+            place = self._locate(emission.finger, focus_s) if emission.finger is not None and predicted else None
             x_m, y_m = (emission.x_m, emission.y_m) if place is None else place
             points.append((x_m, y_m, emission.amplitude))
         return points
 
-    def _play(self, resident: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
+    def _play(self, resident: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Have a resident waveform accepted for playing."""
         slot = self._slots.use(resident)
-        stop = self._running is not None
+        stop = self.occupancy.repetition is not None
         try:
-            self._session.play(slot, count, period_s, stop=stop, start=start, when_ticks=when_ticks)
+            self._session.play(slot, count, period_s, stop=stop, start=start, when_ticks=start_ticks)
         except Refused as refusal:
             if refusal.result is Result.SLOT_DAMAGED:
                 self._slots.drop(slot)
             raise
         finally:
             self._stopped()
-        self._latest = slot
-        if slot in self._ahead:
-            self._ahead.remove(slot)
-            self._counters.prefetch_wasted -= 1
+        self._last_slot = slot
+        self._prefetch.played(slot)
 
-    def _upload(self, key: Key, count: int, period_s: float, start: Start, when_ticks: int) -> None:
+    def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
         words = self._selection.words(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
         slot, crc = self._take(), self._selection.crc(key, words)
-        stop = self._running is not None
+        stop = self.occupancy.repetition is not None
         try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=when_ticks, crc=crc)
+            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=start_ticks, crc=crc)
         except Refused as refusal:
             if refusal.result is Result.SLOT_DAMAGED:
                 self._selection.recheck(key)
             raise
         finally:
             self._stopped()
-        self._latest = slot
+        self._last_slot = slot
         self._slots.keep(key, slot)
 
     def _take(self) -> int:
-        """A slot to send a waveform to; not that of the play before, which sounds, waits or is repeated, while there is another."""
-        slot = self._slots.take(self._latest)
-        self._ahead.discard(slot)
+        """A slot to upload to: not that of the newest play, which sounds, waits or is repeated, while there is another."""
+        slot = self._slots.take(self._last_slot)
+        self._prefetch.overwritten(slot)
         return slot
 
     def _stopped(self) -> None:
-        """A repetition was told to stop, whatever became of the play behind: it ends with the emission that sounds now."""
-        if self._running is not None:
-            clock_estimate = self._clock_estimate
-            last_s = self._running.last_s(clock_estimate.fpga_s(self._session.earliest_trigger_s()))
-            self._free_fpga_s = max(self._free_fpga_s, last_s + self._busy_s)
-            self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
-            self._running = None
+        """The FPGA was told to end its repetition, whatever became of the play behind."""
+        if self.occupancy.repetition is not None:
+            self.occupancy.stop_repetition(self._session.earliest_trigger_s())
 
-    def _account(self, prepared: _Prepared, start_s: float, trigger_ns: int) -> None:
-        """Something starts: the plate is busy, and it is counted."""
-        clock_estimate = self._clock_estimate
-        self.last_start_s = start_s
-        if prepared.at_ticks is None:
-            fpga_s = clock_estimate.fpga_s(start_s)
-            self.free_s = start_s + self._busy_s
-            self._free_fpga_s = fpga_s + self._busy_s + clock_estimate.error_s
-        else:
-            fpga_s = prepared.at_ticks / clock_estimate.clock_hz
-            self.free_s = start_s + self._busy_s + clock_estimate.error_s
-            self._free_fpga_s = fpga_s + self._busy_s
+    def _started(self, accepted: Accepted, start_s: float, trigger_ns: int) -> None:
+        """Count a start, and what it took."""
+        (emissions, count, period_s, _), plan = accepted.batch, accepted.plan
+        ticks, resident = accepted.start_ticks, plan.resident is not None
+        fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else self._clock_estimate.fpga_s_of(ticks)
+        self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)
         counters = self._counters
         counters.emissions += 1
-        counters.foci += len(prepared.emissions)
-        stages = counters.resident_latency if prepared.resident else counters.upload_latency
-        wait_ns = round((start_s - prepared.ready_s) * 1e9)
-        stages.record(prepared.decide_ns, prepared.frame_ns, prepared.wire_ns, wait_ns, trigger_ns)
-        if prepared.resident:
+        counters.foci += len(emissions)
+        stages = counters.resident_latency if resident else counters.upload_latency
+        wait_ns = round((start_s - accepted.ready_s) * 1e9)
+        stages.record(accepted.decide_ns, accepted.frame_ns, accepted.wire_ns, wait_ns, trigger_ns)
+        if resident:
             counters.resident += 1
             counters.skipped.uploads += 1
         else:
             counters.uploads += 1
-        if prepared.count == ENDLESS:
-            self._running = _Repetition(fpga_s, self._session.timing.actual_period_s(prepared.period_s))
+        if count == ENDLESS:
+            self.occupancy.repetition = Repetition(fpga_s, self._session.timing.actual_period_s(period_s))
         if self._played is not None:
-            aimed = tuple(
-                [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(prepared.emissions, prepared.points, strict=True)]
-            )
-            self._played(Played(start_s, aimed, prepared.count, prepared.period_s, prepared.resident, prepared.at_ticks))
+            aimed = [e._replace(x_m=x_m, y_m=y_m) for e, (x_m, y_m, _) in zip(emissions, plan.points, strict=True)]
+            self._played(Played(start_s, tuple(aimed), count, period_s, resident, ticks))

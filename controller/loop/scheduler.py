@@ -1,22 +1,23 @@
 """What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
 
-All times are FPGA times (`fpga.clock_estimate`). The scene decides what a finger feels; here it is kept until it
+All times are FPGA times but for those of `predict`. The scene decides what a finger feels; here it is kept until it
 plays. Whatever a command asked for gets exactly one outcome.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from controller.clocks import NEVER
+from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.errors import ConfigError
-from controller.loop.batching import common_period_s, select_batch
+from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
+from controller.loop.spots import Spots
 from controller.metrics import Counters
-from controller.scene.emission import Emission, spot_emission
+from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
-from controller.scene.scene import OUTSIDE, Scene, Spot
+from controller.scene.scene import OUTSIDE, Scene
 from controller.touch.source import TouchSample
 
 MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
@@ -24,7 +25,6 @@ PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than o
 MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
 MAX_DEFERRAL_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
 COMMAND_MERGE_RADIUS_M = 1e-3  # commands for the same effect nearer than this are one
-ROUNDING_S = 1e-9
 
 Owner = int | str
 Confirmed = Callable[[int], bool]
@@ -51,6 +51,7 @@ class Scheduler:
 
     def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
         self.scene = scene
+        self.spots = Spots(scene.spots, FpgaTime(0.0))
         self._counters = counters
         self._confirmed = confirmed
         self._unconfirmed_most = unconfirmed_most
@@ -58,14 +59,10 @@ class Scheduler:
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
-        self._spots_start_s = 0.0
-        self._spot_beats: dict[Spot, int] = {}  # the next one of each
-        self.common_period_s: float | None = None  # of spots that the FPGA can repeat together
-        self._set_spots(0.0)
 
-    def touch(self, sample: TouchSample) -> None:
-        """A finger began, moved or was released."""
-        finger, x_m, y_m, time_s, contact, _ = sample
+    def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
+        """A finger began, moved or was released, at a time that is `sample.time_s` in FPGA time."""
+        finger, x_m, y_m, _, contact, _ = sample
         active = self._active.get(finger)
         if not contact:
             self._release(finger, active, time_s)
@@ -82,7 +79,7 @@ class Scheduler:
         else:
             self._counters.skipped.between_emissions += 1
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime) -> None:
         """A command plays an effect at a point, or for a finger.
 
         Raises
@@ -102,7 +99,7 @@ class Scheduler:
         self._make_room(emissions)
         self._add(emissions)
 
-    def advance(self, until_s: float) -> None:
+    def advance(self, until_s: FpgaTime) -> None:
         """Collect what becomes due by itself up to a time."""
         advanced = False
         for active in self._active.values():
@@ -112,34 +109,24 @@ class Scheduler:
         if advanced:
             self._drop_ended()
 
-    def add_spots(self, now_s: float, until_s: float) -> None:
+    def add_spots(self, now_s: FpgaTime, until_s: FpgaTime) -> None:
         """Collect the spots whose beat comes up to a time."""
-        for spot, beat in self._spot_beats.items():
-            emission = spot_emission(spot, self._spots_start_s, beat)
-            if emission.time_s <= until_s + ROUNDING_S:
-                self._add((emission,))
-                missed = max(math.floor((now_s - emission.time_s) * spot.rate_hz), 0)
-                self._spot_beats[spot] = beat + missed + 1
+        for emission in self.spots.due(now_s, until_s):
+            self._add((emission,))
 
-    def join_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
+    def join_spots(self, emissions: list[Emission], next_s: FpgaTime) -> list[Emission]:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
-        self.restart_spots(next_s)
-        spots = [spot_emission(spot, next_s, -1)._replace(period_s=0.0) for spot in self._spot_beats]
-        played = list(select_batch([*emissions, *spots], NEVER)[0])
+        self.spots.restart(next_s)
+        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
         self._counters.due += len(played) - len(emissions)
         return played
-
-    def restart_spots(self, start_s: float) -> None:
-        """The spots' beat begins anew."""
-        self._spots_start_s = start_s
-        self._spot_beats = dict.fromkeys(self._spot_beats, 0)
 
     @property
     def due(self) -> bool:
         """Whether anything waits to be played."""
         return bool(self._due)
 
-    def must_defer(self, now_s: float, until_s: float) -> bool:
+    def must_defer(self, now_s: FpgaTime, until_s: FpgaTime) -> bool:
         """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
 
         What has waited for MAX_DEFERRAL_S is not held any longer: of trains so fast that nothing goes between their beats,
@@ -150,7 +137,7 @@ class Scheduler:
         oldest = next(iter(self._due.values()))
         return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self._due.values())
 
-    def next_batch(self, duration_s: float, now_s: float) -> list[Emission]:
+    def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
         """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
         if len(self._due) == 1:
             chosen = list(self._due.values())
@@ -164,15 +151,9 @@ class Scheduler:
             self._due = {emission.owner: emission for emission in rest}
         return chosen
 
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When `advance` has something to do."""
-        return min([active.next_s for active in self._active.values()], default=NEVER)
-
-    def next_spot_s(self) -> float:
-        """When the next spot's beat comes."""
-        return min(
-            [spot_emission(spot, self._spots_start_s, beat).time_s for spot, beat in self._spot_beats.items()], default=NEVER
-        )
+        return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
 
     def predict(
         self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
@@ -206,7 +187,7 @@ class Scheduler:
         focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
         return None if focus is None else (*focus, amplitude)
 
-    def started(self, emissions: list[Emission], start_s: float) -> None:
+    def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
         """These were started; trains that began with them keep their beat from there."""
         for emission in emissions:
             if emission.ticket:
@@ -214,13 +195,13 @@ class Scheduler:
             if emission.period_s and emission.beat == 0 and emission.owner in self._active:
                 self._active[emission.owner].shift(emission.time_s, start_s)
 
-    def discarded(self, emissions: list[Emission], outcome: Outcome, now_s: float) -> None:
+    def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: FpgaTime) -> None:
         """These will not be played."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
-    def _release(self, finger: int, active: ActiveEffects | None, now_s: float) -> None:
+    def _release(self, finger: int, active: ActiveEffects | None, now_s: FpgaTime) -> None:
         """A finger was lifted."""
         last: tuple[Emission, ...] = ()
         if active is not None:
@@ -231,7 +212,7 @@ class Scheduler:
         self._discard_waiting_of(finger, last, now_s)
         self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
 
-    def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
+    def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
         """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
         waiting = self._due.get(finger)
         if waiting is not None and waiting not in last:
@@ -239,12 +220,12 @@ class Scheduler:
             self._counters.skipped.lifted += 1
             self.discarded([waiting], Outcome.SKIPPED, now_s)
 
-    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: float) -> None:
+    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: FpgaTime) -> None:
         """Commands that end before their first emission."""
         for ticket, given_s in active.unplayed_commands:
             self._outcomes(ticket, outcome, now_s - given_s)
 
-    def reset(self, now_s: float) -> None:
+    def reset(self, now_s: FpgaTime) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
         waiting = list(self._due.values())
         self._due.clear()
@@ -254,9 +235,9 @@ class Scheduler:
             self._end_commands(active, Outcome.REFUSED, now_s)
             active.end_trains()
         self._active = {owner: active for owner, active in self._active.items() if active.finger is not None}
-        self.restart_spots(now_s)
+        self.spots.restart(now_s)
 
-    def change_scene(self, scene: Scene, now_s: float) -> None:
+    def change_scene(self, scene: Scene, now_s: FpgaTime) -> None:
         """Go on with another scene: fingers that are down feel it from their next move on."""
         waiting = list(self._due.values())
         self._due.clear()
@@ -265,12 +246,7 @@ class Scheduler:
         self.scene = scene
         for active in self._active.values():
             active.change_scene(scene)
-        self._set_spots(now_s)
-
-    def _set_spots(self, now_s: float) -> None:
-        self.common_period_s = common_period_s(self.scene.spots)
-        self._spots_start_s = now_s
-        self._spot_beats = dict.fromkeys(self.scene.spots, 0)
+        self.spots = Spots(scene.spots, now_s)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         self._counters.due += len(emissions)

@@ -13,7 +13,9 @@ from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
 from controller.loop.commands import CommandSource
+from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
+from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback, Played
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
@@ -72,10 +74,9 @@ def assemble(
         session,
         selection,
         clock_estimate,
+        Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty),
         source.predict,
         slots=board.link.slots if slots is None else slots,
-        duration_s=board.waveform.duration_s,
-        max_duty=board.limits.max_duty if max_duty is None else max_duty,
         upload_s=board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
         command_s=board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
         counters=counters,
@@ -87,7 +88,7 @@ def assemble(
         running.outcome(ticket, *what)
 
     scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
-    running = EventLoop(
-        board, clock, session, source, scheduler, playback, clock_estimate, counters, commands=commands, change=change, **loop
-    )
+    dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
+    parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
+    running = EventLoop(board, *parts, commands=commands, change=change, **loop)
     return Assembly(running, counters, selection)

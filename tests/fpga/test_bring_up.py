@@ -123,14 +123,6 @@ def test_an_fpga_without_its_permit_does_not_chirp(board):
         list(bring_up.channel_self_test(session, board, clock, range(32)))
 
 
-def test_the_queue_is_read_back(board):
-    clock, _, session = opened(board)
-    armed(session, board, clock)
-    for length in (1, 2, 3):
-        session.play(0, 1, 0.0, stop=False, mask=length)
-    assert [words[3] for words in bring_up.read_queue(session)] == [1, 2, 3]
-
-
 def armed(session, board, clock):
     words = memoryview(np.arange(1000, dtype="<u4").tobytes())
     session.upload(0, words)

@@ -15,7 +15,9 @@ from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.upload_image import UploadImage, upload_slices
+from controller.loop.batching import Batch
 from controller.loop.commands import Outcome
+from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.metrics import Counters
 from controller.scene.emission import Emission
@@ -84,16 +86,17 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
     clock._now_s += 0.02
     with Bank.open(bank_file, board) as bank:
         selection = Selection(bank, 1e-3, board.idle_word)
+        estimate = ClockEstimate(link.clock_hz)
         playback = Playback(
-            fpga, selection, ClockEstimate(link.clock_hz), lambda *_: None, slots=4, duration_s=2e-3, max_duty=1.0, upload_s=1.4e-3,
-            command_s=1e-5, counters=counters,
+            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4, upload_s=1.4e-3, command_s=1e-5,
+            counters=counters,
         )  # fmt: skip
         checked = count_crcs(monkeypatch, frames, session, upload_image, reader, selection_module)
         passes = []
         for x_m, y_m in [tuple(place) for place in bank.grid.points()[[60, 61, 62, 63, 64]]] * 2:  # of four slots none serves
             checked.clear()
             clock._now_s += 0.01
-            assert playback.prepare([Emission(0.0, x_m, y_m, None, "")], 0).outcome is Outcome.PLAYED
+            assert playback.prepare(Batch([Emission(0.0, x_m, y_m, None, "")]), 0).outcome is Outcome.PLAYED
             passes.append(sum(size > frames.FRAME_BYTES for size in checked))
     assert counters.uploads == 10
     assert passes == [8 + 1] * 5 + [8] * 5

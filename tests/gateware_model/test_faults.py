@@ -27,8 +27,8 @@ from model_host import (
 
 from controller.fpga import frames
 from controller.fpga.registers import DUTY_FULL, Control, Fault, Register, Result, Start, State
+from controller.gateware_model.edge_counts import PARTS, part_ticks
 from controller.gateware_model.gateware import Permit
-from controller.gateware_model.limits import PARTS, part_ticks
 from controller.gateware_model.pins import modulate, ramp_bits
 
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS

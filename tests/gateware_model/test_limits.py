@@ -9,18 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from limits_reference import NO_LIMITS, Inputs, limits_reference
 
-from controller.gateware_model.limits import (
-    CHANNEL_EDGES,
-    DUTY,
-    EDGE_TICKS,
-    LONG_EMISSION,
-    SHORT_PULSE,
-    TOTAL_EDGES,
-    TOTAL_TICKS,
-    LimitSettings,
-    StageLimits,
-    part_ticks,
-)
+from controller.gateware_model.edge_counts import part_ticks
+from controller.gateware_model.limit_settings import CHANNEL_EDGES, DUTY, LONG_EMISSION, SHORT_PULSE, TOTAL_EDGES, LimitSettings
+from controller.gateware_model.limits import EDGE_TICKS, TOTAL_TICKS, StageLimits
 
 WINDOW_TICKS = 60
 DAY_TICKS = 720  # more than 16 parts of 32
@@ -74,7 +65,7 @@ def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
                 for later in inputs[start:]:
                     later.word = word
         if now + 1 in emissions:
-            limits_.emission(now + 1, sounding=emissions[now + 1])
+            limits_.emission(now + 1, playing=emissions[now + 1])
             inputs[now].start |= emissions[now + 1]
             for later in inputs[now + 1 :]:
                 later.emission = emissions[now + 1]
@@ -167,9 +158,9 @@ def test_each_limit_holds_at_its_value_and_trips_one_below(less, cause, at):
     for values, expected in ((just, None), (just | less, at)):
         limits_ = StageLimits(LimitSettings(**values), 1000)
         limits_.show(np.array([10, 20]), np.array([3, 0], np.uint32))
-        limits_.emission(10, sounding=True)
+        limits_.emission(10, playing=True)
         limits_.activity(10, active=True)
-        limits_.emission(40, sounding=False)
+        limits_.emission(40, playing=False)
         limits_.activity(41, active=False)
         assert limits_.next_change(0) == expected
         assert limits_.cause(at) == (cause if expected else 0)
@@ -189,12 +180,12 @@ def test_memory_stays_bounded_through_an_endless_repetition():
     limits_ = StageLimits(LimitSettings(**NO_LIMITS), 1_000_000)
     waveform = np.arange(1000, dtype=np.uint32)
     for start in range(0, 100_000_000, 320_000):
-        limits_.emission(start, sounding=True)
+        limits_.emission(start, playing=True)
         limits_.activity(start, active=True)
         limits_.show(start + 160 * np.arange(1000), waveform)
         limits_.settle(start)
         assert len(limits_._plans) <= 3
-        assert max(len(limits_._sounds), len(limits_._flows)) <= 3
+        assert max(len(limits_._activity._emissions), len(limits_._activity._flows)) <= 3
 
 
 def test_an_emission_of_1000_words_costs_little(benchmark):
@@ -205,11 +196,11 @@ def test_an_emission_of_1000_words_costs_little(benchmark):
 
     def emission():
         start = next(starts)
-        limits_.emission(start, sounding=True)
+        limits_.emission(start, playing=True)
         limits_.activity(start, active=True)
         limits_.show(start + offsets, waveforms[start // 320_000 % 8])
         limits_.next_change(start)
-        limits_.emission(start + 160_000, sounding=False)
+        limits_.emission(start + 160_000, playing=False)
         limits_.activity(start + 160_000, active=False)
         limits_.show(np.array([start + 160_003]), np.zeros(1, np.uint32))
         limits_.next_change(start + 160_000)

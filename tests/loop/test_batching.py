@@ -6,9 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.loop.batching import MAX_FOCI, MERGE_RADIUS_M, SEPARATION_M, common_period_s, select_batch
+from controller.loop.batching import MAX_FOCI, MERGE_RADIUS_M, SEPARATION_M, select_batch
 from controller.scene.emission import Emission
-from controller.scene.scene import Spot
 
 T_S = 2e-3
 
@@ -108,12 +107,3 @@ def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
         for other in chosen[:k]:
             apart_m = math.dist((one.x_m, one.y_m), (other.x_m, other.y_m))
             assert apart_m <= MERGE_RADIUS_M * 1.0001 or apart_m >= SEPARATION_M * 0.9999
-
-
-def test_spots_that_one_waveform_serves_have_a_common_period_and_others_none():
-    spot = Spot(0.06, 0.07, 20.0, "a")
-    far = spot._replace(x_m=0.1, region="b")
-    assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05
-    assert common_period_s([]) is None
-    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.065}):
-        assert common_period_s([spot, far._replace(**changed)]) is None, changed

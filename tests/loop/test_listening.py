@@ -5,7 +5,6 @@ The simulated panel hears the channel pins themselves. Latency is from the first
 
 import math
 import random
-from types import SimpleNamespace
 
 import msgspec
 import numpy as np
@@ -14,9 +13,8 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.loop.playback import Playback, _Repetition
+from controller.loop.occupancy import Occupancy, Repetition
 from controller.loop.wiring import assemble
-from controller.metrics import Counters
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel, pins_of
@@ -186,15 +184,12 @@ def test_what_the_fpga_repeats_is_stopped_for_a_tap_and_goes_on_in_its_beat(haun
 def test_a_repetition_that_is_to_begin_is_not_expected_before_it_does():
     """As the clocks are known a little better it was: the loop woke, found nothing to stop, and woke again at once."""
     clock_estimate = ClockEstimate(80_000_000)
-    playback = Playback(
-        None, SimpleNamespace(single_focus=None), clock_estimate, None, slots=4, duration_s=T_S, max_duty=1.0, upload_s=UPLOAD_S,
-        command_s=23e-6, counters=Counters(),
-    )  # fmt: skip
+    occupancy = Occupancy(clock_estimate, T_S, 1.0)
     for learnt_s in (-5e-6, 0.0, 5e-6):
-        playback.last_start_s, playback._running = 10.0, _Repetition(clock_estimate.fpga_s(10.0), 0.025)
+        occupancy.last_start_s, occupancy.repetition = 10.0, Repetition(clock_estimate.fpga_s(10.0), 0.025)
         clock_estimate.offset_s += learnt_s
-        assert playback.next_repetition_s(9.9985) >= 10.0
-        assert playback.next_repetition_s(10.001) == pytest.approx(10.025, abs=6e-6)
+        assert occupancy.next_repetition_s(9.9985) >= 10.0
+        assert occupancy.next_repetition_s(10.001) == pytest.approx(10.025, abs=6e-6)
 
 
 @pytest.mark.slow

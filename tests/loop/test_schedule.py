@@ -15,9 +15,11 @@ from controller.clocks import VirtualClock
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
-from controller.loop.event_loop import BEAT_LEAD_S
-from controller.loop.playback import ENDLESS, HANDOVER_S, MARGIN_S, Playback
+from controller.loop.dispatcher import BEAT_LEAD_S
+from controller.loop.occupancy import HANDOVER_S, MARGIN_S, Occupancy
+from controller.loop.playback import Playback
 from controller.loop.wiring import assemble
 from controller.metrics import Counters
 from controller.scene.emission import Emission
@@ -270,26 +272,27 @@ def by_hand(board, bank_file):
         return done.place
 
     with Bank.open(bank_file, board) as bank:
+        clock_estimate = ClockEstimate(link.clock_hz)
         done.playback = Playback(
-            session, Selection(bank, 1e-3, board.idle_word), ClockEstimate(link.clock_hz), where, slots=4, duration_s=T_S,
-            max_duty=DUTY, upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
+            session, Selection(bank, 1e-3, board.idle_word), clock_estimate, Occupancy(clock_estimate, T_S, DUTY), where, slots=4,
+            upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
         )  # fmt: skip
         yield done
 
 
-def focus(x_m, finger=None):
-    return [Emission(0.0, x_m, 0.05, finger, "")]
+def focus(x_m, finger=None, **more):
+    return Batch([Emission(0.0, x_m, 0.05, finger, "")], **more)
 
 
 @pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
 def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_finger_there(by_hand, at_s):
     """The finger is asked for at T after the start that the repetition leaves, not at T after the command's arrival."""
     playback, clock = by_hand.playback, by_hand.clock
-    playback.prepare(focus(0.05), 0, count=ENDLESS, period_s=0.025)
+    playback.prepare(focus(0.05, repetitions=ENDLESS, period_s=0.025), 0)
     clock._now_s += 0.053  # its third emission sounds
-    third_s = playback.next_repetition_s(clock.now_s()) - 0.025
-    playback.prepare(focus(0.1, finger=0), 0, at_s=at_s)
-    last_start_s = playback.last_start_s if playback.trigger_at_s is None else playback.trigger_at_s
+    third_s = playback.occupancy.next_repetition_s(clock.now_s()) - 0.025
+    playback.prepare(focus(0.1, finger=0, at_s=at_s), 0)
+    last_start_s = playback.occupancy.last_start_s if playback.accepted is None else playback.accepted.start_s
     assert last_start_s == pytest.approx(third_s + T_S / DUTY, abs=2 * MARGIN_S)
     assert by_hand.asked_s[-1] == pytest.approx(last_start_s + T_S, abs=2 * MARGIN_S)
     assert not playback.repeating
@@ -298,10 +301,14 @@ def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_fin
 def test_of_a_beat_it_is_foreseen_what_an_emission_before_it_takes(by_hand):
     """That emission waits for the plate and for its upload; the plate is busy for longer than an upload takes."""
     playback, clock = by_hand.playback, by_hand.clock
-    assert playback.free_after_next_s(clock.now_s()) == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
+
+    def free_after_next_s():
+        return playback.occupancy.free_after_next_s(clock.now_s(), 1.4e-3)
+
+    assert free_after_next_s() == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
     playback.prepare(focus(0.05), 0)
     (first,) = by_hand.played
-    assert playback.free_after_next_s(clock.now_s()) == pytest.approx(first.trigger_s + 2 * T_S / DUTY + 3 * MARGIN_S)
+    assert free_after_next_s() == pytest.approx(first.trigger_s + 2 * T_S / DUTY + 3 * MARGIN_S)
 
 
 @pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
@@ -311,9 +318,9 @@ def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s
     playback.prepare(focus(0.05), 0)
     playback.forget()
     asked_s = clock.now_s()
-    playback.prepare(focus(0.1), 0, at_s=at_s)
-    assert playback.trigger_at_s is None
-    assert asked_s + 1.4e-3 <= playback.last_start_s < asked_s + 3e-3
+    playback.prepare(focus(0.1, at_s=at_s), 0)
+    assert playback.accepted is None
+    assert asked_s + 1.4e-3 <= playback.occupancy.last_start_s < asked_s + 3e-3
 
 
 def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(by_hand, monkeypatch):
@@ -354,18 +361,18 @@ def test_nothing_is_sent_ahead_while_what_is_expected_does_not_come_true(by_hand
 
 
 def test_after_what_the_fpga_started_by_itself_the_plate_is_as_busy(by_hand):
-    by_hand.playback.prepare(focus(0.05), 0, at_s=0.0)
+    by_hand.playback.prepare(focus(0.05, at_s=0.0), 0)
     by_hand.playback.prepare(focus(0.1), 0)
     (first,) = by_hand.played
-    assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
+    assert by_hand.playback.accepted.start_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
 
 
 def test_what_lasts_longer_keeps_the_plate_busy_for_longer(by_hand):
-    by_hand.playback.stretch(1.1)
+    by_hand.playback.occupancy.set_time_scale(1.1)
     for x_m in (0.05, 0.1):
         by_hand.playback.prepare(focus(x_m), 0)
     (first,) = by_hand.played
-    assert by_hand.playback.trigger_at_s == pytest.approx(first.trigger_s + 1.1 * T_S / DUTY, abs=2 * MARGIN_S)
+    assert by_hand.playback.accepted.start_s == pytest.approx(first.trigger_s + 1.1 * T_S / DUTY, abs=2 * MARGIN_S)
 
 
 def test_a_waveform_that_serves_for_a_place_near_by_is_counted(by_hand):

@@ -13,9 +13,9 @@ from controller.touch.prediction import (
     MAX_EXTRAPOLATION_M,
     MAX_HORIZON_S,
     MAX_INTERVAL_S,
+    MAX_SPEED_RATIO,
     REST_RADIUS_M,
     REST_REPORTS,
-    MAX_SPEED_RATIO,
     Motion,
 )
 from controller.touch.recording import Recording

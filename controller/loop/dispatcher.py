@@ -1,0 +1,239 @@
+"""Hands due emissions to the playback, one batch at a time, when plate, wire and touch panel allow it.
+
+What is due waits while the touch panel needs silence to tell a finger from a ghost, and while it would delay the next beat of
+a train. Spots of one common period are handed to the FPGA as one endless repetition. While nothing is due, the waveform that a
+moving finger will ask for next is sent ahead.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from controller.clocks import NEVER, Clock, FpgaTime
+from controller.errors import ControllerError
+from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.session import Session
+from controller.loop.batching import ENDLESS, Batch
+from controller.loop.commands import Outcome
+from controller.loop.playback import Playback
+from controller.loop.scheduler import Scheduler
+from controller.metrics import Counters
+from controller.touch.source import TrackedTouch
+
+BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
+PREFETCH_SLACK_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
+RESIDENT_START_S = 0.1e-3  # from a report to the start of a waveform that is resident
+
+
+class Turn(NamedTuple):
+    """One turn of the loop.
+
+    Attributes
+    ----------
+    started_ns : int
+        When it began (perf_counter_ns).
+    now_s : float
+        Host time.
+    fpga_s : FpgaTime
+        The same moment.
+    report_ns : int
+        From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report.
+    finger : int or None
+        Which finger moved, in that report.
+    """
+
+    started_ns: int
+    now_s: float
+    fpga_s: FpgaTime
+    report_ns: int
+    finger: int | None
+
+
+class Dispatcher:
+    """From due emissions to plays.
+
+    Parameters
+    ----------
+    clock : Clock
+        The loop's clock.
+    session : Session
+        Says when the wire is free.
+    source : TrackedTouch
+        Asks for silence, and is told when emissions sound.
+    scheduler : Scheduler
+        Says what is due.
+    playback : Playback
+    clock_estimate : ClockEstimate
+        The FPGA's clock on the host's.
+    counters : Counters
+
+    Attributes
+    ----------
+    lead_s : float
+        A beat is handed over this long before it is due.
+    quiet_until_s : float
+        Host time before which no emission begins, for the touch panel's sake.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        session: Session,
+        source: TrackedTouch,
+        scheduler: Scheduler,
+        playback: Playback,
+        clock_estimate: ClockEstimate,
+        counters: Counters,
+    ) -> None:
+        self.lead_s = playback.upload_s + BEAT_LEAD_S
+        self.quiet_until_s = -NEVER
+        self._clock = clock
+        self._session = session
+        self._source = source
+        self._scheduler = scheduler
+        self._playback = playback
+        self._occupancy = playback.occupancy
+        self._clock_estimate = clock_estimate
+        self._counters = counters
+        self._delayed = False  # something waited for the panel's silence
+        self._moving: int | None = None  # finger that moved in the newest report
+
+    def turn(self, turn: Turn, on: bool) -> bool:
+        """Start, hand over or send ahead what this turn has time for.
+
+        Parameters
+        ----------
+        on : bool
+            Whether the outputs are on; otherwise what is due is discarded.
+
+        Returns
+        -------
+        bool
+            Whether an emission, or a repetition, started.
+
+        Raises
+        ------
+        LinkError, FaultError
+            As the session says.
+        """
+        self.quiet_until_s = -NEVER
+        if turn.report_ns >= 0:
+            self._moving = turn.finger
+        scheduler, playback, now_s = self._scheduler, self._playback, turn.now_s
+        if not on:
+            if scheduler.due:
+                scheduler.reset(turn.fpga_s)
+            return False
+        repeating = playback.repeating
+        if not repeating:
+            scheduler.add_spots(turn.fpga_s, turn.fpga_s + self.lead_s)
+        due = scheduler.due
+        if due or repeating:
+            self._listen(now_s, due, repeating)
+        accepted = playback.accepted
+        if accepted is not None:
+            if accepted.start_s > now_s:
+                return False
+            playback.trigger()
+            return True
+        if due:
+            return self._may_play(now_s, turn.fpga_s) and self._open_s() <= now_s and self._play(turn)
+        if self._moving is not None:
+            self._send_ahead(turn)
+        return False
+
+    def handover_s(self, now_s: float) -> float | None:
+        """Host time at which what is due can be handed over; None if nothing is due, or it has to wait for something else."""
+        if self._playback.accepted is None and self._scheduler.due and self._may_play(now_s, self._clock_estimate.fpga_s(now_s)):
+            return max(now_s, self._open_s())
+        return None
+
+    def next_s(self, now_s: float, on: bool) -> float:
+        """Host time at which a spot is due or a silence ends; `on`: whether the outputs are on."""
+        repeating = self._playback.repeating
+        next_s = self.quiet_until_s if self.quiet_until_s > now_s else NEVER
+        if repeating and next_s != NEVER:
+            next_s = min(next_s, self._occupancy.next_repetition_s(now_s))
+        if on and not repeating:
+            next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self.lead_s)
+        return next_s
+
+    def _open_s(self) -> float:
+        """Host time from which the next batch may be handed over: the wire is free, and the play before has begun."""
+        return max(self._session.wire_free_s(), self._occupancy.last_start_s)
+
+    def _listen(self, now_s: float, due: bool, repeating: bool) -> None:
+        """Give the panel the silence that it asks for; a repetition is stopped for it, and goes on in its beat afterwards."""
+        occupancy = self._occupancy
+        next_s = now_s if due else occupancy.next_repetition_s(now_s)
+        self.quiet_until_s = self._source.quiet_until_s(now_s, next_s)
+        self._delayed |= due and self.quiet_until_s > now_s
+        if not repeating or occupancy.next_repetition_s(now_s) >= self.quiet_until_s:
+            return
+        next_s = occupancy.next_repetition_s(self.quiet_until_s)
+        last_s = self._playback.stop_repeating(now_s)
+        if last_s is not None:
+            self._source.emitted(last_s, last_s + occupancy.duration_s)
+            self._scheduler.spots.restart(self._clock_estimate.fpga_s(next_s))
+
+    def _may_play(self, now_s: float, fpga_s: FpgaTime) -> bool:
+        """Whether what is due may be played: not if the panel listens, nor if plate or wire would not be free for the next beat."""
+        if self.quiet_until_s > now_s:
+            return False
+        free_s = self._occupancy.free_after_next_s(now_s, self._playback.upload_s)
+        return not self._scheduler.must_defer(fpga_s, self._clock_estimate.fpga_s(free_s))
+
+    def _play(self, turn: Turn) -> bool:
+        """Play what comes next as one batch; spots alone are left to the FPGA to repeat. Whether it started."""
+        scheduler, occupancy = self._scheduler, self._occupancy
+        within_s = NEVER if self._delayed else occupancy.duration_s  # what waited for silence is due at the same time
+        emissions = scheduler.next_batch(within_s, turn.fpga_s)
+        self._delayed = False
+        period_s = scheduler.spots.common_period_s
+        if period_s is not None and all(emission.owner == emission.region for emission in emissions):
+            return self._prepare(Batch(emissions, ENDLESS, period_s, emissions[0].time_s), turn)
+        if self._playback.repeating:  # the repetition is replaced: spots take part if they are due as well
+            next_s = occupancy.next_repetition_s(turn.now_s)
+            fpga_s = self._clock_estimate.fpga_s(next_s)
+            if next_s < turn.now_s + occupancy.duration_s and period_s is not None:
+                emissions = scheduler.join_spots(emissions, fpga_s + period_s)
+            else:
+                scheduler.spots.restart(fpga_s)
+        beats = [emission.time_s for emission in emissions if emission.period_s]
+        return self._prepare(Batch(emissions, at_s=min(beats) if beats else None), turn)
+
+    def _prepare(self, batch: Batch, turn: Turn) -> bool:
+        """Hand a batch over, and tell everyone concerned what became of it. Whether it started."""
+        emissions, playback = batch.emissions, self._playback
+        repeating = playback.repeating
+        try:
+            attempt = playback.prepare(batch, turn.started_ns)
+        except ControllerError:  # these emissions are lost; what sounds ends with the outputs
+            self._counters.skipped.outputs_off += len(emissions)
+            self._scheduler.discarded(emissions, Outcome.REFUSED, self._clock_estimate.fpga_s(self._clock.now_s()))
+            raise
+        if attempt.outcome is Outcome.PLAYED:
+            if turn.report_ns >= 0:
+                self._counters.report_latency.record(turn.report_ns)
+            sounds_s = self._clock_estimate.host_s(attempt.start_s)
+            self._source.emitted(sounds_s, sounds_s + self._occupancy.duration_s, batch.period_s)
+            self._scheduler.started(emissions, attempt.start_s)
+            return attempt.started
+        if repeating and not playback.repeating:
+            now_s = self._clock.now_s()
+            self._source.emitted(now_s, now_s)
+        self._scheduler.discarded(emissions, attempt.outcome, self._clock_estimate.fpga_s(self._clock.now_s()))
+        return False
+
+    def _send_ahead(self, turn: Turn) -> None:
+        """Send ahead what the finger that moved last will ask for, if there is time for it."""
+        finger, self._moving = self._moving, None
+        assert finger is not None
+        reported_s = turn.now_s - max(turn.report_ns, 0) * 1e-9
+        focus_after_s = self._occupancy.duration_s + RESIDENT_START_S
+        wanted = self._scheduler.predict(finger, self._source.predict, reported_s, self._source.report_s, focus_after_s)
+        if wanted is None or self._session.wire_free_s() > turn.now_s:
+            return
+        next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))
+        if next_s - self.lead_s > turn.now_s + PREFETCH_SLACK_S:
+            self._playback.prefetch(finger, *wanted)

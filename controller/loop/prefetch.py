@@ -1,0 +1,71 @@
+"""Which waveforms are worth sending ahead of a moving finger: those of predictions that keep coming true."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from controller.metrics import Counters
+from controller.scene.emission import Emission
+from controller.waveforms.selection import Key, Selection
+
+PREFETCH_AFTER_HITS = 2  # so many predictions in a row have to come true, sent ahead or not, before one is sent
+
+
+class PrefetchRecord:
+    """The newest prediction, how many came true, and which slots hold waveforms that were sent ahead.
+
+    Parameters
+    ----------
+    counters : Counters
+        `prefetched` and `prefetch_wasted` are counted here.
+    """
+
+    def __init__(self, counters: Counters) -> None:
+        self._counters = counters
+        self._predicted: tuple[int, Key] | None = None  # finger, and the waveform it will ask for
+        self._hits = 0  # in a row
+        self._unplayed: set[int] = set()  # slots
+
+    def predict(self, finger: int, key: Key, selection: Selection) -> bool:
+        """Take note of a prediction; whether the record is good enough to send its waveform ahead."""
+        if self._predicted is not None and not self._is_hit(finger, key, selection):
+            self._hits = 0
+        self._predicted = finger, key
+        return self._hits >= PREFETCH_AFTER_HITS
+
+    def compare(self, emissions: Sequence[Emission], key: Key, selection: Selection) -> None:
+        """Compare what is played now with the prediction, if that was for one of these fingers."""
+        if self._predicted is None:
+            return
+        predicted = self._predicted[0]
+        for emission in emissions:
+            if emission.finger == predicted:
+                self._hits = self._hits + 1 if self._is_hit(emissions[0].finger, key, selection) else 0
+                self._predicted = None
+                return
+
+    def sent(self, slot: int) -> None:
+        """A waveform was sent ahead into a slot; it counts as wasted until it is played."""
+        self._unplayed.add(slot)
+        self._counters.prefetched += 1
+        self._counters.prefetch_wasted += 1
+
+    def played(self, slot: int) -> None:
+        """The waveform of a slot is played."""
+        if slot in self._unplayed:
+            self._unplayed.remove(slot)
+            self._counters.prefetch_wasted -= 1
+
+    def overwritten(self, slot: int) -> None:
+        """Another waveform is sent to a slot."""
+        self._unplayed.discard(slot)
+
+    def clear(self) -> None:
+        """No slot holds anything any more."""
+        self._unplayed.clear()
+
+    def _is_hit(self, finger: int | None, key: Key, selection: Selection) -> bool:
+        """Whether the waveform predicted last serves for this."""
+        assert self._predicted is not None
+        predicted_finger, predicted = self._predicted
+        return finger == predicted_finger and (key == predicted or selection.reusable(key, predicted))

@@ -1,0 +1,13 @@
+"""Spots: what the FPGA can repeat by itself."""
+
+from controller.loop.spots import common_period_s
+from controller.scene.scene import Spot
+
+
+def test_spots_that_one_waveform_serves_have_a_common_period_and_others_none():
+    spot = Spot(0.06, 0.07, 20.0, "a")
+    far = spot._replace(x_m=0.1, region="b")
+    assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05
+    assert common_period_s([]) is None
+    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.065}):
+        assert common_period_s([spot, far._replace(**changed)]) is None, changed
