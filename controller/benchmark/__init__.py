@@ -1,1 +1,1 @@
-"""Every command that makes a figure of the README."""
+"""What makes the figures of README.md in this folder; each module names its figures and its command."""

@@ -1,7 +1,7 @@
-"""What composing from a bank reaches on the plate: amplitudes asked for and got, places between cells, edges.
+"""Figures under "Amplitude": amplitudes reached on the plate by composing from a bank.
 
-Everything is judged by responses of the whole displacement in float64, all modes, at the very points:
-none of it goes through the bank.
+`haptic-panel focus --amplitude-figures` makes them: requested against reached amplitude, places between cells, edges. The
+reference is the whole displacement in float64, with all modes, at the very points; it does not use the bank.
 """
 
 from __future__ import annotations
@@ -22,40 +22,45 @@ from controller.benchmark.focus_figures import emit, random_points, spread
 from controller.board.board import Board
 from controller.physics.plate_twin import PlateTwin
 from controller.waveforms.composition import Composer
-from controller.waveforms.selection import NEAR_M
+from controller.waveforms.selection import REUSE_RADIUS_M
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 Words = NDArray[np.uint32]
 
-MARGIN_M = 12e-3  # of fingers that are composed, from the plate's edges
-APART_M = 8e-3  # fingers nearer than this are no two fingers
+MARGIN_M = 12e-3  # distance of fingers from the plate's edges
+SEPARATION_M = 8e-3  # smallest distance between two fingers
 FINGERS = (1, 2, 4, 10)
 AMPLITUDES = (0.25, 0.5, 0.75, 1.0)
 
 
 def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float | None = None) -> Figures:
-    """Figures over random scenes, none left out.
+    """Judge random scenes of 1, 2, 4 and 10 fingers; none is left out.
 
     Parameters
     ----------
+    board : Board
+        Panel to be judged.
+    seed : int
+        Seed of the random places and amplitudes.
     scenes : int
-        Of each number of fingers; so many single points are judged, too.
+        Number of scenes for each number of fingers, and number of single points.
     pitch_m : float, optional
-        Of the bank, which holds only the cells that are needed; the board's own by default.
+        Pitch of the bank, which holds only the cells needed here; the board's own by default.
 
     Returns
     -------
     dict
-        `fingers`: for each number, `asked` and `got`, shares of what exact composition gives each finger at full
-        amplitude, and `error_percent`. `single`: by amplitude, contrast and spot over those of full amplitude, edges.
-        `between_cells`: relative amplitude interpolated and of the nearest entry, and what `NEAR_M` beside loses.
+        `fingers`: for each number of fingers, `asked` and `got`, as shares of what exact composition gives each finger at
+        full amplitude, and `error_percent`. `single`: for each amplitude, contrast and spot relative to full amplitude, and
+        edges. `between_cells`: relative amplitude when interpolated and from the nearest entry, and `REUSE_RADIUS_M`
+        beside the point.
     """
     random = np.random.default_rng(seed)
     played = [[_scene(board, random, fingers) for _ in range(scenes)] for fingers in FINGERS]
     singles = random_points(board, seed, scenes)
     around = random.uniform(0, 2 * np.pi, scenes)
-    beside = singles + NEAR_M * np.column_stack([np.cos(around), np.sin(around)])
+    beside = singles + REUSE_RADIUS_M * np.column_stack([np.cos(around), np.sin(around)])
     places = np.concatenate([np.array(scene)[:, :2] for some in played for scene in some] + [singles, beside])
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "bank"
@@ -74,17 +79,17 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
 
 
 def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tuple[float, float, float]]:
-    """Fingers at random places that are apart, with random amplitudes from 0.25 to 1."""
+    """(x_m, y_m, amplitude) of fingers at random places, at least `SEPARATION_M` apart; amplitudes from 0.25 to 1."""
     far = np.array([board.plate.length_m, board.plate.width_m]) - MARGIN_M
     while True:
         places = random.uniform(MARGIN_M, far, (fingers, 2))
         between_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
-        if between_m.min() >= APART_M:
+        if between_m.min() >= SEPARATION_M:
             return [(float(x_m), float(y_m), float(random.uniform(0.25, 1))) for x_m, y_m in places]
 
 
 def _cells(board: Board, places: Floats, pitch_m: float) -> NDArray[np.bool_]:
-    """Those that the places need."""
+    """(cell,) mask of the cells needed to interpolate at the places."""
     grid = Grid.of(board.plate, pitch_m)
     cells = np.zeros(grid.cells, bool)
     for x_m, y_m in places.tolist():
@@ -97,7 +102,7 @@ def _words(composer: Composer, scene: list[tuple[float, float, float]]) -> Words
 
 
 def _mixed(composer: Composer, twin: PlateTwin, scenes: list[list[tuple[float, float, float]]]) -> Figures:
-    """Amplitudes of fingers that each ask for their own."""
+    """Requested and reached amplitudes of fingers that are composed together."""
     asked: list[float] = []
     got: list[float] = []
     for scene in scenes:
@@ -110,7 +115,7 @@ def _mixed(composer: Composer, twin: PlateTwin, scenes: list[list[tuple[float, f
 
 
 def _single(composer: Composer, twin: PlateTwin, points: Floats, amplitude: float) -> Figures:
-    """One finger: what is left of contrast and spot, and of edges from the idle word and back to it."""
+    """One finger: contrast and spot relative to full amplitude; edges, including those from and to the idle word."""
     idle = np.array([twin.board.idle_word], np.uint32)
     contrast, spot, busiest, together = [], [], [], []
     for x_m, y_m in points.tolist():
@@ -126,7 +131,7 @@ def _single(composer: Composer, twin: PlateTwin, points: Floats, amplitude: floa
 
 
 def _between_cells(bank: Bank, composer: Composer, twin: PlateTwin, points: Floats, beside: Floats) -> Figures:
-    """Relative amplitude of points wherever they lie, at full amplitude."""
+    """Relative amplitude at points anywhere between cells, at full amplitude."""
     interpolated, nearest, near = [], [], []
     for (x_m, y_m), (other_x_m, other_y_m) in zip(points.tolist(), beside.tolist(), strict=True):
         reference_m = twin.reference_amplitude(x_m, y_m)
@@ -138,4 +143,8 @@ def _between_cells(bank: Bank, composer: Composer, twin: PlateTwin, points: Floa
         interpolated.append(here / reference_m)
         nearest.append(cell / reference_m)
         near.append(there / here)
-    return {"interpolated": spread(interpolated), "nearest_entry": spread(nearest), f"{NEAR_M * 1e3:g}_mm_beside": spread(near)}
+    return {
+        "interpolated": spread(interpolated),
+        "nearest_entry": spread(nearest),
+        f"{REUSE_RADIUS_M * 1e3:g}_mm_beside": spread(near),
+    }

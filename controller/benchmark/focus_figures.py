@@ -1,6 +1,7 @@
-"""The figures a panel reaches, measured as DESIGN.md defines them, with nothing left out.
+"""Figures under "Focus": amplitude, contrast, spot, peak time and sound of foci on the plate, one and four at a time.
 
-Every function takes a board and gives plain numbers, so that `haptic-panel ... --json` can print them.
+`haptic-panel focus --figures` makes them at random points, of which none is left out; `haptic-panel focus --at X Y` at
+given points. All functions return plain numbers, ready for `--json`.
 """
 
 from __future__ import annotations
@@ -26,24 +27,26 @@ Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
 MARGIN_M = 10e-3
-INNER_M = 20e-3  # nearer to an edge its mirror image makes neighbouring responses alike: up to 0.57 instead of 0.53
+INNER_M = 20e-3  # nearer to an edge, its mirror image correlates neighbouring responses: a share of up to 0.57 instead of 0.53
 SQUARE_M = 10e-3
 SETTLED = 40  # time constants of the slowest pole (6 ms: mode (1, 1) is overdamped) from the step to the idle word on
 
 
 def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = False) -> Figures:
-    """All figures of a board at random points at least 10 mm from the edges, each as min, median and max.
+    """Judge foci of a board at random points at least 10 mm from the edges: min, median and max of each figure.
 
-    Four foci are shown twice: all of them at least 20 mm from the edges, and at least 10 mm.
+    Four foci are judged twice: all at least 20 mm from the edges, and all at least 10 mm.
 
     Parameters
     ----------
+    board : Board
+        Panel to be judged.
     seed : int
-        Of the points.
+        Seed of the random points.
     points : int
-        How many; none is left out.
+        Number of points.
     progress : bool
-        Show a bar on stderr if that is a terminal.
+        Whether to show a progress bar on stderr if it is a terminal.
     """
     low = idling_low(board)
     with (
@@ -74,18 +77,18 @@ def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = Fals
 
 
 def random_points(board: Board, seed: int, count: int, margin_m: float = MARGIN_M) -> Floats:
-    """Points at least `margin_m` from the plate's edges: (point, 2) in m."""
+    """Draw `count` points at least `margin_m` from the plate's edges: (point, 2) array in m."""
     far = np.array([board.plate.length_m, board.plate.width_m]) - margin_m
     return np.random.default_rng(seed).uniform(margin_m, far, (count, 2))
 
 
 def idling_low(board: Board) -> Board:
-    """The same board with all channels waiting at 0 V."""
+    """Return the same board with an idle word of 0: all channels rest at 0 V."""
     return msgspec.structs.replace(board, actuators=tuple(msgspec.structs.replace(a, idle=0) for a in board.actuators))
 
 
 def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
-    """The plate at T of one emission from rest at the idle word."""
+    """Play drive words, (sample,), on a plate at rest at the idle word; the field at T."""
     board = twin.board
     settled = round(SETTLED / float(np.min(-twin.step.poles.real)) * board.link.clock_hz)
     return next(
@@ -96,10 +99,21 @@ def emit(twin: PlateTwin, words: NDArray[np.uint32]) -> Field:
 
 
 def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:
-    """Foci one at a time: amplitude, contrast, spot, time of the peak, and sound.
+    """Judge foci one at a time: amplitude, contrast, spot, time of the peak, and sound.
 
-    `audible_fraction_db` is `surface_energy` below 16 kHz over that of all frequencies to 100 kHz,
-    `audible_m2_per_s` the energy below 16 kHz itself.
+    Parameters
+    ----------
+    board : Board
+    model : ResponseModel
+        Of a board with the same plate and driver.
+    points_m : iterable of (2,) array
+        Places of the foci.
+
+    Returns
+    -------
+    dict
+        Min, median and max of each figure. `audible_m2_per_s` is `surface_energy` below 16 kHz, `audible_fraction_db` its
+        share of all energy up to 100 kHz.
     """
     twin = PlateTwin(board)
     rows = []
@@ -125,9 +139,19 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
 
 
 def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -> Figures:
-    """Four foci at the corners of squares of 10 mm, summed with equal weights, then the sign.
+    """Judge four foci at the corners of 10 mm squares: responses summed with equal weights, then quantised to their sign.
 
-    `share` is the amplitude of each corner over that of a single focus at the same point.
+    Parameters
+    ----------
+    board : Board
+    model : ResponseModel
+    centres_m : iterable of (2,) array
+        Centres of the squares.
+
+    Returns
+    -------
+    dict
+        Min, median and max of `contrast`, `spot_mm` and `share`: a corner's amplitude relative to a single focus there.
     """
     twin = PlateTwin(board)
     share, contrast, spot = [], [], []
@@ -145,7 +169,7 @@ def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -
 
 
 def float32_against_float64(board: Board, model: ResponseModel, points_m: Iterable[Floats]) -> Figures:
-    """Bits that differ between responses computed in float32 and float64, and what they cost in amplitude."""
+    """Share of bits that differ between responses in float32 and in float64 at (2,) points, and the ratio of the amplitudes."""
     differing, ratio = [], []
     for point in points_m:
         exact = model.drive_order_responses(point, dtype=np.float64)[0]
@@ -157,19 +181,25 @@ def float32_against_float64(board: Board, model: ResponseModel, points_m: Iterab
 
 
 def spread(values: Sequence[float]) -> dict[str, float]:
-    """Smallest, median and largest."""
+    """Return the smallest, median and largest value."""
     return {"min": float(np.min(values)), "median": float(np.median(values)), "max": float(np.max(values))}
 
 
 def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Field, list[Figures]]:
     """Focus on several points at once, without a bank.
 
+    Parameters
+    ----------
+    board : Board
+    points_m : sequence of (x_m, y_m)
+        Places of the foci.
+
     Returns
     -------
     field : Field
         The plate at T.
     rows : list of dict
-        Figures of each focus.
+        Figures of each focus, in the order of `points_m`.
     """
     twin = PlateTwin(board)
     places = np.array(points_m)

@@ -1,8 +1,8 @@
-"""What the idle word and its ramps are worth: contrast with and without, and what can be heard of arming and disarming.
+"""Figures under "Idle word and ramp": contrast with and without an idle word, and the sound of arming and disarming.
 
-Audible energies (`audible.surface_energy`) are in dB of the median single emission from the board's idle word. The ramps
-are the bits of the gateware's model; only the two things they are compared with, a step and a density of first order, are
-made here.
+`haptic-panel focus --idle-figures` makes them. Audible energies (`audible.surface_energy`) are in dB relative to the median
+single emission from the board's idle word. The ramp's bits are those of the gateware model; the two references, a step and
+a first-order density, are made here.
 """
 
 from __future__ import annotations
@@ -31,21 +31,23 @@ NOTHING = np.zeros(0, np.uint32)
 
 
 def idle_figures(board: Board, seed: int = 1, points: int = 20) -> dict[str, Any]:
-    """Figures of a board's idle word and ramp, over random points at least 10 mm from the edges.
+    """Judge a board's idle word and ramp over random points at least 10 mm from the edges.
 
     Parameters
     ----------
+    board : Board
+        Panel to be judged.
     seed : int
-        Of the points.
+        Seed of the random points.
     points : int
-        How many; none is left out.
+        Number of points; none is left out.
 
     Returns
     -------
     dict
-        `contrast`, `amplitude_um` with the idle word and with all channels idle low. `emission_m2_per_s`: audible
-        energy of the median emission; `emission_db`: of each, to its return to the idle word; `return_db`: of that
-        last step alone. `arming_db`, `disarming_db`: of the board's own ramp, and of others.
+        `contrast`, `amplitude_um`: with the idle word and with all channels idle low. `emission_m2_per_s`: audible
+        energy of the median emission. `emission_db`: energy of each emission including its return to the idle word;
+        `return_db`: of that return alone. `arming_db`, `disarming_db`: of the board's own ramp, of a step and of other ramps.
     """
     low = idling_low(board)
     rows: list[dict[str, float]] = []
@@ -102,15 +104,15 @@ def idle_figures(board: Board, seed: int = 1, points: int = 20) -> dict[str, Any
 
 
 def ramp_samples(board: Board, ramp_ms: float) -> int:
-    """Drive words of a ramp, as the session tells the FPGA."""
+    """Length of a ramp of `ramp_ms` in samples, rounded as the session rounds it for the FPGA."""
     return max(1, round(ramp_ms * 1e-3 * board.waveform.bit_clock_hz))
 
 
 def ramp_words(board: Board, bits: Bits) -> Words:
-    """What the channel pins play: the idle word where the ramp's bit is high, else nothing."""
+    """Drive words of a ramp, (sample,): the idle word where the ramp's bit is high, else 0."""
     return np.where(bits, np.uint32(board.idle_word), np.uint32(0))
 
 
 def first_order_bits(samples: int) -> Bits:
-    """(sample,) levels 1, 2 ... `samples` of `samples` as a density of first order: a bit whenever their sum passes a whole."""
+    """First-order density of a linear ramp, (sample,) bits: high whenever the accumulated level passes a whole number."""
     return np.diff(np.cumsum(np.arange(1, samples + 1)) // samples, prepend=0) > 0

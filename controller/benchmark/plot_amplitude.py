@@ -1,4 +1,4 @@
-"""Picture of `amplitude`: asked against got, and what less amplitude does to contrast and edges."""
+"""Picture for `haptic-panel focus --amplitude-figures --plot FILE`: requested against reached amplitude, contrast, edges."""
 
 from __future__ import annotations
 
@@ -12,7 +12,14 @@ from controller.errors import ConfigError
 
 
 def plot_amplitude(path: Path, figures: dict[str, Any]) -> None:
-    """Draw `amplitude_figures` to a PNG, SVG or PDF file.
+    """Draw the figures of `amplitude_figures`.
+
+    Parameters
+    ----------
+    path : Path
+        File to write: .png, .svg or .pdf.
+    figures : dict
+        What `amplitude_figures` returned.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Picture of `idle`: the plate with and without the idle word, and what can be heard of getting there."""
+"""Picture for `haptic-panel focus --idle-figures --plot FILE`: the plate with and without idle word, the sound of ramps."""
 
 from __future__ import annotations
 
@@ -26,7 +26,16 @@ FIRST_ORDER_MS = 50.0
 
 
 def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
-    """Draw a board's `idle_figures` to a PNG, SVG or PDF file.
+    """Draw a board's `idle_figures`.
+
+    Parameters
+    ----------
+    path : Path
+        File to write: .png, .svg or .pdf.
+    board : Board
+        Panel that was judged.
+    figures : dict
+        What `idle_figures` returned.
 
     Raises
     ------
@@ -87,7 +96,7 @@ def plot_idle(path: Path, board: Board, figures: dict[str, Any]) -> None:
 
 
 def _in_bands(frequency: NDArray[np.float64], density: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Means over bands of `BAND_HZ`."""
+    """Centre frequencies of bands of `BAND_HZ`, and the mean density in each."""
     band = (frequency / BAND_HZ).astype(np.int64)
     count = np.bincount(band)
     middle: NDArray[np.float64] = (np.arange(len(count), dtype=np.float64) + 0.5) * BAND_HZ

@@ -1,10 +1,10 @@
-"""What the stages' series resistors burn: edges and loss of each channel, from the entries of a bank.
+"""Power figures: edges of each channel and heat in its series resistor, computed from the entries of a bank.
 
-In the deviation of a driver from where it is heading, `z = v - target`, with its current i, there is no source:
-the `C z^2 / 2 + L i^2 / 2` that it holds ends in R. An edge of V moves the target and so changes what is held by
-`C V^2 / 2 - s C V z` (s: +1 up, -1 down; z: just before). The sum of these over all edges is the loss, exactly, once
-the piezo has come to rest after the last: half of `C V^2` an edge if edges are far apart, more where the piezo
-rings against the next edge, less where the next edge comes before it has moved.
+`haptic-panel bank info --power` prints them. Method: write the driver's state as its deviation from the target voltage,
+`z = v - target`, and the current i. No source acts on this deviation, so its energy `C z^2 / 2 + L i^2 / 2` is dissipated in R.
+An edge of V moves the target and changes this energy by `C V^2 / 2 - s C V z` (s: +1 up, -1 down; z: just before the edge).
+Once the piezo is at rest after the last edge, the sum over all edges is exactly the loss: `C V^2 / 2` per edge if edges are
+far apart, more if the piezo rings against the next edge, less if the next edge comes before the piezo has moved.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ ENTRIES_PER_BLOCK = 256  # one sample of them stays in the cache
 
 @dataclass(frozen=True)
 class Resistor:
-    """The series resistor of one channel and the share of its rating that its cooling lets it have, for good."""
+    """The series resistor of one channel: its rating, and the share of it (`derating`) permitted continuously."""
 
     rating_w: float
     derating: float
 
     @property
     def permitted_w(self) -> float:
-        """What it may burn."""
+        """Continuous power permitted in the resistor."""
         return self.rating_w * self.derating
 
 
 @dataclass(frozen=True)
 class StageLimits:
-    """What the stage protection should allow, on average, for the resistors' sake."""
+    """Average limits of duty and edge rates that keep every resistor within `permitted_w`."""
 
     permitted_w: float
     max_duty: float
@@ -49,24 +49,25 @@ class StageLimits:
 
 
 def half_charge_j(driver: Driver) -> float:
-    """Loss of an edge far from any other: C V^2 / 2, in J."""
+    """Loss of an isolated edge: C V^2 / 2, in J."""
     return driver.capacitance_f * driver.supply_v**2 / 2
 
 
 def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: float) -> Floats:
-    """Heat in the series resistor, to the end of all ringing.
+    """Compute the heat in the series resistor until all ringing has ended.
 
     Parameters
     ----------
     driver : Driver
     levels : (sample, ...) array of 0 and 1
-        Of the stage, each held for `period_s`; it has been at the first for long and stays at the last.
+        Output levels of the stage, each held for `period_s`. The first has been held since long before, the last stays.
     period_s : float
+        Sample period.
 
     Returns
     -------
     (...) array
-        In J.
+        Heat in J.
     """
     response = DriverResponse.of(driver)
     decay = np.exp(response.poles * period_s)
@@ -88,10 +89,10 @@ def resistor_loss_j(driver: Driver, levels: NDArray[np.integer[Any]], period_s: 
 
 
 def worst_edge_j(driver: Driver) -> float:
-    """Most that an edge can cost on average in any waveform whatever, in J.
+    """Return an upper bound of the average loss per edge, over all waveforms, in J.
 
     The piezo's deviation from a step is largest at multiples of half its damped period, with alternating sign: a
-    square wave of that half period adds up all that can be added. Overdamped, nothing rings: `C V^2 / 2`.
+    square wave with that half period maximises the sum. An overdamped driver does not ring: `C V^2 / 2`.
     """
     pole = complex(DriverResponse.of(driver).poles[0])
     ringing = np.exp(np.pi * pole.real / abs(pole.imag)) if abs(pole.imag) > 1e-9 * abs(pole.real) else 0.0
@@ -99,12 +100,27 @@ def worst_edge_j(driver: Driver) -> float:
 
 
 def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> tuple[NDArray[np.int64], Floats]:
-    """Edges and loss of each emission, from the idle word and back to it.
+    """Count edges and compute the loss of each emission, from the idle word and back to it.
+
+    Parameters
+    ----------
+    board : Board
+    bank : Bank
+        Bank of that board.
+    progress : callable, optional
+        Called with the number of entries done and of all entries.
 
     Returns
     -------
     edges : (entry, 32) int array
+        0 for channels without an actuator.
     loss_j : (entry, 32) array
+        Likewise.
+
+    Raises
+    ------
+    BankError
+        If an entry is damaged.
     """
     cells = np.flatnonzero(bank.cells).tolist()
     idle = channel_bits(np.array([board.idle_word], np.uint32))
@@ -123,17 +139,17 @@ def bank_losses(board: Board, bank: Bank, progress: Callable[[int, int], None] |
 
 
 def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, channels: int) -> StageLimits:
-    """Limits that keep every resistor within what it may burn.
+    """Derive limits that keep every resistor within its permitted power.
 
     Parameters
     ----------
     driver : Driver
-        Edges are limited for the waveform that heats its resistor most.
+        The edge rates are limited for the waveform with the highest loss per edge.
     resistor : Resistor
     worst_channel_w : float
-        What the busiest channel burns while it plays all the time: duty is limited for what is really played.
+        Power of the busiest channel of the bank at full duty; it limits the duty.
     channels : int
-        How many share the supply: together they may make that many times the edges of one.
+        Number of channels that share the supply; the total edge rate is this many times that of one channel.
     """
     rate_hz = resistor.permitted_w / worst_edge_j(driver)
     return StageLimits(
@@ -145,7 +161,15 @@ def stage_limits(driver: Driver, resistor: Resistor, worst_channel_w: float, cha
 
 
 def power_report(board: Board, bank: Bank, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
-    """Edges, loss and power of a bank's entries, with the limits that follow.
+    """Summarise edges, loss and power of a bank's entries, and the limits that follow, ready for JSON.
+
+    Parameters
+    ----------
+    board : Board
+    bank : Bank
+        Bank of that board.
+    progress : callable, optional
+        Called with the number of entries done and of all entries.
 
     Raises
     ------

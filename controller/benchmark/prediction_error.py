@@ -1,8 +1,8 @@
-"""How far beside the finger a prediction is: measured on recordings, for several ways to predict.
+"""Prediction figures (touch/README.md, Prediction): distance of predicted from recorded places, for several predictors.
 
-`python -m controller.benchmark.prediction_error FILE...` replays recordings through the board's tracker. After every report it asks
-where each finger will be, by the call and with the arguments of the loop (`Tracker.place`), and compares with the recorded
-track at that time. What no recording shows, stops and turns at a known instant and noise at rest, is made here.
+`python -m controller.benchmark.prediction_error FILE...` replays recordings through the board's tracker. After every report it
+predicts where each finger will be, by the loop's own call (`Tracker.place`), and compares with the recorded track at that
+time. Stops and turns at a known instant and noise at rest, which no recording shows, are synthesised.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from controller.touch.recording import Recording, Track
 from controller.touch.replay import RecordingSource
 
 HORIZONS_MS = (5.0, 10.0, 20.0, 30.0)
-PERIOD_S, SPEED, SIGMA_M = 8e-3, 0.3, 0.05e-3  # of the fingers made here; resolution 0.1 mm
-LAG_MS, AHEAD_S = 10.0, 3.4e-3  # their panel's, and an upload with its emission
-MADE_AXES = "A: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\n"
+PERIOD_S, SPEED_M_PER_S, SIGMA_M = 8e-3, 0.3, 0.05e-3  # of synthesised fingers: report period, speed, noise; resolution 0.1 mm
+LAG_MS, AHEAD_S = 10.0, 3.4e-3  # latency of their panel; duration of an upload with its emission
+SYNTHETIC_AXES = "A: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\n"
 START_M = 0.05
 PHASES = 20
 
@@ -39,15 +39,15 @@ Places = NDArray[np.float64]
 
 
 class LastReport(Motion):
-    """No prediction."""
+    """No prediction: the place last reported."""
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
-        """Take a place."""
+        """Take a reported place; see `Motion.report`."""
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
 
 
 class Kalman(Motion):
-    """Kalman filter of constant velocity; the prediction starts at the last report."""
+    """Constant-velocity Kalman filter; the prediction starts at the last report."""
 
     NOISE_M, ACCELERATION = 0.2e-3, 0.1  # of a report; spectral density, m²/s³. The best of 12 pairs tried
     STARTING_SPEED = 0.3  # m/s, before anything is known
@@ -57,7 +57,7 @@ class Kalman(Motion):
         self._place, self._both, self._velocity = self.NOISE_M**2, 0.0, self.STARTING_SPEED**2  # covariance, the same along x and y
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
-        """Take a place."""
+        """Take a reported place; see `Motion.report`."""
         step_s = _step_s(self, time_s)
         self._place += step_s * (2 * self._both + step_s * self._velocity) + self.ACCELERATION * step_s**3 / 3
         self._both += step_s * self._velocity + self.ACCELERATION * step_s**2 / 2
@@ -75,12 +75,12 @@ class Kalman(Motion):
 
 
 class OneEuro(Motion):
-    """One-euro filter (Casiez, Roussel, Vogel, CHI 2012), its place moved on by its filtered derivative."""
+    """One-euro filter (Casiez, Roussel, Vogel, CHI 2012); its place is extrapolated with its filtered derivative."""
 
     MIN_CUTOFF_HZ, BETA, DERIVATIVE_CUTOFF_HZ = 50.0, 1000.0, 50.0  # beta in Hz per m/s. The best of 36 sets tried
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
-        """Take a place."""
+        """Take a reported place; see `Motion.report`."""
         step_s = _step_s(self, time_s)
         share = _share(self.DERIVATIVE_CUTOFF_HZ, step_s)
         self.vx += share * ((x_m - self._x_m) / step_s - self.vx)
@@ -91,7 +91,7 @@ class OneEuro(Motion):
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
 
     def place(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
-        """From the filtered place on; see `Motion.place`."""
+        """Predict, starting at the filtered place; see `Motion.place`."""
         x_m, y_m = super().place(at_s, known_s, lag_s, period_s)
         return x_m - self.x_m + self._x_m, y_m - self.y_m + self._y_m
 
@@ -105,19 +105,22 @@ METHODS: dict[str, type[Motion]] = {
 
 
 def errors_m(recording: Recording, board: Board, motion: type[Motion], ahead_s: Sequence[float]) -> list[Places]:
-    """Distances of the tracker's predictions from the recorded tracks, as far as these go.
+    """Measure the distance of the tracker's predictions from the recorded tracks.
 
     Parameters
     ----------
+    recording : Recording
+    board : Board
+        Gives plate and touch settings.
     motion : type of Motion
-        How the tracker predicts.
+        Predictor.
     ahead_s : sequence of float
         Horizons, from each report on.
 
     Returns
     -------
     list of (prediction,) float64 arrays
-        For each horizon.
+        Distances in m for each horizon; predictions beyond the end of a track are left out.
     """
     asked, tracks = _asked(recording, board, motion, ahead_s)
     found = []
@@ -132,23 +135,36 @@ def errors_m(recording: Recording, board: Board, motion: type[Motion], ahead_s: 
 
 
 def overshoot_m(motion: type[Motion], *, turns: bool) -> float:
-    """Farthest prediction beyond the place where a finger at `SPEED` stopped or turned, once a report shows it."""
+    """Measure how far predictions overshoot a finger that stops, or `turns` back, once a report shows it.
+
+    Parameters
+    ----------
+    motion : type of Motion
+        Predictor.
+    turns : bool
+        Whether the finger turns back instead of stopping.
+
+    Returns
+    -------
+    float
+        Farthest prediction beyond the stop, in m, over `PHASES` phases of the reports.
+    """
     farthest = -math.inf
     for phase in range(PHASES):
         steps, stop = np.arange(60), 30 + phase / PHASES
         way = np.where(steps <= stop, steps, 2 * stop - steps if turns else stop)
-        along = _made_places(way * PERIOD_S * SPEED, phase, motion)[:, 0] - START_M - stop * PERIOD_S * SPEED
+        along = _predictions(way * PERIOD_S * SPEED_M_PER_S, phase, motion)[:, 0] - START_M - stop * PERIOD_S * SPEED_M_PER_S
         farthest = max(farthest, float(along[math.floor(stop) + 2 :].max()))
     return farthest
 
 
 def rest_m(motion: type[Motion]) -> float:
-    """How far apart the predictions for a finger at rest lie, once it has rested for 20 reports."""
-    return max(float(np.ptp(_made_places(np.zeros(100), seed, motion)[20:], axis=0).max()) for seed in range(PHASES))
+    """Measure the jitter of a predictor, in m: range of predictions for a finger at rest, from its 20th report on."""
+    return max(float(np.ptp(_predictions(np.zeros(100), seed, motion)[20:], axis=0).max()) for seed in range(PHASES))
 
 
 def measure(recordings: Iterable[Recording]) -> dict[str, Any]:
-    """All figures: period and jitter of each recording, errors in mm by method and horizon."""
+    """Make all figures: report period and jitter of each recording; errors in mm by predictor and horizon."""
     board = _board()
     ahead_s = [horizon_ms * 1e-3 for horizon_ms in HORIZONS_MS]
     rates = {}
@@ -173,7 +189,7 @@ def measure(recordings: Iterable[Recording]) -> dict[str, Any]:
 
 
 def table(figures: dict[str, Any]) -> str:
-    """The figures as two tables in Markdown."""
+    """Format the figures of `measure` as two tables in Markdown."""
     lines = ["| recording | fingers | period (ms) | jitter, p95 − p5 (ms) |", "|---|---|---|---|"]
     for name, rate in figures["recordings"].items():
         period, jitter = ("–" if rate[key] is None else f"{rate[key]:.2f}" for key in ("period_ms", "jitter_ms"))
@@ -188,7 +204,7 @@ def table(figures: dict[str, Any]) -> str:
 
 
 def plot(path: Path, figures: dict[str, Any]) -> None:
-    """Draw the 95th percentile of the error over the horizon, one line for each method."""
+    """Draw the 95th percentile of the error over the horizon, one line for each predictor, to a .png, .svg or .pdf file."""
     from matplotlib.figure import Figure  # noqa: PLC0415 - only where a picture is asked for
 
     figure = Figure(figsize=(6, 4), layout="constrained")
@@ -201,7 +217,7 @@ def plot(path: Path, figures: dict[str, Any]) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Measure the recordings named on the command line."""
+    """Run from the command line (`sys.argv` by default); the exit code."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.prediction_error", description="Errors of prediction.")
     parser.add_argument("files", nargs="+", metavar="FILE", type=Path, help="evemu recordings")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -228,7 +244,7 @@ def _board() -> Board:
 def _asked(
     recording: Recording, board: Board, motion: type[Motion], ahead_s: Sequence[float]
 ) -> tuple[list[tuple[int, float, list[tuple[float, float]]]], dict[int, Track]]:
-    """Finger, time and places that the tracker predicts after each report; and where each finger was."""
+    """(finger, time_s, predicted places) after each report, and the recorded track of each finger."""
     axes = recording.axes(board)
     contacts = recording.tracks(axes)
     parts = {finger: [track] for finger, track in contacts.items()}
@@ -256,11 +272,11 @@ def _rate(recording: Recording, board: Board) -> dict[str, Any]:
     return {"period_ms": figures["report_period_ms"], "jitter_ms": figures["report_jitter_ms"], "fingers": tracker.counts.contacts}
 
 
-def _made_places(along_m: Places, seed: int, motion: type[Motion]) -> Places:
-    """Predictions after each report of a finger along x, with a panel's lag, noise and resolution."""
+def _predictions(along_m: Places, seed: int, motion: type[Motion]) -> Places:
+    """(report, 2) predictions for a synthesised finger along x, with latency, noise and resolution of a panel."""
     noise = np.random.default_rng(seed).normal(0, SIGMA_M, (2, len(along_m)))
     raw = np.rint((noise + np.array([along_m, 0 * along_m]) + START_M) * 1e4).astype(int)
-    lines = [MADE_AXES, "E: 0.0 0003 002f 0\nE: 0.0 0003 0039 1\n"]
+    lines = [SYNTHETIC_AXES, "E: 0.0 0003 002f 0\nE: 0.0 0003 0039 1\n"]
     for k, (x, y) in enumerate(raw.T.tolist()):
         lines += [f"E: {k * PERIOD_S:.6f} {code}\n" for code in (f"0003 0035 {x}", f"0003 0036 {y}", "0000 0000 0")]
     lagging = msgspec.structs.replace(_board(), touch=msgspec.structs.replace(_board().touch, lag_ms=LAG_MS))
@@ -271,7 +287,7 @@ def _made_places(along_m: Places, seed: int, motion: type[Motion]) -> Places:
 def _spread_mm(found: list[Places]) -> dict[str, float]:
     all_mm = np.concatenate(found or [np.zeros(0)]) * 1e3
     if not len(all_mm):
-        all_mm = np.zeros(1)  # taps only: nothing to compare with
+        all_mm = np.zeros(1)  # recordings of taps only have nothing to compare
     return {"median": float(np.median(all_mm)), "p95": float(np.quantile(all_mm, 0.95)), "worst": float(all_mm.max())}
 
 
@@ -280,7 +296,7 @@ def _step_s(motion: Motion, time_s: float) -> float:
 
 
 def _share(cutoff_hz: float, step_s: float) -> float:
-    """How much of a new value a low-pass filter of first order takes."""
+    """Weight of a new value in a first-order low-pass filter."""
     return 1 / (1 + 1 / (2 * math.pi * cutoff_hz * step_s))
 
 

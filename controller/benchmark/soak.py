@@ -1,8 +1,8 @@
-"""Hours of recordings through the whole loop, in virtual time: what grows, and what gets slower.
+"""Soak figure: hours of recordings through the whole loop in virtual time; does memory grow, does it get slower?
 
-`python -m controller.benchmark.soak --hours 10 RECORDING...` plays the recordings one behind the other, again and
-again, through tracker, scene, playback, session and the gateware's model, as one run of one loop that never ends
-in between. After each hour of recorded time it notes memory and the latencies of that hour alone.
+`python -m controller.benchmark.soak --hours 10 RECORDING...` plays the recordings in turn, over and over, through tracker,
+scene, playback, session and the gateware's model, in one uninterrupted run of the loop. After each hour of recorded time
+it reports memory and the latencies of that hour.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ from controller.touch.source import Counts, TouchSample
 
 PAUSE_S = 0.5  # between recordings
 HOUR_S = 3600.0
-CAPTURE_S = 10.0  # the simulated pins are forgotten this often
+CAPTURE_S = 10.0  # interval at which the captured pins are discarded
 
 
 @dataclass(frozen=True, slots=True)
 class Hour:
-    """What one hour of recordings cost; times in us, memory in bytes."""
+    """Emissions, latencies, memory and computing time of one hour of recordings."""
 
     emissions: int
     uploads_host_p50_us: float | None
@@ -49,15 +49,15 @@ class Hour:
 
 
 class Playlist:
-    """Recordings one behind the other, again and again; a `TouchSource` whose finger numbers never come twice.
+    """Recordings in turn, over and over; a `TouchSource` that never uses a finger number twice.
 
     Parameters
     ----------
     recordings : sequence of Recording
     board : Board
-        Whose plate they are on.
+        Gives the plate.
     start_s, end_s : float
-        When the first begins, and after when none begins any more.
+        Start of the first recording; time after which no other begins.
     """
 
     def __init__(self, recordings: Sequence[Recording], board: Board, start_s: float, end_s: float) -> None:
@@ -72,19 +72,19 @@ class Playlist:
 
     @property
     def warnings(self) -> Counter[str]:
-        """None: the same recordings' again and again."""
+        """Always empty: the anomalies of recordings would be counted again in each round."""
         return Counter()
 
     def fileno(self) -> None:
-        """Nothing to wait on but time."""
+        """None: there is no file to wait on, only `next_time_s`."""
         return
 
     def next_time_s(self) -> float | None:
-        """When the next report is due; None after the last."""
+        """Time of the next report; None after the last."""
         return None if self._source is None else self._source.next_time_s()
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Samples of the next report if it is due; see `TouchSource.read`."""
+        """Samples of the next report if it is due at `now_s`; see `TouchSource.read`."""
         source = self._source
         if source is None:
             return ()
@@ -101,7 +101,7 @@ class Playlist:
         return samples
 
     def close(self) -> None:
-        """Nothing is held."""
+        """Do nothing: no file is open."""
 
     def _opened(self, start_s: float) -> RecordingSource:
         number = self._number % len(self._recordings)
@@ -110,12 +110,28 @@ class Playlist:
 
 
 def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording], hours: float, note: Any) -> list[Hour]:
-    """Run; `note` is told of each `Hour` as it ends.
+    """Play the recordings for a number of hours of recorded time.
+
+    Parameters
+    ----------
+    board : Board
+    scene : Scene
+    bank : Bank
+        Holds the cells of the scene.
+    recordings : sequence of Recording
+    hours : float
+        Recorded time.
+    note : callable
+        Called with each `Hour` as it ends.
+
+    Returns
+    -------
+    list of Hour
 
     Raises
     ------
     FaultError, LinkError
-        As the event loop does.
+        From the event loop.
     """
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
@@ -135,7 +151,7 @@ def soak(board: Board, scene: Scene, bank: Bank, recordings: Sequence[Recording]
 
     def _note(_: float) -> None:
         counters, wall_s = assembly.counters, time.perf_counter()
-        link.take_capture()  # what the simulated pins did is no memory of the loop's
+        link.take_capture()  # captured pins are not the loop's memory
         hour = _hour(counters, counters.emissions - int(state["emissions"]), wall_s - state["wall_s"])
         state["emissions"], state["wall_s"] = counters.emissions, wall_s
         counters.upload_latency, counters.resident_latency = Stages(), Stages()
@@ -156,7 +172,7 @@ def _hour(counters: Counters, emissions: int, wall_s: float) -> Hour:
 
 
 def _rss_bytes() -> int:
-    """Memory of this process that is its own: without the bank's pages, which are the file's (proc(5), status)."""
+    """Anonymous memory of this process: without the pages of the bank, which are file-backed (proc(5), status)."""
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith("RssAnon:"):
             return int(line.split()[1]) * 1024
@@ -164,7 +180,7 @@ def _rss_bytes() -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run from the command line; exit code 1 if memory has grown by more than 1 MB."""
+    """Run from the command line (`sys.argv` by default); exit code 1 if memory has grown by more than 1 MB."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.soak", description=(__doc__ or "").splitlines()[0])
     parser.add_argument("recordings", nargs="+", metavar="RECORDING", help="evemu files")
     parser.add_argument("--board", default="simulated", metavar="B")
@@ -191,7 +207,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _grown_bytes(sizes: list[int]) -> int:
-    """From the first half to the second, the least of each: what is taken and given back in between is no growth."""
+    """Growth from the first to the second half, by the minimum of each: memory that is returned does not count."""
     half = len(sizes) // 2
     return min(sizes[half:]) - min(sizes[:half]) if half else 0
 

@@ -1,10 +1,10 @@
-"""Load on the application socket: many commands a second for a minute, each answered once, and what it cost.
+"""Figure of the application socket under load: many commands a second for a minute, each answered exactly once.
 
     python -m controller.benchmark.socket_load --seconds 60 --rate 2000 [--clients 2] [--places 24] [--json]
 
-The simulated panel (`served_panel`) runs in a process of its own. Each client keeps its own account of every
-command; at the end the sums are compared with the service's. One command in eight is for a finger that is
-down, as told by a subscription; the others are for places on the plate.
+The simulated panel (`served_panel`) runs in another process. Each client records every command and its answer; at the end
+the sums are compared with the service's counters. One command in eight is for a finger that is down, known from a
+subscription; the others are for places on the plate.
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ from controller.metrics import LatencyHistogram
 
 START_S = 60.0  # for the panel to build its bank
 REST_S = 5.0  # for the last answers
-SETTLED = 0.2  # share of the time after which memory has to be constant
-FOR_FINGERS = 8  # one command in so many
+SETTLED = 0.2  # share of the time after which memory must be constant
+FOR_FINGERS = 8  # one command in this many is for a finger
 MARGIN_MM = 15.0
 RECEIVE_BYTES = 1 << 16
-SENT_AT_ONCE = 32  # before answers are read: who falls behind shall not be let go for not reading
+SENT_AT_ONCE = 32  # commands between two reads: the service disconnects clients that do not read
 OUTCOMES = ("played", "merged", "skipped", "refused")
 
 
 @dataclass
 class Account:
-    """One client: what it asked, and what became of it."""
+    """One client: its connection, the commands that wait for an answer, and the answers counted by outcome."""
 
     socket: socket.socket
     received: bytearray = field(default_factory=bytearray)
@@ -51,18 +51,34 @@ class Account:
     sent: int = 0
     answered: Counter[str] = field(default_factory=Counter)
     reasons: Counter[str] = field(default_factory=Counter)
-    wrong: int = 0  # answers to what was not asked, or was answered already
+    wrong: int = 0  # answers to commands not sent, or answered before
 
 
 def drive(path: str, pid: int, *, seconds: float, rate_hz: float, clients: int, places: int) -> dict[str, Any]:
-    """Send commands evenly, read all answers; figures ready for JSON.
+    """Send commands at a constant rate and read all answers.
 
     Parameters
     ----------
+    path : str
+        Socket of the panel.
     pid : int
-        Of the service, for its memory.
+        Process of the service, whose memory is watched.
+    seconds, rate_hz : float
+        Duration of the load; commands a second, of all clients together.
+    clients : int
+        Number of connections.
     places : int
-        Different points on the plate; a few stay resident in the FPGA, many have to be uploaded.
+        Number of different points on the plate. The waveforms of a few stay resident in the FPGA, those of many are uploaded.
+
+    Returns
+    -------
+    dict
+        Figures, ready for JSON.
+
+    Raises
+    ------
+    LinkError
+        If the panel ends a connection.
     """
     chance = random.Random(1)
     decoder, encoder = messages.message_decoder(), msgspec.json.Encoder()
@@ -202,7 +218,20 @@ def _resident_bytes(pid: int) -> int:
 
 
 def run(options: argparse.Namespace) -> dict[str, Any]:
-    """Start the panel, load it, end it."""
+    """Start the simulated panel, drive it with the options of the command line, and stop it.
+
+    Returns
+    -------
+    dict
+        Figures of `drive`.
+
+    Raises
+    ------
+    ControllerError
+        If the panel does not start.
+    LinkError
+        If it ends a connection.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "panel.sock")
         command = [sys.executable, "-m", "controller.simulation.served_panel", path, "--commands-per-s", "10000"]
@@ -220,7 +249,7 @@ def run(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _wait_for(path: str, panel: subprocess.Popen[bytes]) -> None:
-    """Until the outputs are on."""
+    """Wait until the outputs are on."""
     give_up_s = time.monotonic() + START_S
     while time.monotonic() < give_up_s and panel.poll() is None:
         time.sleep(0.1)
@@ -234,7 +263,7 @@ def _wait_for(path: str, panel: subprocess.Popen[bytes]) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Command line."""
+    """Run from the command line (`sys.argv` by default); exit code 1 unless every command was answered exactly once."""
     parser = argparse.ArgumentParser(
         prog="python -m controller.benchmark.socket_load", description="Load on the application socket."
     )

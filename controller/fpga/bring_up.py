@@ -1,6 +1,6 @@
-"""Bring-up of an FPGA: what it is, whether the link carries every bit, whether its memory keeps them, whether each wire moves.
+"""Bring-up tests of an FPGA: identity, bit errors of the link, waveform memory, and each output channel.
 
-Every step is a function of an open session, so it is the same for the model, the compiled Verilog and a board on a bench.
+Each test is a function of an open session, so that it runs the same on the model, the compiled Verilog and a real board.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from controller.fpga.registers import (
     CHANNELS,
     LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
-    REGISTERS,
     Register,
     Start,
 )
@@ -32,7 +31,7 @@ from controller.fpga.session import Session
 
 SEED = 1
 TEST_FRAMES = 8  # in one message: as many bytes as an upload
-CHIRP_LOW_HZ, CHIRP_HIGH_HZ = 1e3, 20e3  # heard by anybody, and 1 to 2 edges where an emission has 10
+CHIRP_LOW_HZ, CHIRP_HIGH_HZ = 1e3, 20e3  # audible, and 1 to 2 edges where an emission has 10
 CHIRP_REPETITIONS = 20
 CHIRP_DUTY = 0.1
 
@@ -49,25 +48,25 @@ class Clock(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class BitErrors:
-    """Bits sent in TEST frames and what became of them."""
+    """Result of sending random bits in TEST frames."""
 
     frames: int
     frames_refused: int  # by the FPGA, for sync word, length or CRC
     answers_damaged: int
-    bits: int  # that came back, there and back again
+    bits: int  # echoed: they passed the link in both directions
     wrong_bits: int
 
 
 @dataclass(frozen=True, slots=True)
 class BringUpReport:
-    """What bring-up found; `complaints` say what is wrong and what to do, one sentence each."""
+    """Results of bring-up; `complaints` say what is wrong and what to do, one sentence each."""
 
     registers: dict[str, int]
     bit_errors: BitErrors
     slots: int
     slots_damaged: int
-    channels: list[int]  # whose chirps ran to their end
-    channels_moved: list[list[int]] | None  # for each of them, the pins that moved; None without sight of the pins
+    channels: list[int]  # that played all their chirps
+    channels_moved: list[list[int]] | None  # for each of them, the pins that moved; None if the pins cannot be observed
     complaints: list[str]
 
 
@@ -81,20 +80,32 @@ def check(
     progress: Callable[[int, int], None] = lambda *_: None,
     take_capture: Callable[[], Capture] | None = None,
 ) -> BringUpReport:
-    """All of bring-up, one thing after the other; outputs are off at the end.
+    """Run all tests of bring-up; the outputs are off at the end.
 
     Parameters
     ----------
+    session : Session
+    board : Board
+    clock : Clock
     bits : float
-        Random bits to send at least.
+        Least number of random bits to send.
     channels : sequence of int
-        To chirp on.
+        Channels to chirp on.
     pause_s : float
-        Silence behind each channel's chirps, for somebody who listens.
+        Silence after the chirps of each channel, for a listener.
     progress : callable
-        Told of the bits sent and of all there are to send.
+        Called with the number of messages of random bits sent, and of all.
     take_capture : callable or None
-        What the pins did since the last call, where that can be seen.
+        Returns what the pins did since its last call, if they can be observed.
+
+    Returns
+    -------
+    BringUpReport
+
+    Raises
+    ------
+    LinkError
+        If the link fails, or a channel does not play all its chirps.
     """
     rng = np.random.default_rng(SEED)
     registers = identify(session)
@@ -118,29 +129,35 @@ def check(
 
 
 def _moved(capture: Capture) -> list[int]:
-    """Channels whose pins went there and back."""
+    """Channels whose pins changed."""
     changed = int(np.bitwise_or.reduce(capture.words[1:] ^ capture.words[:-1], initial=0))
     return [channel for channel in range(CHANNELS) if changed >> channel & 1]
 
 
 def identify(session: Session) -> dict[str, int]:
-    """Every register that can be read, by its name."""
-    return {register.name.lower(): session.exchange.read(register) for register in Register if REGISTERS[register].access != "WO"}
+    """Values of all readable registers, by name in lower case."""
+    return {register.name.lower(): session.exchange.read(register) for register in Register if register.access != "WO"}
 
 
 def bit_errors(
     session: Session, bits: float, rng: np.random.Generator, progress: Callable[[int, int], None] = lambda *_: None
 ) -> BitErrors:
-    """Send random bits, have them sent back, and count what is wrong with them.
+    """Send random bits in TEST frames, compare them with the echo, and count errors.
 
-    Over a UART nothing is sent back: only refused frames and damaged answers are counted.
+    A UART has no echo: only refused frames and damaged answers are counted.
 
     Parameters
     ----------
+    session : Session
     bits : float
-        To be sent, at least.
+        Least number of bits to send.
+    rng : numpy.random.Generator
     progress : callable
-        Told how many were sent so far, and of how many.
+        Called with the number of messages sent, and of all.
+
+    Returns
+    -------
+    BitErrors
     """
     exchange = session.exchange
     frame_bytes = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size
@@ -167,19 +184,42 @@ def bit_errors(
 
 
 def read_slot(session: Session, slot: int, length_words: int) -> bytes:
-    """The first words of a slot, out of the FPGA's memory.
+    """Read the first words of a slot from the FPGA's memory.
+
+    Parameters
+    ----------
+    session : Session
+    slot : int
+    length_words : int
+
+    Returns
+    -------
+    bytes
+        4 for each word.
 
     Raises
     ------
     Refused
-        If the slot holds fewer.
+        If the slot holds fewer words.
     """
     words = [session.exchange.read_address(READ_MEMORY + 1024 * slot + word) for word in range(length_words)]
     return np.array(words, "<u4").tobytes()
 
 
 def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> int:
-    """Fill every slot with random words, have them checked and read back; how many slots did not keep them."""
+    """Fill every slot with random words, read them and their CRC back, and count the slots that differ.
+
+    Parameters
+    ----------
+    session : Session
+    board : Board
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    int
+        Slots that did not keep their words.
+    """
     wrong = 0
     for slot in range(board.link.slots):
         words = rng.bytes(4 * board.waveform.samples)
@@ -191,7 +231,7 @@ def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> i
 
 
 def chirp_words(board: Board) -> NDArray[np.uint32]:
-    """(sample,) words of a square chirp on all channels: few edges, and a sound that is heard by ear."""
+    """Drive words of a square chirp on all channels, (samples,) uint32: audible, with few edges."""
     duration_s = board.waveform.duration_s
     time_s = np.arange(board.waveform.samples) * board.waveform.bit_period_s
     cycles = CHIRP_LOW_HZ * time_s + (CHIRP_HIGH_HZ - CHIRP_LOW_HZ) * time_s**2 / (2 * duration_s)
@@ -206,15 +246,30 @@ def channel_self_test(
     pause_s: float = 0.0,
     armed: Callable[[], object] = lambda: None,
 ) -> Iterator[int]:
-    """Chirp on one channel after the other, all others idle; yields each channel behind its chirp.
+    """Play chirps on one channel after another, all others idle, so that a listener finds dead and swapped wires.
 
-    Whoever listens, or looks at the pins, finds dead and swapped wires. Outputs are off at the end. Without a channel
-    nothing is armed.
+    The outputs are off at the end. Without channels nothing is armed.
+
+    Parameters
+    ----------
+    session : Session
+    board : Board
+    clock : Clock
+    channels : sequence of int
+    pause_s : float
+        Silence after the chirps of each channel.
+    armed : callable
+        Called once the outputs are armed.
+
+    Yields
+    ------
+    int
+        Each channel, after its chirps.
 
     Raises
     ------
     LinkError
-        If a channel's chirp did not run to its end.
+        If a channel does not play all its chirps.
     """
     if not channels:
         return

@@ -1,4 +1,4 @@
-"""Which Verilog a bitstream was built from: the link refuses to arm any other."""
+"""Hash of the Verilog from which a bitstream is built; the host refuses to arm any other gateware."""
 
 from __future__ import annotations
 
@@ -8,6 +8,15 @@ from pathlib import Path
 
 def build_hash(folder: Path) -> int:
     """CRC-32 over the bytes of the `.v` and `.vh` files of a folder, in the order of their names.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Returns
+    -------
+    int
+        u32.
 
     Raises
     ------

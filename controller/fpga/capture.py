@@ -1,4 +1,4 @@
-"""What the pins of the FPGA did: the only thing a plate, real or simulated, ever sees."""
+"""A capture of the FPGA's output pins: all that a plate, real or simulated, is driven by."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Capture:
-    """Changes on the output pins, earliest first; ticks are clocks of the FPGA since its reset.
+    """Changes of the output pins, earliest first; ticks are FPGA clocks since reset.
 
     Attributes
     ----------
     ticks : (n,) uint64 array
-        When the channel pins or the high-voltage enable changed, strictly rising.
+        When the channel pins or the high-voltage enable changed, strictly increasing.
     words : (n,) uint32 array
         Channel pins from that tick on; bit q is channel q.
     hv : (n,) uint8 array
         1 where the high-voltage supply is enabled from that tick on.
     focus_ticks : (k,) uint64 array
-        Rises of `focus_o`: t = T of each emission that ran to its end.
+        Rises of `focus_o`: t = T of each completed emission.
     alive_ticks, waiting_ticks, fault_ticks : (k,) uint64 arrays
         Each change of `hv_alive_o`, `waiting_o` and `fault_o`, which are low at reset.
     miso_ticks, uart_ticks : (k,) uint64 arrays
-        The same of `spi_miso_o`, low at reset, and of `uart_tx_o`, which is high; of the model only if it was told to note them.
+        Each change of `spi_miso_o`, low at reset, and of `uart_tx_o`, high at reset; the model records them only if asked to.
     """
 
     ticks: NDArray[np.uint64]

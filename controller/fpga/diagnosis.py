@@ -1,21 +1,21 @@
-"""What comes back instead of a status, in plain words: which wire, which setting, what to do.
+"""Diagnosis of an answer that is no status: which wire or setting is wrong, and what to do.
 
-Bits are counted as they pass on the wire, most significant bit of each byte first.
+Bits are numbered in the order on the wire, most significant bit of each byte first.
 """
 
 from __future__ import annotations
 
 import zlib
 
+from controller.fpga.frames import FRAME_BYTES as STATUS_BYTES
 from controller.fpga.registers import STATUS_SYNC
 
-STATUS_BYTES = 36  # frames.FRAME_BYTES
 BODY_BITS = 8 * (STATUS_BYTES - 4)
 BITS = 8 * STATUS_BYTES
 SYNC = STATUS_SYNC.to_bytes(2, "little")
-SHIFTS = range(1, 17)  # bits by which an answer is looked for
-ONES_FOR_A_WRONG_BIT = 12  # in our own frame, for which one bit may be damaged
-FEWEST_ONES = 12  # in it, below which it is too like others
+SHIFTS = range(1, 17)  # bits by which an answer may be shifted
+ONES_PER_WRONG_BIT = 12  # in our own frame: one damaged bit is tolerated for so many
+ONES_MIN = 12  # in our own frame: with fewer it resembles other answers too much
 
 LATE = (
     "one bit late or more means that MISO is sampled too early: another SPI mode than 0, a long cable, or SCK too fast;"
@@ -25,14 +25,19 @@ EARLY = "bits are lost at the start: an SPI mode other than 0, or ringing on SCK
 
 
 def diagnose(received: bytes, sent: bytes) -> str:
-    """Say why an answer is no status; one line.
+    """Explain why an answer is no valid status.
 
     Parameters
     ----------
     received : bytes
-        What came back with one frame, from its first byte on.
+        The answer to one frame.
     sent : bytes
         That frame.
+
+    Returns
+    -------
+    str
+        One line: what came back, the likely cause, what to do.
     """
     answer, frame = bytes(received[:STATUS_BYTES]), bytes(sent[:STATUS_BYTES])
     if not answer.strip(b"\0"):
@@ -71,19 +76,19 @@ def _valid(answer: bytes) -> bool:
 
 
 def _crc_matches(bits: int, unknown: int) -> bool:
-    """Whether a status's CRC is that of its body, but for its last bits, which did not come."""
+    """Whether the CRC of a status matches its body, ignoring its last `unknown` bits, which were not received."""
     body = (bits >> 32).to_bytes(BODY_BITS // 8, "big")
     wanted = int.from_bytes(zlib.crc32(body).to_bytes(4, "little"), "big")
     return (wanted ^ bits) & 0xFFFFFFFF < 1 << unknown
 
 
 def _own_bytes(answer: bytes, frame: bytes) -> str | None:
-    """How our own frame came back, at most a few of its bits damaged; None if it did not."""
+    """By how many bits our own frame came back shifted, with at most a few bits damaged; None if it did not come back."""
     theirs, ours = int.from_bytes(answer, "big"), int.from_bytes(frame, "big")
     for shift in (0, *SHIFTS):
         for when, a, b in (("late", theirs, ours >> shift), ("early", theirs >> shift, ours)):
-            wrong = (a ^ b) & (1 << BITS - shift) - 1  # the first bits are those of the line before
-            if wrong.bit_count() <= b.bit_count() // ONES_FOR_A_WRONG_BIT and b.bit_count() >= FEWEST_ONES:
+            wrong = (a ^ b) & (1 << BITS - shift) - 1  # the first bits are from before the frame
+            if wrong.bit_count() <= b.bit_count() // ONES_PER_WRONG_BIT and b.bit_count() >= ONES_MIN:
                 return f", {_bits(shift)} {when}" if shift else ""
     return None
 
@@ -94,18 +99,18 @@ def _late(answer: bytes, shift: int) -> bool:
 
 
 def _early(answer: bytes, shift: int) -> bool:
-    first = int.from_bytes(SYNC, "big") >> 16 - shift  # what must have been lost
+    first = int.from_bytes(SYNC, "big") >> 16 - shift  # the bits that were lost
     moved = first << BITS - shift | int.from_bytes(answer, "big") >> shift
     return moved.to_bytes(STATUS_BYTES, "big").startswith(SYNC) and _crc_matches(moved, 0)
 
 
 def _slip(answer: bytes) -> str:
-    """Where one bit came twice or not at all, if the rest is right."""
+    """Which bit was received twice or not at all, if everything else is right; else empty."""
     if not answer.startswith(SYNC):
         return ""
     bits = int.from_bytes(answer, "big")
     for place in range(16, BITS):
-        low = BITS - place  # bits behind the place
+        low = BITS - place  # bits after the place
         head, tail = bits >> low, bits & (1 << low) - 1
         once = head << low | (tail << 1 & (1 << low) - 1)
         if _crc_matches(once, 1):

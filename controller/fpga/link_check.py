@@ -1,4 +1,4 @@
-"""How good the wires to an FPGA are: errors at each SCK, a bound for what was not seen, and the SCK that follows."""
+"""Quality of the link to an FPGA: bit errors at several SCK rates, a bound of the error rate, and a recommended SCK."""
 
 from __future__ import annotations
 
@@ -31,18 +31,30 @@ class ClockedLink(Link, Protocol):
     Attributes
     ----------
     sck_hz : float
-        What it is now.
+        Actual SCK.
     """
 
     sck_hz: float
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Ask for another one, at most the board's; what it is then."""
+        """Set SCK, at most to the board's; returns the actual SCK in Hz."""
 
 
 @dataclass(frozen=True, slots=True)
 class SpeedResult:
-    """What random bits met at one SCK."""
+    """Result of sending random bits at one SCK.
+
+    Attributes
+    ----------
+    asked_hz : int
+        SCK asked for.
+    sck_hz : float
+        Actual SCK.
+    bits, errors : int
+        Bits that were checked, and errors among them.
+    trouble : str
+        Why nothing could be measured; empty if it could.
+    """
 
     asked_hz: int
     sck_hz: float
@@ -52,25 +64,35 @@ class SpeedResult:
 
     @property
     def good(self) -> bool:
-        """No error at all."""
+        """Whether there was no error at all."""
         return not self.errors and not self.trouble
 
 
 def error_rate_bound(errors: int, bits: int, confidence: float = CONFIDENCE) -> float:
-    """The bit-error rate that is not exceeded, with this confidence: for no errors in N bits, 3 / N at 95 %.
+    """Upper bound of the bit-error rate: for no errors in N bits, 3 / N at 95 %.
 
-    The exact bound of a Poisson count: the mean at which so few errors would be seen with 1 - confidence only.
+    Parameters
+    ----------
+    errors, bits : int
+        Errors seen in so many bits.
+    confidence : float
+        Probability with which the bound holds.
+
+    Returns
+    -------
+    float
+        Exact bound of a Poisson count: the rate at which so few errors have the probability 1 - confidence. 1 without bits.
     """
     if not bits:
         return 1.0
 
-    def so_few(mean: float) -> float:
+    def probability(mean: float) -> float:
         return math.fsum(math.exp(k * math.log(mean) - mean - math.lgamma(k + 1)) for k in range(errors + 1))
 
     low, high = 1e-9, errors + 10 * math.sqrt(errors + 1) + 10
     for _ in range(100):
         middle = (low + high) / 2
-        if so_few(middle) > 1 - confidence:
+        if probability(middle) > 1 - confidence:
             low = middle
         else:
             high = middle
@@ -78,7 +100,17 @@ def error_rate_bound(errors: int, bits: int, confidence: float = CONFIDENCE) -> 
 
 
 def bit_error_count(found: BitErrors) -> tuple[int, int]:
-    """(bits, errors): one damaged bit may show twice, in a refused frame and in its echo."""
+    """Bits checked and errors among them; one damaged bit may show twice, as a refused frame and in its echo.
+
+    Parameters
+    ----------
+    found : BitErrors
+
+    Returns
+    -------
+    (int, int)
+        Bits and errors. Without echo (UART) all bits sent and the frames and answers that were damaged.
+    """
     return found.bits or 8 * LOAD_FRAME_BYTES * found.frames, max(found.wrong_bits, found.frames_refused + found.answers_damaged)
 
 
@@ -90,12 +122,25 @@ def sweep(
     rng: np.random.Generator,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> list[SpeedResult]:
-    """Send random bits at each step up to `limit_hz`; the link is left at the slowest.
+    """Send random bits at nine SCK rates up to `limit_hz`; leaves the link at the slowest.
 
     Parameters
     ----------
+    session : Session
+        On `link`.
+    link : ClockedLink
+    limit_hz : int
+        Highest SCK.
     bits : float
-        To send at each step, at least.
+        Least number of bits to send at each rate.
+    rng : numpy.random.Generator
+    progress : callable
+        Called with the number of rates done and of all.
+
+    Returns
+    -------
+    list of SpeedResult
+        Slowest first.
     """
     speeds = []
     for number, step in enumerate(SWEEP_STEPS):
@@ -112,18 +157,36 @@ def sweep(
 
 
 def proposed_sck_hz(speeds: Sequence[SpeedResult]) -> int | None:
-    """The SCK to ask for: the fastest without an error at it or below, and at most 0.8 of the slowest that had one.
+    """Recommended SCK in Hz: the fastest without an error that is at most 0.8 times the slowest with one.
 
-    None if even the slowest had one.
+    Parameters
+    ----------
+    speeds : sequence of SpeedResult
+
+    Returns
+    -------
+    int or None
+        None if every rate is too near to one with errors, or has some.
     """
     failed_hz = min((speed.asked_hz for speed in speeds if not speed.good), default=math.inf)
     return max((speed.asked_hz for speed in speeds if speed.good and speed.asked_hz <= MARGIN * failed_hz), default=None)
 
 
 def measured_sck_hz(session: Session, link: Link) -> float:
-    """SCK by the clock on the wall: what a long frame takes more than a short one; the system call itself falls out.
+    """SCK measured by the time that a long frame takes more than a short one, which cancels the time of the system call.
 
-    Right where a transfer is not delayed by other work: the median of a few is taken.
+    The median of 31 of each, since other work on the host may delay some.
+
+    Parameters
+    ----------
+    session : Session
+        On `link`.
+    link : Link
+
+    Returns
+    -------
+    float
+        SCK in Hz; infinite if the times do not differ.
     """
     exchange = session.exchange
     taken_ns: dict[int, list[int]] = {FRAME_BYTES: [], LOAD_FRAME_BYTES: []}

@@ -1,7 +1,7 @@
-"""A link over a UART: the frames of SPI, each COBS-encoded and ended by a zero, for a laptop and a bare board.
+"""A link over a UART, for a laptop and a bare FPGA board: the frames of SPI, each COBS-encoded and ended by a zero byte.
 
-The answer to a frame comes back while the frame is on the wire, so a message goes out in one write and its
-answers are read in order. There is no trigger pin: the trigger is a frame of its own.
+The FPGA answers a frame while it receives it, so a message is written at once and its answers are read in order. Instead of a
+trigger pin there is a TRIGGER command.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from controller.fpga import frames
 from controller.fpga.frames import CRC, FRAME_BYTES, ReadableBuffer
 from controller.fpga.registers import Control, FrameType, Register
 
-LATENCY_S: Final = 0.05  # of host and USB bridge (a latency timer of 16 ms is usual), there and back
+LATENCY_S: Final = 0.05  # round trip through host and USB bridge, whose latency timer is usually 16 ms
 BITS_PER_BYTE: Final = 10  # 8N1
-ANSWER_BYTES: Final = FRAME_BYTES + 2  # on the wire: one COBS code, as no status is 254 bytes long, and the zero
-BATCH_FRAMES: Final = 32  # whose answers, 1.2 kB, any terminal's input buffer (4 kB) holds while the frames are written
-STRAY_BYTES_MAX: Final = 1 << 16  # more than all buffers on the way back
+ANSWER_BYTES: Final = FRAME_BYTES + 2  # on the wire: one COBS code byte, since a status is shorter than 254 bytes, and the zero
+BATCH_FRAMES: Final = 32  # their answers, 1.2 kB, fit the terminal's input buffer (4 kB) while the frames are written
+STRAY_BYTES_MAX: Final = 1 << 16  # more than all buffers between FPGA and host
 SEQUENCE_BYTE: Final = 3  # of a frame and of a status
 
-# Zeros in front of each frame. They end whatever noise has begun, and they leave the FPGA time: it gives no answer to a
-# frame that begins before the answer to the last one has gone, and the shortest frame is as long on the wire as its
-# answer. With these it is 40 bytes against 38, so that a host up to 5 % faster than the FPGA loses no answer.
+# Zeros before each frame. They end anything that noise may have begun. They also give the FPGA time: it does not answer a frame
+# that begins before the previous answer has ended, and the shortest frame is as long on the wire as its answer. With these it is
+# 40 bytes against 38, so that no answer is lost even if the host's baud rate is 5 % higher than the FPGA's.
 GUARD: Final = b"\0\0"
 
 
 def on_wire(frame: ReadableBuffer) -> bytes:
-    """Encode a frame as it goes over the wire."""
+    """Encode a frame for the wire: zeros, COBS, zero."""
     encoded: bytes = cobs.encode(bytes(frame))
     return GUARD + encoded + b"\0"
 
@@ -46,13 +46,13 @@ class SerialLink:
     Parameters
     ----------
     device : str
-        Such as /dev/ttyUSB0, or better a name below /dev/serial/by-id.
+        Path of the port, such as /dev/ttyUSB0, or better one below /dev/serial/by-id.
     baud : int
-        Rate that the gateware was built for.
+        Baud rate that the gateware was built for.
     now_s : callable
         The loop's clock.
     latency_s : float
-        How long an answer may take beyond its time on the wire.
+        Longest delay of an answer beyond its time on the wire.
 
     Raises
     ------
@@ -71,24 +71,24 @@ class SerialLink:
         self._frame = bytearray(FRAME_BYTES)
         self._sequence: int | None = None  # of the last frame sent, which the next answer is about
         self._message = 0  # number of the last frame of a message
-        self._owed = 0  # answers to triggers, not read yet
+        self._pending = 0  # answers to triggers that were not read yet
         self._unsure = True  # what is in the input may belong to other frames
         self._free_s = now_s()
         self._port = self._opened()
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames and store the status that answers each at the frame's place, with zeros behind it.
+        """Send frames and store each answer at the frame's offset, with zeros after it; parameters as in `Link.exchange`.
 
         Raises
         ------
         LinkError
-            If an answer is missing or damaged, or the port fails; it is opened again at the next call then.
+            If an answer is missing or damaged, or the port fails; the next call opens a failed port again.
         """
         started_ns = time.perf_counter_ns()
         if not self._port.is_open:
             self._port = self._opened()
         try:
-            if self._unsure or self._port.in_waiting > self._owed * ANSWER_BYTES:
+            if self._unsure or self._port.in_waiting > self._pending * ANSWER_BYTES:
                 self._resynchronise()
             self._unsure = True
             doubtful = False
@@ -103,7 +103,7 @@ class SerialLink:
                     self._sequence = sent[start + SEQUENCE_BYTE] if length > SEQUENCE_BYTE else None
                     start += length
             self._message = self._sequence or 0
-            self._unsure = doubtful  # a frame was refused, or the answers have slipped: the caller sees that something is wrong
+            self._unsure = doubtful  # a frame was refused, or answers are out of step; the caller notices by the sequence number
         except OSError as error:  # serial.SerialException is one
             self.close()
             raise LinkError(f"{self._device} failed ({error}): is it still plugged in, and does nothing else use it?") from error
@@ -111,11 +111,19 @@ class SerialLink:
             self.blocked_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
-        """Send the command that does what the trigger pin would; when it has arrived.
+        """Send a TRIGGER command; its answer is read with the next message.
 
-        The answer is read with the next message. A USB bridge may hold it back for another millisecond.
+        Returns
+        -------
+        float
+            When its last bit is sent, on the loop's clock; a USB bridge may add a millisecond.
+
+        Raises
+        ------
+        LinkError
+            If the port fails.
         """
-        # Half the circle away from the next message, so that this frame never passes for one of its own
+        # half the range away from the next message, so that it is never taken for one of that message's frames
         sequence = (self._message + 0x80) & 0xFF
         frames.pack_short(self._frame, 0, FrameType.WRITE, sequence, Register.CONTROL, Control.TRIGGER)
         try:
@@ -124,40 +132,40 @@ class SerialLink:
             self._unsure = True
             self.close()
             raise LinkError(f"{self._device} failed ({error}): is it still plugged in?") from error
-        self._owed += 1
+        self._pending += 1
         self._sequence = sequence
         return self._free_s
 
     def wire_free_s(self) -> float:
-        """When what was sent so far has gone."""
+        """When everything sent so far has left the wire, on the loop's clock."""
         return self._free_s
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Release the port."""
         with contextlib.suppress(OSError):
             self._port.close()
 
     def _opened(self) -> serial.Serial:
-        """The port, ours alone; what is in its input may be anything."""
+        """Open the port exclusively; its input may hold anything."""
         longest_s = self._wire_s(BATCH_FRAMES * (frames.LOAD_FRAME_BYTES + 8))
         try:
             port = serial.Serial(self._device, self._baud, timeout=self._latency_s, write_timeout=longest_s + 1, exclusive=True)
         except (OSError, ValueError) as error:
             raise LinkError(_why_not_open(self._device, self._baud, error)) from error
         with contextlib.suppress(OSError, ValueError, NotImplementedError, AttributeError):
-            port.set_low_latency_mode(True)  # 1 ms instead of 16 with many bridges; others do not know it
+            port.set_low_latency_mode(True)  # 1 ms instead of 16 with many bridges; not supported by others
         self._unsure = True
         return port
 
     def _batch(self, sent: memoryview, lengths: Sequence[int]) -> list[bytes]:
-        """Send some frames; their answers."""
+        """Send some frames and read their answers."""
         wire = bytearray()
         start = 0
         for length in lengths:
             wire += on_wire(sent[start : start + length])
             start += length
-        owed, self._owed = self._owed, 0
-        count = owed + len(lengths)
+        pending, self._pending = self._pending, 0
+        count = pending + len(lengths)
         deadline_s = time.monotonic() + self._latency_s + self._wire_s(len(wire) + count * ANSWER_BYTES)
         self._write(wire, start)
         data = b""
@@ -165,11 +173,11 @@ class SerialLink:
             data += self._port.read(count * ANSWER_BYTES - len(data))
         lines = data.split(b"\0")
         if len(lines) != count + 1 or lines[-1]:
-            raise LinkError(self._what_is_missing(data, len(lines) - 1, count))
-        return [self._decoded(line) for line in lines[owed:-1]]
+            raise LinkError(self._missing_answers(data, len(lines) - 1, count))
+        return [self._decoded(line) for line in lines[pending:-1]]
 
     def _decoded(self, line: bytes) -> bytes:
-        """One status out of its line, if it is whole and its CRC right."""
+        """Decode one answer and check its length and CRC."""
         try:
             answer: bytes = cobs.decode(line)
         except cobs.DecodeError:
@@ -183,7 +191,7 @@ class SerialLink:
     def _advice(self) -> str:
         return f"check the cable, or build the gateware for a lower rate than {self._baud} baud"
 
-    def _what_is_missing(self, data: bytes, came: int, wanted: int) -> str:
+    def _missing_answers(self, data: bytes, came: int, wanted: int) -> str:
         if not data:
             return (
                 f"{self._device} does not answer: is it the panel's port, and is gateware loaded that listens there at"
@@ -192,9 +200,9 @@ class SerialLink:
         return f"{self._device}: {came} of {wanted} answers came back whole; {self._advice}"
 
     def _resynchronise(self) -> None:
-        """End what the FPGA may take for the beginning of a frame, and forget its answers."""
+        """End a partial frame in the FPGA's receiver, and discard all pending answers."""
         self._port.write(GUARD)
-        self._owed = 0
+        self._pending = 0
         strays = 0
         while stray := self._port.read(STRAY_BYTES_MAX):  # returns empty when nothing came for latency_s
             strays += len(stray)

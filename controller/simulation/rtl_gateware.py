@@ -1,7 +1,7 @@
-"""The gateware itself, as Verilator compiles it: slower than the model, and nothing in it is a second opinion.
+"""The compiled Verilog as a `Gateware`: slower than the model, but the code that the FPGA runs.
 
-The library keeps clock, SPI and recording to itself (fpga_rtl/simulation/wrapper.cpp); what passes here is whole
-frames and whole captures.
+The library contains clock, SPI and the recording of pins (fpga_rtl/simulation/wrapper.cpp); only whole frames and whole
+captures pass through this module.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ class RtlGateware:
     Parameters
     ----------
     parameters : Parameters
-        Of the module.
+        Parameters of the Verilog module.
     compiling : callable
-        Called before the library has to be built, which takes several seconds.
+        Called before the library is built, which takes several seconds.
 
     Raises
     ------
     LinkError
-        If there is no library and none can be built.
+        If the library cannot be built.
     """
 
     def __init__(self, parameters: Parameters, compiling: Callable[[], None] = lambda: None) -> None:
@@ -52,27 +52,27 @@ class RtlGateware:
 
     @property
     def now(self) -> int:
-        """The tick it has come to."""
+        """Tick up to which it has been computed."""
         return int(self._library.panel_now(self._panel))
 
     def advance(self, tick: int) -> None:
-        """Go to `tick`; a tick already passed changes nothing."""
+        """Compute up to `tick`; earlier ticks change nothing."""
         self._library.panel_run(self._panel, max(tick, 0))
 
     def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
-        """Drive a permit pin to `level` at `tick`; both are low at tick 0."""
+        """Drive the permit pin `which` to `level` at `tick`; both pins are low at tick 0."""
         self._not_past("a permit changes", tick)
         self._library.panel_set(self._panel, PINS[which], tick, level)
 
     def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
-        """Raise the trigger pin at `tick`; see `Gateware`."""
+        """Raise the trigger pin at `tick` for `high_ticks`; see `Gateware`."""
         self._not_past("the trigger rises", tick)
         self._timing.trigger(tick, high_ticks)
         self._library.panel_set(self._panel, TRIGGER, tick, True)
         self._library.panel_set(self._panel, TRIGGER, tick + high_ticks, False)
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """One chip-select assertion, SCK fitted evenly between its edges; it has come to `release_tick` then."""
+        """Exchange a frame, SCK evenly spaced between two edges of chip select; computed up to `release_tick`."""
         self._not_past("chip select falls", select_tick)
         sent = np.frombuffer(mosi, np.uint8) if len(mosi) else np.empty(0, np.uint8)
         self._timing.frame(select_tick, release_tick, sent.size)
@@ -81,7 +81,7 @@ class RtlGateware:
         miso[:] = received.data
 
     def uart(self, tick: int, wire: bytes) -> int:
-        """Send bytes over the UART, back to back, the first start bit at `tick`; the tick in which the last stop bit ends."""
+        """Send the bytes of `wire` over the UART without gaps from `tick` on; the tick at which the last stop bit ends."""
         self._not_past("a byte begins", tick)
         for number, byte in enumerate(wire):
             for bit, level in enumerate((0, *(byte >> bit & 1 for bit in range(8)), 1)):
@@ -89,7 +89,7 @@ class RtlGateware:
         return self._uart.bit_tick(tick, len(wire), 0)
 
     def wave(self, levels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """Drive the link's pins tick by tick from now on: what a damaged line does, beyond any frame.
+        """Drive the SPI pins tick by tick from `now` on, to simulate damaged lines.
 
         Parameters
         ----------
@@ -99,14 +99,14 @@ class RtlGateware:
         Returns
         -------
         (tick,) uint8 array
-            MISO behind each tick.
+            MISO after each tick.
         """
         miso = np.empty(levels.size, np.uint8)
         self._library.panel_wave(self._panel, levels.size, levels.ctypes.data, miso.ctypes.data)
         return miso
 
     def take_capture(self) -> Capture:
-        """Everything that happened on the output pins since the last capture, up to now."""
+        """Return and clear the recorded changes of the output pins since the last capture."""
         changes = self._library.panel_changes(self._panel)
         capture = Capture(
             np.empty(changes, np.uint64),
@@ -128,7 +128,7 @@ class RtlGateware:
 
 @cache
 def _load(path: Path) -> Any:
-    """The library with the types of its functions; loaded once and never let go."""
+    """Load the library once and declare its functions; it is never unloaded."""
     library = ctypes.CDLL(str(path))
     panel, tick, number, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
     for name, result, arguments in (

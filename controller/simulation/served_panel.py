@@ -2,9 +2,8 @@
 
     python -m controller.simulation.served_panel /tmp/panel.sock
 
-Everything but the FPGA and the touch panel is what runs on the device: loop, scene, bank, socket, scheduling. The
-FPGA is its model; two fingers go to and fro for ever. It ends with SIGTERM or Ctrl-C. With --background the command
-returns when the panel plays, and the panel goes on.
+Loop, scene, bank, socket and scheduling are those of the device. The FPGA is its model; two fingers move back and forth.
+SIGTERM or Ctrl-C ends it. With --background the command returns once the panel plays, and the panel keeps running.
 """
 
 from __future__ import annotations
@@ -43,28 +42,36 @@ from controller.touch.replay import RecordingSource
 
 PITCH_M = 5e-3  # of the bank: the whole plate in a second
 REPORT_S = 1 / 60
-FINGERS_MM = ((60.0, 50.0), (150.0, 95.0))  # where they go to and fro
+FINGERS_MM = ((60.0, 50.0), (150.0, 95.0))  # centres of their movement
 SWING_MM, SWING_S = 20.0, 4.0
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
-DRAIN_S = 1.0  # what the simulated pins did is forgotten this often
+DRAIN_S = 1.0  # interval at which the captured pins are discarded
 
 
 def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: float, ready: Callable[[], None]) -> None:
-    """Run the simulated panel until a signal comes.
+    """Run the simulated panel until SIGTERM or SIGINT.
 
     Parameters
     ----------
+    board : Board
     settings : ApplicationSocket
-        Of the socket, in place of the board's.
+        Settings of the socket, instead of the board's.
+    bank : Bank
+        Bank of the whole plate.
     touched_s : float
-        For how long the two fingers are down.
+        How long the two fingers are down.
     ready : callable
-        Called when the panel is armed.
+        Called once the outputs are on.
+
+    Raises
+    ------
+    ControllerError
+        If scene or socket cannot be opened, or from the event loop.
     """
     clock = MonotonicClock()
     scene = load_scene(find_scene(board), board)
     populate(bank, scene, board.scene)
-    recording = Recording(_to_and_fro(touched_s), "two fingers to and fro")
+    recording = Recording(_back_and_forth(touched_s), "two fingers that move back and forth")
     commands = CommandSocket(board, settings)
     link = open_simulated(board, clock.now_s)
     session = open_session(link, board, clock.now_s)
@@ -105,8 +112,8 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
         link.close()
 
 
-def _to_and_fro(seconds: float) -> str:
-    """Recording of two fingers that stay down."""
+def _back_and_forth(seconds: float) -> str:
+    """Recording of two fingers that stay down and move back and forth."""
     lines = [AXES]
     for number in range(math.ceil(seconds / REPORT_S)):
         at_s = number * REPORT_S
@@ -119,13 +126,13 @@ def _to_and_fro(seconds: float) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Command line."""
+    """Run from the command line (`sys.argv` by default); the exit code."""
     parser = argparse.ArgumentParser(prog="python -m controller.simulation.served_panel", description=__doc__)
-    parser.add_argument("socket", metavar="SOCKET", help="where to make the application socket")
+    parser.add_argument("socket", metavar="SOCKET", help="path of the application socket to create")
     parser.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
-    parser.add_argument("--commands-per-s", type=float, default=500.0, metavar="N", help="that one client may send (default: 500)")
-    parser.add_argument("--touched-s", type=float, default=3600.0, metavar="S", help="for how long the fingers are down")
-    parser.add_argument("--background", action="store_true", help="return when the panel plays; it goes on until it is ended")
+    parser.add_argument("--commands-per-s", type=float, default=500.0, metavar="N", help="rate limit of one client (default: 500)")
+    parser.add_argument("--touched-s", type=float, default=3600.0, metavar="S", help="how long the fingers are down")
+    parser.add_argument("--background", action="store_true", help="return once the panel plays; it keeps running until it is ended")
     parser.add_argument("--ready-fd", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     if options.background:
@@ -157,7 +164,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _in_background(arguments: Sequence[str]) -> int:
-    """Start this again as a process of its own; 0 when it plays, else the exit code with which it ended."""
+    """Start this module as another process; 0 once the panel plays, else the exit code of that process."""
     own = [argument for argument in arguments if argument != "--background"]
     told, tells = os.pipe()
     with os.fdopen(told, "rb") as answer:

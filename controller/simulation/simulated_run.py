@@ -1,8 +1,8 @@
-"""A whole run on a simulated panel: recording, event loop, gateware, plate, and what came of it.
+"""A whole run on a simulated panel: recording, event loop, gateware and plate, and the figures of every focus.
 
-The loop runs first, against the model of the gateware or its compiled Verilog. Only then the plate twin looks at the captured
-channel pins, so that its computing cannot disturb any latency. What was meant (which finger, which
-point) comes from the loop's own account; where the finger really was at T, from the recording.
+The loop runs first, against the gateware model or the compiled Verilog. The plate twin evaluates the captured channel pins
+only afterwards, so that its computing time does not affect latencies. The intended finger and point come from the loop's
+record of what it played; the finger's true place at T comes from the recording.
 """
 
 from __future__ import annotations
@@ -37,51 +37,53 @@ from controller.touch.replay import RecordingSource
 from controller.touch.reports import describe_warnings
 
 SETTLE_S = 50e-3  # between arming and the first event of the recording
-REAL_SETTLE_S = 0.3  # in real time, on a busy machine
+REAL_SETTLE_S = 0.3  # the same in real time, for a busy machine
 REFERENCE_ROUNDS = 2000
-SPOILED_S = 10e-3  # of the host, late: a finger goes on by a third of a spot meanwhile, and where it was aimed at is no more
+SPOILED_S = (
+    10e-3  # host latency from which figures of foci are not those of the panel: a finger moves by a third of a spot meanwhile
+)
 Point = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Focus:
-    """One focus of one emission, as the finger under it would have met it."""
+    """One focus of one emission, evaluated where its finger was at T."""
 
     time_s: float  # T, in the recording's time
     emission: Emission
-    x_m: float  # the finger at T; an untracked spot itself
+    x_m: float  # true place of the finger at T; of an emission without a finger, its own place
     y_m: float
-    relative_amplitude: float  # over what this point could have alone
-    exact_share: float  # over what was asked for: its amplitude of what exact composition at the fingers' places gives it
+    relative_amplitude: float  # relative to a single focus at this point
+    exact_share: float  # relative to exact composition at the fingers' true places, times the amplitude asked for
     metrics: FocusMetrics
-    distance_m: float  # from there to the crest of the spot
+    distance_m: float  # from there to the maximum of the spot
 
 
 @dataclass(frozen=True)
 class Judged:
-    """Every focus of a run, and the field and foci of the one moment most worth a picture."""
+    """Every focus of a run, and the field and foci of the emission chosen for the picture."""
 
     foci: list[Focus]
     field: Field | None
     shown: list[Focus]
-    left_out: int  # emissions not judged, because of Ctrl-C or SIGTERM
+    left_out: int  # emissions not evaluated, because of Ctrl-C or SIGTERM
 
 
 @dataclass(frozen=True)
 class Run:
-    """What the loop did; `capture` is all that the plate gets to see."""
+    """Record of a run. The plate twin sees only `capture`; everything else is for the figures."""
 
     board: Board
     recording: Recording
     source: RecordingSource
-    tracks: dict[int, Track]  # by the loop's numbers: of all contacts that were the finger
+    tracks: dict[int, Track]  # by the loop's finger number: all contacts of that finger joined
     counters: Counters
     capture: Capture
     played: list[Played]
     link: SimulatedLink
     start_s: float
     real_time: bool
-    touch: dict[str, Any]  # of the tracker
+    touch: dict[str, Any]  # figures of the tracker
     lookups: int
     response_mapped: bool
     reference: LatencyHistogram
@@ -101,17 +103,27 @@ def play(
 
     Parameters
     ----------
+    board : Board
+    scene : Scene
+    bank : Bank
+        Holds the cells of the scene.
+    recording : Recording
+        Touches; without any, nothing is played.
     real_time : bool
-        Else in virtual time, as fast as the machine goes and the same every time.
+        False: virtual time, as fast as the machine can and deterministic.
     ready : callable
-        Called when the simulated panel is armed.
+        Called once the outputs are on.
     gateware : GatewareFactory
-        What computes the gateware's pins.
+        Makes the gateware: the model by default, or the compiled Verilog.
+
+    Returns
+    -------
+    Run
 
     Raises
     ------
     FaultError, LinkError
-        As the event loop does.
+        From the event loop.
     """
     clock = MonotonicClock() if real_time else VirtualClock()
     link = open_simulated(board, clock.now_s, gateware)
@@ -147,9 +159,19 @@ def play(
 
 
 def spoiled(counters: Counters, real_time: bool) -> str:
-    """Why the figures of the foci tell of this machine and not of the panel; empty: they tell of the panel.
+    """Explain why the figures of the foci are those of a busy machine and not of the panel.
 
-    In virtual time what this machine does meanwhile changes nothing.
+    Parameters
+    ----------
+    counters : Counters
+        Of the run.
+    real_time : bool
+        Whether it ran in real time; in virtual time a busy machine changes nothing.
+
+    Returns
+    -------
+    str
+        Empty: the figures are those of the panel.
     """
     if not real_time:
         return ""
@@ -157,14 +179,16 @@ def spoiled(counters: Counters, real_time: bool) -> str:
     late_s = max(stage.worst_ns for stage in stages) * 1e-9
     advice = "end other work, or replay with --speed max"
     if counters.host_silent:
-        return f"this machine was busy: the host fell silent ({counters.host_silent} ×) and the FPGA switched off; {advice}"
+        return (
+            f"this machine was busy: the host stopped its heartbeat ({counters.host_silent} ×) and the FPGA switched off; {advice}"
+        )
     if late_s > SPOILED_S:
         return f"this machine was busy: the host was late by {late_s * 1e3:.0f} ms, and fingers had moved on; {advice}"
     return ""
 
 
 def copy_and_checksum(size: int) -> LatencyHistogram:
-    """Time of what an upload cannot do without: one copy of its bytes and one CRC pass over them."""
+    """Measure one copy and one CRC-32 of `size` bytes, which every upload needs: a lower bound of its host time."""
     histogram = LatencyHistogram()
     source = memoryview(bytes(np.random.default_rng(0).bytes(size)))
     target = memoryview(bytearray(size))
@@ -177,12 +201,17 @@ def copy_and_checksum(size: int) -> LatencyHistogram:
 
 
 def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judged:
-    """Let the plate twin play the captured pins, and judge every focus where its finger was at T; Ctrl-C cuts it short.
+    """Play the captured pins on the plate twin and evaluate every focus where its finger was at T; Ctrl-C ends it early.
 
     Parameters
     ----------
+    run : Run
     progress : callable, optional
-        Told of emissions judged and emissions in all.
+        Called with the number of emissions evaluated and of all emissions.
+
+    Returns
+    -------
+    Judged
     """
     twin = PlateTwin(run.board)
     meant = foci_meant(run)
@@ -201,7 +230,7 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
 
 
 def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
-    """All foci of one emission, each where its finger was."""
+    """Evaluate all foci of one emission, each where its finger was."""
     places = [_place(run.tracks, emission, time_s) for emission in emissions]
     exact_m = twin.exact_amplitudes(tuple(places))
     together = []
@@ -217,7 +246,7 @@ def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissi
 
 
 def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
-    """Every focus tick of the capture with what the loop wanted there: the emissions of the last start before it began."""
+    """(tick, emissions) of every focus in the run's capture: the emissions are those of the last start before it."""
     starts_ticks = [run.link.tick(played.trigger_s) if played.at_ticks is None else played.at_ticks for played in run.played]
     most_ticks = round(0.99 * run.board.waveform.duration_s * run.link.clock_hz)
     meant = []
@@ -227,7 +256,7 @@ def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
 
 
 def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
-    """Most fingers that are apart from all others, then the largest of the weakest focus."""
+    """Rank of an emission for the picture: number of separate fingers, then amplitude of its weakest focus."""
     apart = [
         focus.emission.finger is not None
         and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > OUTSIDE_M for other in foci if other is not focus)
@@ -237,14 +266,14 @@ def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
 
 
 def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:
-    """Where the finger was at T; an untracked spot is where it is."""
+    """True place of the finger at `time_s`; without a finger, the emission's own place."""
     if emission.finger is None:
         return emission.x_m, emission.y_m
     return tracks[emission.finger].position(time_s)
 
 
 def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
-    """All figures of a run, ready for JSON; units are in the names."""
+    """Collect all figures of a run and its `foci`, ready for JSON; units are in the names."""
     counts = run.source.counts
     counters = run.counters
     latency = {
@@ -295,7 +324,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
 
 
 def _figures(foci: list[Focus]) -> dict[str, Any]:
-    """Median and worst of every figure; None without any focus."""
+    """Median and worst of every figure; None for each if there is no focus."""
     columns: dict[str, tuple[list[float], Callable[[list[float]], float]]] = {
         "relative_amplitude": ([f.relative_amplitude for f in foci], min),
         "exact_share": ([f.exact_share for f in foci], min),
@@ -309,7 +338,7 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
 
 
 def _together(tracked: list[Focus]) -> list[dict[str, Any]]:
-    """Emissions by how many fingers they served: the finger that fell shortest of exact composition, and all distances."""
+    """Figures by number of fingers in an emission: `exact_share` of its worst finger, and all distances."""
     moments: dict[float, list[Focus]] = {}
     for focus in tracked:
         moments.setdefault(focus.time_s, []).append(focus)
@@ -331,5 +360,5 @@ def _median_and(worst: Callable[[list[float]], float], all_values: list[float]) 
 
 
 def _known(values: Iterable[float]) -> list[float]:
-    """Those that are numbers: on the plate's very rim nothing can move."""
+    """Finite values only: at the plate's rim the reference amplitude is 0."""
     return [value for value in values if np.isfinite(value)]

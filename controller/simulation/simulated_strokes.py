@@ -1,4 +1,4 @@
-"""A finger and a mouse that slide to and fro as one, as a panel of known lag and a mouse report them."""
+"""Synthetic recording of a finger and a mouse that move together, from a panel of known latency and a mouse."""
 
 from __future__ import annotations
 
@@ -27,24 +27,30 @@ def simulated_strokes(
     duration_s: float = 20.0,
     seed: int = 0,
 ) -> str:
-    """A recording for `lag_figures`.
+    """Make a recording, as text in evemu's format, with which the measurement of latency is tested.
 
     Parameters
     ----------
     board : Board
         Gives the plate, which the panel covers exactly.
     lag_s : float
-        Of the panel's places, in all.
+        Total latency of the panel's places.
     smoothed_s : float
-        Of that, from smoothing: a first-order low-pass with this time constant.
-    period_s, noise_mm
-        Of the panel's reports.
-    mouse_period_s, mouse_age_s
-        From report to report of the mouse, and how old its place is in one.
+        Part of it that comes from smoothing: time constant of a first-order low-pass.
+    period_s, noise_mm : float
+        Report period of the panel; standard deviation of its noise.
+    mouse_period_s, mouse_age_s : float
+        Report period of the mouse; age of the place that it reports.
     turned_deg : float
-        Of the mouse against the plate; it turns and slips a little besides.
-    strokes_hz, reach_mm, duration_s
-        To and fro in a second; how far to each side; how long.
+        Angle of the mouse to the plate; it also turns by 3 degrees and slips by 1 %.
+    strokes_hz, reach_mm, duration_s : float
+        Rate of the strokes, their amplitude, and the length of the recording.
+    seed : int
+        Seed of noise and phases.
+
+    Returns
+    -------
+    str
     """
     random = np.random.default_rng(seed)
     fine_s = np.arange(0.0, duration_s + 0.4, 0.25e-3)

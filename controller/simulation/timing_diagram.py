@@ -2,8 +2,8 @@
 
     .venv/bin/python -m controller.simulation.timing_diagram       # draws them all again
 
-A picture carries the hash of its table, so that a test tells when it is no longer that of the table. Where nothing
-happens for long, time is cut out and the traces are broken.
+A picture contains the hash of its table, so that a test finds pictures that are out of date. Long intervals without a
+change are cut out, and the traces are broken there.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ BUSES: Final = ("frame", "channel")
 ALWAYS: Final = ("channel", "hv_enable", "focus")
 HIGH_AT_FIRST: Final = ("permit", "temperature", "hv_enable")  # while armed
 
-LONGEST_TICKS: Final = 14  # more than that without any change is cut short
+LONGEST_TICKS: Final = 14  # longer intervals without a change are cut
 CUT: Final = 6.0  # to this width, in ticks
 FRAME: Final = 15.0  # or to this one, in which the name of a frame has room
-LEAD: Final = 4.0  # ticks shown before the first change and behind the last
-INCH: Final = 0.17  # a tick
+LEAD: Final = 4.0  # ticks shown before the first change and after the last
+INCH: Final = 0.17  # width of a tick
 LETTER: Final = 0.38  # width of a letter of 7.5 points, in ticks
 RISE: Final = 0.18  # of an edge, in ticks
 ROW: Final = 1.0
@@ -52,7 +52,7 @@ _DIGEST: Final = re.compile(r"table ([0-9a-f]{16})")
 
 
 class TimeAxis:
-    """Where a tick lies in the picture, in ticks as drawn; `cuts` are where time was cut out."""
+    """Horizontal axis of a picture: position of each tick in drawn ticks; `cuts` are the positions of cut intervals."""
 
     def __init__(self, case: Case) -> None:
         frames = {change.tick: change.value for change in case.inputs if change.signal == "frame"}
@@ -77,21 +77,21 @@ class TimeAxis:
 
 
 def pulse_ticks(case: Case, change: Change) -> int:
-    """How long a pulse is high; 0 for what is none."""
+    """Length of a pulse in ticks; 0 if the change is a level."""
     if change.signal == "trigger":
         return int(change.value or TRIGGER_HIGH_TICKS)
     return int(case.bit_ticks) if change.signal == "focus" else 0
 
 
 def length_ticks(text: str) -> int:
-    """How long chip select is low for a frame, at the highest SCK."""
+    """Ticks for which chip select is low during a frame, given as text (`LOAD 0x11*8`), at the highest SCK."""
     kind, *words = text.split()
     payload = max(4 * len(drive_words(" ".join(words))), LOAD_PAYLOAD_MIN_BYTES) if kind == "LOAD" else SHORT_PAYLOAD_BYTES
     return frame_ticks(HEADER.size + payload + CRC.size)
 
 
 def draw(case: Case, path: Path) -> None:
-    """Draw a table to an SVG or PNG file."""
+    """Draw the table of a case to an SVG or PNG file."""
     axis = TimeAxis(case)
     changes = (*case.inputs, *case.outputs)
     signals = [signal for signal in PINS if signal in ALWAYS or any(change.signal == signal for change in changes)]
@@ -117,13 +117,13 @@ def draw(case: Case, path: Path) -> None:
 
 
 def picture_digest(path: Path) -> str | None:
-    """Hash of the table of which an SVG file is the picture; None if it does not say."""
+    """Hash of the table from which an SVG file was drawn; None if the file is absent or contains none."""
     found = _DIGEST.search(path.read_text()) if path.exists() else None
     return found[1] if found else None
 
 
 def _edges(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> list[tuple[float, int]]:
-    """(place, level from there on) of a pin."""
+    """(position, level from there on) of a pin."""
     armed = case.setup == "armed"
     edges = [(0.0, int(signal in HIGH_AT_FIRST and (armed or signal != "hv_enable")))]
     for change in own:
@@ -135,7 +135,7 @@ def _edges(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> li
 
 
 def _stretches(case: Case, axis: TimeAxis, signal: str, own: Sequence[Change]) -> list[tuple[float, float, str]]:
-    """(begin, end, text) of what a bus carries; no text: nothing."""
+    """(begin, end, text) of each value of a bus, by position."""
     if signal == "frame":
         return [(axis.at(change.tick - length_ticks(change.value)), axis.at(change.tick), change.value) for change in own]
     first = IDLE if case.setup == "armed" else "0"
@@ -180,7 +180,7 @@ def _bus(plot: Any, axis: TimeAxis, base: float, stretches: list[tuple[float, fl
 
 
 def _time(plot: Any, axis: TimeAxis, top: float) -> None:
-    """Grid, ticks and breaks; labels too close to each other go to a second line."""
+    """Draw grid, tick labels and breaks; a label too close to the one before goes to a second line."""
     line_of_label, last = 0, -10.0
     for tick in axis.labels:
         place = axis.at(tick)
@@ -197,7 +197,7 @@ def _time(plot: Any, axis: TimeAxis, top: float) -> None:
 
 
 def main(folder: Path | None = None) -> None:
-    """Draw every table."""
+    """Draw every table of a folder, fpga_rtl/timing by default."""
     folder = folder or data_folder("fpga_rtl") / "timing"
     for case in load_cases(folder):
         draw(case, folder / f"{case.name}.svg")

@@ -1,13 +1,13 @@
-"""Timing tables: what is done to the pins at which tick and what they show from which tick on, written by hand.
+"""Timing tables: input changes and expected output changes of the gateware's pins, tick by tick, written by hand.
 
 `fpga_rtl/timing/*.timing.toml` holds them; tests/conformance/test_timing.py performs each on every back-end and
-`timing_diagram` draws it. A file names the ticks its tables count from, and has one [case.<name>] per table:
+`timing_diagram` draws it. A file names ticks, and has one [case.<name>] for each table:
 
     [ticks]
     first = 6                       # first word on the pins
     [case.two_words]
     title = "..."
-    why = "..."                     # what would go wrong
+    why = "..."                     # the fault that it would reveal
     bit_ticks = 4                   # or 4.25
     slots = { 0 = "0x11 0x22*8" }   # stored before tick 0: a word, another one 8 times
     plays = ["slot=0 count=1"]      # accepted before tick 0
@@ -19,9 +19,9 @@
     first+2*bit: -> channel=idle focus
     '''
 
-Rows are `tick: inputs -> outputs`. Tick 0 is any tick, `bit` is a bit period; `trigger` is a pulse (`trigger=2`: of two
-ticks) and `focus` the rise of one, the others are levels from that tick on; `frame="NOP"` is a frame whose chip select rises
-at that tick, `@7` in it tick 7 by the FPGA's clock. What is not in the table does not change.
+Rows are `tick: inputs -> outputs`. Tick 0 is arbitrary, `bit` is a bit period. `trigger` is a pulse (`trigger=2`: of two
+ticks) and `focus` the rising edge of one; the others are levels from that tick on. `frame="NOP"` is a frame whose chip select
+rises at that tick; `@7` in it is tick 7 of the FPGA's clock. Signals that a row does not name do not change.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _NEEDED: Final[dict[str, Any]] = {"title": str, "why": str, "setup": str, "bit_t
 
 @dataclass(frozen=True)
 class Change:
-    """One pin at one tick: `value` is a number, `idle`, the text of a frame, or nothing for a pulse."""
+    """A change of one pin at one tick: `value` is a number, `idle`, the text of a frame, or empty for a pulse."""
 
     tick: int
     signal: str
@@ -59,14 +59,20 @@ class Case:
 
     Attributes
     ----------
+    name, title, why : str
+        Key and title of the table; the fault that it would reveal.
+    setup : str
+        "off" or "armed": state at tick 0.
+    bit_ticks : float
+        Bit period.
+    inputs, outputs : tuple of Change
+        In the order of their ticks.
     slots : dict
         Drive words of each slot that is stored before tick 0.
     plays : tuple of str
         Arguments of each PLAY accepted before tick 0.
     settings : dict
         Value of each register written before arming.
-    inputs, outputs : tuple of Change
-        In the order of their ticks.
     """
 
     name: str
@@ -82,17 +88,17 @@ class Case:
 
     @property
     def last_tick(self) -> int:
-        """The tick of the last row."""
+        """Tick of the last change."""
         return max(change.tick for change in (*self.inputs, *self.outputs))
 
     @property
     def digest(self) -> str:
-        """Hash of all that the table says, by which a picture of it is known."""
+        """Hash of the whole table, stored in its picture."""
         return hashlib.sha256(repr(self).encode()).hexdigest()[:16]
 
 
 def load_cases(folder: Path) -> list[Case]:
-    """Every case of every table in a folder, in the order of files and of their text.
+    """Read every case of all `*.timing.toml` files of a folder, in the order of files and of their text.
 
     Raises
     ------
@@ -114,7 +120,16 @@ def load_cases(folder: Path) -> list[Case]:
 
 
 def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case:
-    """One case from the entries of its TOML table.
+    """Read one case.
+
+    Parameters
+    ----------
+    name : str
+        Its key in the file.
+    entries : dict
+        Its TOML table.
+    ticks : dict
+        Named ticks of the file.
 
     Raises
     ------
@@ -144,7 +159,18 @@ def read_case(name: str, entries: dict[str, Any], ticks: dict[str, int]) -> Case
 
 
 def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tuple[Change, ...]]:
-    """Inputs and outputs of the rows of a table.
+    """Read the rows of a table.
+
+    Parameters
+    ----------
+    text : str
+        Rows `tick: inputs -> outputs`, with comments after `#`.
+    ticks : dict
+        Named ticks.
+
+    Returns
+    -------
+    inputs, outputs : tuple of Change
 
     Raises
     ------
@@ -171,24 +197,24 @@ def read_table(text: str, ticks: dict[str, int]) -> tuple[tuple[Change, ...], tu
 
 
 def drive_words(text: str) -> tuple[int, ...]:
-    """Words of a waveform: `0x11 0x22*8`.
+    """Read the words of a waveform, such as `0x11 0x22*8`.
 
     Raises
     ------
     ValueError
-        If one of them is no number.
+        If one of them is not a number.
     """
     parts = [part.partition("*") for part in text.split()]
     return tuple(int(word, 0) for word, _, times in parts for _ in range(int(times or 1)))
 
 
 def read_tick(text: str, ticks: dict[str, int]) -> int:
-    """The tick that a sum of numbers and named ticks gives: `first+2*bit`.
+    """Evaluate a sum of numbers and named `ticks`, such as `first+2*bit`.
 
     Raises
     ------
     ValueError
-        If a name is not known, or it is no sum.
+        If a name is unknown, or the text is not a sum.
     """
     compact = text.replace(" ", "")
     if not re.fullmatch(r"(\d+\*)?\w+([+-](\d+\*)?\w+)*", compact):

@@ -140,7 +140,7 @@ def test_a_scene_that_the_fpga_will_end_is_warned_of_before_it_plays(capsys, sma
     assert re.search(
         r"scene\.toml: up to 25 emissions a second make \d+ edges a second on one channel, above limits\.max_channel", warning
     )
-    assert "A channel had more edges in a window than its stage may be given." in fault
+    assert "Edge rate of a channel exceeded limits.max_channel_edge_rate_hz (stage protection)." in fault
 
 
 @pytest.mark.parametrize("file", sorted(file.name for file in RECORDINGS.iterdir() if file.name != "LICENSE"))
@@ -471,7 +471,7 @@ def test_a_demo_that_a_busy_machine_spoiled_says_so_instead_of_figures():
     assert "the host was late by 40 ms" in said
     assert spoiled(counters, real_time=False) == "", "in virtual time a busy machine changes nothing"
     counters = Counters(host_silent=2)
-    assert "the host fell silent (2 ×)" in spoiled(counters, real_time=True)
+    assert "the host stopped its heartbeat (2 ×)" in spoiled(counters, real_time=True)
 
 
 def test_the_table_of_a_spoiled_run_has_no_worst_figures_of_foci(capsys, small_board, monkeypatch):

@@ -1,13 +1,19 @@
 """Effects and regions as they stand in a file: what they mean, and what is refused with file, key and value."""
 
 import re
+from typing import get_args
 
 import msgspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
-from controller.scene.effects import EffectTable, library
+from controller.scene.effects import EffectTable, When
+from controller.scene.fingers import ActiveEffects
+from controller.scene.library import LIBRARY, library
+from controller.scene.primitives import PRIMITIVES, conflict, primitive_of
 from controller.scene.scene import load_scene
 from controller.scene.trains import Train
 
@@ -87,33 +93,79 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         ("{ spacing_mm = 3 }", ".when is missing"),
         ('{ when = "now" }', ".when = 'now'"),
         ('{ when = ["press", "press"] }', ".when = ['press', 'press'] has one of them twice"),
-        ('{ when = ["press", "move"], spacing_mm = 3 }', "'move' and 'always' stand alone"),
+        (
+            '{ when = ["press", "move"], spacing_mm = 3 }',
+            ".when = ['press', 'move']: 'move' does not go with 'press': a single emission takes press, release, enter, ",
+        ),
         ('{ when = "command" }', 'when = "command": an application plays it'),
         ('"boom"', " = 'boom' is no effect; known: always, buzz, click, detent, double_click, edge, grating, notification, te"),
         (f"{{ {PRESS}, amplitude = 0.2 }}", ".amplitude = 0.2"),
         (f"{{ {PRESS}, amplitude = 1.1 }}", ".amplitude = 1.1"),
-        (f"{{ {BUZZ} }}", "a train needs its end: count or duration_ms"),
-        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", "count = 3 and duration_ms = 30 both say how long"),
+        (
+            f"{{ {BUZZ} }}",
+            ": count or duration_ms is missing: one of them is needed for a train (rate_hz; count or duration_ms; when = ",
+        ),
+        (f"{{ {BUZZ}, count = 3, duration_ms = 30 }}", ": count = 3 and duration_ms = 30 exclude each other: give one of them"),
         (f"{{ {BUZZ}, count = 0 }}", ".count = 0"),
-        (f"{{ {PRESS}, count = 3 }}", ".count needs a train"),
-        (f"{{ {PRESS}, envelope = [[0, 1]] }}", ".envelope needs a train"),
-        (f"{{ {PRESS}, phase = 0.5 }}", ".phase = 0.5 needs a rate_hz, or lines"),
+        (
+            f"{{ {PRESS}, count = 3 }}",
+            '.count = 3 does not go with when = "press", a single emission; it belongs to a train (rate_hz; ',
+        ),
+        (
+            f"{{ {PRESS}, envelope = [[0, 1]] }}",
+            '.envelope does not go with when = "press", a single emission; it belongs to a train',
+        ),
+        (f"{{ {PRESS}, phase = 0.5 }}", '.phase = 0.5 does not go with when = "press", a single emission; it belongs to a train ('),
         (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
         (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
-        ('{ when = "release", rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', "a lifted finger feels no train"),
-        (f"{{ {PRESS}, spacing_mm = 3 }}", '.spacing_mm = 3.0 needs when = "move"'),
-        (f'{{ {PRESS}, along = "x" }}', ".along = 'x' needs when = \"move\""),
-        ('{ when = "move" }', ".spacing_mm is missing"),
+        (
+            '{ when = "release", rate_hz = 100, count = 3 }',
+            '.rate_hz = 100 does not go with when = "release", a single emission',
+        ),
+        ('{ when = "release", phase = 0.5 }', '.phase = 0.5 does not go with when = "release", a single emission'),
+        ('{ when = ["release", "leave"], rate_hz = 100, count = 3 }', '.rate_hz = 100 does not go with when = "release"'),
+        (
+            '{ when = ["leave", "release"], rate_hz = 100, count = 3 }',
+            "'release' does not go with 'leave': a train takes press, enter, lea",
+        ),
+        (
+            f"{{ {PRESS}, spacing_mm = 3 }}",
+            '.spacing_mm = 3 does not go with when = "press", a single emission; it belongs to a grid of lines (',
+        ),
+        (
+            f'{{ {PRESS}, along = "x" }}',
+            ".along = 'x' does not go with when = \"press\", a single emission; it belongs to a grid of lines (spacing_mm",
+        ),
+        (f'{{ {PRESS}, along = "path" }}', ".along = 'path' does not go with"),
+        ('{ when = "move" }', ".spacing_mm is missing: it is needed for a spacing along the path (spacing_mm; when = move)"),
+        (
+            '{ when = "move", along = "x" }',
+            ".spacing_mm is missing: it is needed for a grid of lines (spacing_mm; along; when = move)",
+        ),
         ('{ when = "move", spacing_mm = 0.05 }', ".spacing_mm = 0.05"),
         ('{ when = "move", spacing_mm = 3, along = "z" }', ".along = 'z'"),
-        ('{ when = "move", spacing_mm = 3, phase = 0.5 }', ".phase = 0.5 needs a rate_hz, or lines along x or y"),
-        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move"'),
-        ('{ when = "move", spacing_mm = 3, count = 2 }', ".count needs a train"),
-        ('{ when = "always" }', ".rate_hz is missing"),
-        ('{ when = "always", rate_hz = 20, count = 3 }', ".count needs a train with an end"),
-        ('{ when = "always", rate_hz = 20, envelope = [[0, 1]] }', ".envelope needs a train with an end"),
-        (f"{{ {PRESS}, x_mm = 3 }}", '.x_mm = 3 needs when = "always"'),
+        (
+            '{ when = "move", spacing_mm = 3, phase = 0.5 }',
+            '.phase = 0.5 does not go with when = "move", a spacing along the path; it',
+        ),
+        ('{ when = "move", spacing_mm = 3, rate_hz = 3, count = 2 }', '.rate_hz = 3 does not go with when = "move", a'),
+        (
+            '{ when = "move", spacing_mm = 3, count = 2 }',
+            '.count = 2 does not go with when = "move", a spacing along the path; it belongs',
+        ),
+        ('{ when = "always" }', ".rate_hz is missing: it is needed for a spot (rate_hz; when = always)"),
+        (
+            '{ when = "always", rate_hz = 20, count = 3 }',
+            '.count = 3 does not go with when = "always", a spot; it belongs to a train (',
+        ),
+        (
+            '{ when = "always", rate_hz = 20, envelope = [[0, 1]] }',
+            '.envelope does not go with when = "always", a spot; it belongs to',
+        ),
+        (
+            f"{{ {PRESS}, x_mm = 3 }}",
+            '.x_mm = 3 does not go with when = "press", a single emission; it belongs to a spot (rate_hz; when = always)',
+        ),
         (f"{{ {BUZZ}, count = 3, envelope = [] }}", ".envelope"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [0, 0.5]] }}", ".envelope[1] = [0.0, 0.5] is not later than the point before"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [9, 0.5], [8, 1]] }}", ".envelope[2] = [8.0, 1.0] is not later"),
@@ -234,7 +286,30 @@ def test_the_library_scene_names_every_effect_that_a_region_can():
         assert f'"{name}"' in text or effect.occasions == ("command",) or name == "train", name
 
 
-README = (data_folder("boards").parent / "controller" / "README.md").read_text()
+def test_the_table_of_primitives_has_every_occasion_and_every_key():
+    assert {when for primitive in PRIMITIVES for when in primitive.when} == set(get_args(When))
+    assert {key for primitive in PRIMITIVES for key in primitive.keys} == set(EffectTable.__struct_fields__)
+    for when in get_args(When):
+        assert when in primitive_of(EffectTable(when=when)).when
+
+
+KEYS = {"rate_hz": 50.0, "count": 2, "duration_ms": 30.0, "phase": 0.5, "spacing_mm": 3.0, "along": "x", "envelope": ((0.0, 1.0),)}
+
+
+@given(st.lists(st.sampled_from(get_args(When)), min_size=1, max_size=2, unique=True), st.sets(st.sampled_from([*KEYS, "x_mm"])))
+def test_keys_go_together_where_a_row_of_the_table_takes_all_of_them_and_has_all_that_it_needs(occasions, keys):
+    effect = EffectTable(when=tuple(occasions), **{key: KEYS.get(key, 5.0) for key in keys})
+    serving = [
+        primitive
+        for primitive in PRIMITIVES
+        if set(occasions) <= set(primitive.when)
+        and keys <= set(primitive.keys)
+        and all(len(keys & set(alternatives)) == 1 for alternatives in primitive.required)
+    ]
+    assert (conflict(effect) == "") == bool(serving)
+
+
+README = (data_folder("boards").parent / "controller" / "scene" / "README.md").read_text()
 EXAMPLES = re.findall(r"^\| .* \| `([{\"].*[}\"])` \|$", README, re.MULTILINE)
 
 
@@ -248,3 +323,29 @@ def test_the_readme_has_an_example_of_every_key():
 def test_every_example_of_the_readme_is_felt(scene_of, example):
     (region,) = scene_of(square(example)).regions
     assert region.felt or region.spot
+
+
+@pytest.fixture
+def library_file(tmp_path, monkeypatch):
+    """The library's file, to be written before the first use of `library`."""
+    file = tmp_path / "effects.toml"
+    monkeypatch.setattr("controller.scene.library.LIBRARY", file)
+    library.cache_clear()
+    yield file
+    library.cache_clear()
+
+
+def test_a_new_effect_is_a_table_in_the_librarys_file_and_nothing_else(scene_of, library_file):
+    (table,) = re.findall(r"^```toml\n(\[effects\..*?)^```$", README, re.MULTILINE | re.DOTALL)
+    library_file.write_text(f"{LIBRARY.read_text()}\n{table}")
+    scene = scene_of(square('"heartbeat", { effect = "heartbeat", when = "enter", amplitude = 0.5 }'))
+    assert [train.beats for train in (*scene.regions[0].press, *scene.regions[0].enter)] == [5, 5]
+    emissions = ActiveEffects(scene, "command 1", 0.1, 0.1).start("heartbeat", 1.0, 0.0, ticket=1)
+    assert [(e.region, e.amplitude, e.ticket) for e in emissions] == [("heartbeat", 0.5, 1)]
+
+
+def test_a_library_whose_keys_do_not_go_together_is_refused_with_its_key(scene_of, library_file):
+    library_file.write_text("[effects.wrong]\nwhen = 'release'\nrate_hz = 20.0\ncount = 2\n")
+    with pytest.raises(ConfigError) as caught:
+        scene_of(square(CLICK))
+    assert str(caught.value).startswith(f'{library_file}: effects.wrong.rate_hz = 20 does not go with when = "release"')

@@ -59,7 +59,7 @@ def test_says_what_to_install(cache, quick, monkeypatch):
 
 def test_a_folder_that_cannot_be_written_is_named(quick, monkeypatch):
     monkeypatch.setenv("STATE_DIRECTORY", "/proc/nothing")
-    with pytest.raises(LinkError, match="/proc/nothing/gateware: the compiled gateware cannot be kept there"):
+    with pytest.raises(LinkError, match="/proc/nothing/gateware: the compiled gateware cannot be written there"):
         build_library(PARAMETERS)
 
 

@@ -1,0 +1,135 @@
+"""Which keys of an effect go together: one row of `PRIMITIVES` for each kind of effect.
+
+A new key or kind of effect is a field of `effects.EffectTable` and a row or an entry here (README.md, "A new primitive").
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, get_args
+
+from controller.scene.effects import MIN_AMPLITUDE, ROUNDING, EffectTable, When
+
+COMMON = ("effect", "when", "amplitude")  # keys that every effect takes
+
+
+class Primitive(NamedTuple):
+    """A kind of effect.
+
+    Attributes
+    ----------
+    name : str
+        As messages call it.
+    when : tuple of str
+        Occasions on which it may be felt, alone or together.
+    required : tuple of tuples of str
+        Keys that it needs; of several in one tuple exactly one.
+    optional : tuple of str
+        Keys that it takes as well.
+    chosen_by : tuple of (str, tuple)
+        Of several primitives with the same occasion, this is the one if the key is given, with one of the values if there are any;
+        empty: if no row above is.
+    """
+
+    name: str
+    when: tuple[When, ...]
+    required: tuple[tuple[str, ...], ...] = ()
+    optional: tuple[str, ...] = ()
+    chosen_by: tuple[str, tuple[str, ...]] | None = None
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """All keys that it takes."""
+        return (*COMMON, *[key for alternatives in self.required for key in alternatives], *self.optional)
+
+    @property
+    def described(self) -> str:
+        """Its name and how to get it, for a message."""
+        needed = [" or ".join(alternatives) for alternatives in self.required]
+        return f"{self.name} ({'; '.join([*needed, 'when = ' + ', '.join(self.when)])})"
+
+
+PRIMITIVES = (
+    Primitive(
+        "a train",
+        when=("press", "enter", "leave", "command"),  # not release: a lifted finger feels no train
+        required=(("rate_hz",), ("count", "duration_ms")),
+        optional=("phase", "envelope"),
+        chosen_by=("rate_hz", ()),
+    ),
+    Primitive("a single emission", when=("press", "release", "enter", "leave", "command")),
+    Primitive(
+        "a grid of lines",
+        when=("move",),
+        required=(("spacing_mm",), ("along",)),
+        optional=("phase",),
+        chosen_by=("along", ("x", "y")),
+    ),
+    Primitive("a spacing along the path", when=("move",), required=(("spacing_mm",),), optional=("along",)),
+    Primitive("a spot", when=("always",), required=(("rate_hz",),), optional=("phase", "x_mm", "y_mm")),
+)
+
+
+def primitive_of(effect: EffectTable) -> Primitive:
+    """Kind of an effect that has an occasion, by the first of its occasions and the keys that it gives."""
+    for primitive in PRIMITIVES:
+        if effect.occasions[0] in primitive.when:
+            if primitive.chosen_by is None:
+                return primitive
+            key, values = primitive.chosen_by
+            value = getattr(effect, key)
+            if value is not None and (not values or value in values):
+                return primitive
+    raise AssertionError(f"no primitive for when = {effect.occasions[0]!r}")
+
+
+def conflict(effect: EffectTable) -> str:
+    """What does not go together in an effect: the end of a message that begins with its key; empty if all is well."""
+    occasions = effect.occasions
+    if not occasions:
+        return f".when is missing: give one or several of {', '.join(get_args(When))}, or with `effect` a name to build on"
+    if len(set(occasions)) < len(occasions):
+        return f".when = {list(occasions)} has one of them twice"
+    primitive = primitive_of(effect)
+    for other in occasions[1:]:
+        if other not in primitive.when:
+            return (
+                f".when = {list(occasions)}: {other!r} does not go with {occasions[0]!r}: {primitive.name} takes"
+                f" {', '.join(primitive.when)}"
+            )
+    given = {key: value for key in effect.__struct_fields__ if (value := getattr(effect, key)) is not None}
+    for key, value in given.items():
+        if key not in primitive.keys:
+            owners = ", ".join(other.described for other in PRIMITIVES if key in other.keys)
+            return f'.{key}{_shown(value)} does not go with when = "{occasions[0]}", {primitive.name}; it belongs to {owners}'
+    for alternatives in primitive.required:
+        found = [key for key in alternatives if key in given]
+        if not found and len(alternatives) == 1:
+            return f".{alternatives[0]} is missing: it is needed for {primitive.described}"
+        if not found:
+            return f": {' or '.join(alternatives)} is missing: one of them is needed for {primitive.described}"
+        if len(found) > 1:
+            return f": {' and '.join(f'{key}{_shown(given[key])}' for key in found)} exclude each other: give one of them"
+    if effect.emissions < 1:
+        return f".phase = {effect.phase:g} leaves no emission within duration_ms = {effect.duration_ms:g}"
+    return _envelope_conflict(effect)
+
+
+def _shown(value: Any) -> str:
+    """A value behind its key; lists are not repeated."""
+    return f" = {value:g}" if isinstance(value, float) else "" if isinstance(value, tuple) else f" = {value!r}"
+
+
+def _envelope_conflict(effect: EffectTable) -> str:
+    points = effect.envelope
+    if points is None:
+        return ""
+    for index, (at_ms, amplitude) in enumerate(points):
+        if index and at_ms <= points[index - 1][0]:
+            return f".envelope[{index}] = {[at_ms, amplitude]} is not later than the point before, at {points[index - 1][0]:g} ms"
+        if 0 < amplitude < MIN_AMPLITUDE:
+            return f".envelope[{index}] = {[at_ms, amplitude]}: an amplitude is 0 (silence) or {MIN_AMPLITUDE:g} to 1"
+    if points[-1][0] > effect.end_ms * (1 + ROUNDING):
+        return f".envelope goes on to {points[-1][0]:g} ms, but the train ends at {effect.end_ms:g} ms"
+    if not any(amplitude for _, amplitude in points):
+        return ".envelope is silent throughout"
+    return ""
