@@ -73,11 +73,6 @@ class Track:
         return cls(finger, *(np.concatenate([getattr(part, name) for part in kept]) for name in ("time_s", "x_m", "y_m")))
 
     @property
-    def begin_s(self) -> float:
-        """Time of the first report."""
-        return float(self.time_s[0])
-
-    @property
     def end_s(self) -> float:
         """Time of the last report before the finger was lifted."""
         return float(self.time_s[-1])
