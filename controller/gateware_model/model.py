@@ -205,7 +205,7 @@ class GatewareModel:
 
     def _hear(self, tick: int, byte: int) -> None:
         """A byte has come by the UART."""
-        begins, frame = self._uart.hear(byte)
+        begins, frame = self._uart.receive(byte)
         if begins:
             answer = bytearray(FRAME_BYTES)
             pack_status(answer, 0, self.status(Port.UART, tick))
