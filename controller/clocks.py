@@ -1,13 +1,40 @@
-"""Where the event loop's time comes from, and how it waits."""
+"""The loop's clock, and the type of a moment in the FPGA's clock.
+
+Times are floats in s. Host time is CLOCK_MONOTONIC and a plain float, as is every duration. A moment in FPGA time is an
+`FpgaTime`: mypy refuses to compare or mix it with host time, and `fpga.clock_estimate` converts one into the other.
+"""
 
 from __future__ import annotations
 
 import math
 import selectors
 import time
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol, overload
 
 NEVER = math.inf
+
+if TYPE_CHECKING:
+
+    class FpgaTime:
+        """A moment in FPGA time, in s since the FPGA's reset; for the type checker only, at run time it is a float."""
+
+        def __init__(self, seconds: float) -> None: ...
+        def __float__(self) -> float: ...
+        def __add__(self, duration_s: float, /) -> FpgaTime: ...
+        @overload
+        def __sub__(self, other: FpgaTime, /) -> float: ...
+        @overload
+        def __sub__(self, duration_s: float, /) -> FpgaTime: ...
+        def __sub__(self, other: FpgaTime | float, /) -> FpgaTime | float: ...
+        def __lt__(self, other: FpgaTime, /) -> bool: ...
+        def __le__(self, other: FpgaTime, /) -> bool: ...
+        def __gt__(self, other: FpgaTime, /) -> bool: ...
+        def __ge__(self, other: FpgaTime, /) -> bool: ...
+
+else:
+    FpgaTime = float
+
+FPGA_NEVER = FpgaTime(NEVER)
 
 
 class Clock(Protocol):

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Final
 
+from controller.clocks import FpgaTime
+
 DRIFT_MAX: Final = 300e-6  # relative: two crystals of 100 ppm each, and NTP slewing the host's clock
 
 
@@ -66,14 +68,18 @@ class ClockEstimate:
         """Largest possible error of `offset_s` at the newest exchange: half the width of the interval."""
         return (self._high_s - self._low_s) / 2
 
-    def fpga_s(self, host_s: float) -> float:
+    def fpga_s(self, host_s: float) -> FpgaTime:
         """FPGA time in s at the host time `host_s`."""
-        return host_s + self.offset_s
+        return FpgaTime(host_s + self.offset_s)
 
-    def host_s(self, fpga_s: float) -> float:
+    def host_s(self, fpga_s: FpgaTime) -> float:
         """Host time in s at the FPGA time `fpga_s`."""
-        return fpga_s - self.offset_s
+        return float(fpga_s) - self.offset_s
 
-    def ticks(self, fpga_s: float) -> int:
+    def ticks(self, fpga_s: FpgaTime) -> int:
         """FPGA clock nearest to the FPGA time `fpga_s`."""
-        return round(fpga_s * self.clock_hz)
+        return round(float(fpga_s) * self.clock_hz)
+
+    def fpga_s_of(self, ticks: int) -> FpgaTime:
+        """FPGA time in s at an FPGA clock."""
+        return FpgaTime(ticks / self.clock_hz)

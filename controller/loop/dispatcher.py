@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from controller.clocks import NEVER, Clock
+from controller.clocks import NEVER, Clock, FpgaTime
 from controller.errors import ControllerError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
@@ -32,8 +32,10 @@ class Turn(NamedTuple):
     ----------
     started_ns : int
         When it began (perf_counter_ns).
-    now_s, fpga_s : float
-        The same moment in host time and in FPGA time.
+    now_s : float
+        Host time.
+    fpga_s : FpgaTime
+        The same moment.
     report_ns : int
         From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report.
     finger : int or None
@@ -42,7 +44,7 @@ class Turn(NamedTuple):
 
     started_ns: int
     now_s: float
-    fpga_s: float
+    fpga_s: FpgaTime
     report_ns: int
     finger: int | None
 
@@ -174,7 +176,7 @@ class Dispatcher:
             self._source.emitted(last_s, last_s + occupancy.duration_s)
             self._scheduler.spots.restart(self._clock_estimate.fpga_s(next_s))
 
-    def _may_play(self, now_s: float, fpga_s: float) -> bool:
+    def _may_play(self, now_s: float, fpga_s: FpgaTime) -> bool:
         """Whether what is due may be played: not if the panel listens, nor if plate or wire would not be free for the next beat."""
         if self.quiet_until_s > now_s:
             return False

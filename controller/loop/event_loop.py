@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Any
 
 from controller.board.board import Board
-from controller.clocks import NEVER, Clock
+from controller.clocks import FPGA_NEVER, Clock, FpgaTime
 from controller.errors import ConfigError, ControllerError, FaultError, LinkError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
@@ -27,7 +27,7 @@ from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.loop.spots import ROUNDING_S
 from controller.metrics import Counters
-from controller.touch.source import TouchSample, TrackedTouch
+from controller.touch.source import TrackedTouch
 
 
 class EventLoop:
@@ -145,7 +145,7 @@ class EventLoop:
                             self._interrupted()
                             self._outputs.disarm()
                         if self._outputs.advance(self._clock.now_s()):
-                            self._scheduler.reset(self._panel_s())  # what began while they were off, in another time
+                            self._scheduler.reset(self._fpga_now_s())  # what began while they were off, in another time
                             ready()
                             ready = _nothing
                         next_s = self._turn()
@@ -187,7 +187,7 @@ class EventLoop:
         if self._commands is not None:
             self._commands.outcome(ticket, outcome, age_s)
 
-    def _panel_s(self) -> float:
+    def _fpga_now_s(self) -> FpgaTime:
         return self._clock_estimate.fpga_s(self._clock.now_s())
 
     def _lost(self, error: ControllerError) -> None:
@@ -198,7 +198,7 @@ class EventLoop:
     def _interrupted(self) -> None:
         """Nothing that was under way is taken up again."""
         self._playback.forget()
-        self._scheduler.reset(self._panel_s())
+        self._scheduler.reset(self._fpga_now_s())
         now_s = self._clock.now_s()
         self._source.emitted(now_s, now_s)  # whatever sounded has ended
 
@@ -255,9 +255,8 @@ class EventLoop:
         if not samples:
             return -1, None
         finger = None
-        offset_s = self._clock_estimate.offset_s
         for sample in samples:
-            self._scheduler.touch(_at(sample, sample.time_s + offset_s))
+            self._scheduler.touch(sample, self._clock_estimate.fpga_s(sample.time_s))
             if sample.contact:
                 finger = sample.finger
         if self._commands is not None:
@@ -310,7 +309,7 @@ class EventLoop:
                 return min(handover_s, outputs.next_s())
             times.append(handover_s)
         next_s = self._scheduler.next_s()
-        if next_s != NEVER:
+        if next_s != FPGA_NEVER:
             times.append(self._clock_estimate.host_s(next_s) - dispatcher.lead_s)
         if not times and self._source.fileno() is None and self._commands is None:
             free_s = playback.occupancy.free_s  # a replay has ended: the last emission sounds to its end
@@ -323,7 +322,3 @@ class EventLoop:
 
 def _nothing() -> None:
     """What `ready` becomes after it was called."""
-
-
-def _at(sample: TouchSample, time_s: float) -> TouchSample:
-    return TouchSample(sample.finger, sample.x_m, sample.y_m, time_s, sample.contact, sample.size_m)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from controller.clocks import NEVER
+from controller.clocks import NEVER, FpgaTime
 from controller.fpga.clock_estimate import ClockEstimate
 
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
@@ -17,12 +17,12 @@ HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earlies
 
 
 class Repetition(NamedTuple):
-    """An endless repetition by the FPGA; both in FPGA time."""
+    """An endless repetition by the FPGA; the period is of the FPGA's clock."""
 
-    first_s: float
+    first_s: FpgaTime
     period_s: float
 
-    def last_s(self, at_s: float) -> float:
+    def last_s(self, at_s: FpgaTime) -> FpgaTime:
         """Start of the emission that sounds, or sounded last, at a time after the first."""
         return self.first_s + math.floor((at_s - self.first_s) / self.period_s) * self.period_s
 
@@ -79,15 +79,17 @@ class Occupancy:
         """Nothing plays, and nothing has played: after a fault, which may have set the FPGA's clock to 0."""
         self.repetition: Repetition | None = None
         self.free_s = self.last_start_s = -NEVER
-        self._free_fpga_s = -NEVER  # `free_s` in FPGA time: what the FPGA started by itself is known there to the clock
+        self._free_fpga_s = FpgaTime(-NEVER)  # `free_s` in FPGA time: what the FPGA started by itself is known there to the clock
 
-    def started(self, start_s: float, fpga_s: float, *, by_clock: bool) -> None:
+    def started(self, start_s: float, fpga_s: FpgaTime, *, by_clock: bool) -> None:
         """An emission starts.
 
         Parameters
         ----------
-        start_s, fpga_s : float
-            When, in host time and in FPGA time.
+        start_s : float
+            When, in host time.
+        fpga_s : FpgaTime
+            The same moment.
         by_clock : bool
             Whether the FPGA starts it at `fpga_s`; else the trigger pin rises at `start_s`. The other one is known to
             within the error of the clock estimate.
@@ -107,14 +109,14 @@ class Occupancy:
         self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
         self.repetition = None
 
-    def earliest_start_s(self, arrived_s: float, at_s: float | None) -> float:
-        """Earliest start of an emission whose play command has arrived at a time; all in FPGA time.
+    def earliest_start_s(self, arrived_s: FpgaTime, at_s: FpgaTime | None) -> FpgaTime:
+        """Earliest start of an emission whose play command has arrived at a time.
 
         Parameters
         ----------
-        arrived_s : float
+        arrived_s : FpgaTime
             End of the command on the wire. It stops a repetition, whose last emission then sounds to its end.
-        at_s : float or None
+        at_s : FpgaTime or None
             When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it.
         """
         free_s = self._free_fpga_s

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
@@ -42,14 +43,14 @@ class Plan(NamedTuple):
         Waveform for these points.
     resident : Key or None
         Waveform in a slot of the FPGA that serves for it; None: it has to be uploaded.
-    start_s : float
-        Earliest start, in FPGA time.
+    start_s : FpgaTime
+        Earliest start.
     """
 
     points: list[Point]
     key: Key
     resident: Key | None
-    start_s: float
+    start_s: FpgaTime
 
 
 class Accepted(NamedTuple):
@@ -72,14 +73,14 @@ class Attempt(NamedTuple):
     ----------
     outcome : Outcome
         PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
-    start_s : float
-        FPGA time at which it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
+    start_s : FpgaTime
+        When it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
     started : bool
         Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
     """
 
     outcome: Outcome
-    start_s: float = math.nan
+    start_s: FpgaTime = FpgaTime(math.nan)
     started: bool = False
 
 
@@ -241,7 +242,7 @@ class Playback:
         if at_s is not None:
             self._counters.scheduled += 1
             self._started(accepted, accepted.start_s, 0)
-            return Attempt(Outcome.PLAYED, start_ticks / self._clock_estimate.clock_hz, True)
+            return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s_of(start_ticks), True)
         self.accepted = accepted
         at_once = accepted.start_s <= ready_s
         if at_once:
@@ -346,11 +347,11 @@ class Playback:
                 resident = self._slots.find(key)
         return Plan(points, key, resident, start_s)
 
-    def _start_s(self, wire_s: float, at_s: float | None) -> float:
-        """Earliest start, in FPGA time, of what begins to go out now."""
+    def _start_s(self, wire_s: float, at_s: FpgaTime | None) -> FpgaTime:
+        """Earliest start of what begins to go out now."""
         return self.occupancy.earliest_start_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s), at_s)
 
-    def _aim(self, emissions: Sequence[Emission], start_s: float, predicted: bool) -> list[Point]:
+    def _aim(self, emissions: Sequence[Emission], start_s: FpgaTime, predicted: bool) -> list[Point]:
         """Where the focus of each emission is to be, and its amplitude."""
         focus_s = self._clock_estimate.host_s(start_s) + self.occupancy.duration_s
         points = []
@@ -408,7 +409,7 @@ class Playback:
         """Count a start, and what it took."""
         (emissions, count, period_s, _), plan = accepted.batch, accepted.plan
         ticks, resident = accepted.start_ticks, plan.resident is not None
-        fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else ticks / self._clock_estimate.clock_hz
+        fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else self._clock_estimate.fpga_s_of(ticks)
         self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)
         counters = self._counters
         counters.emissions += 1

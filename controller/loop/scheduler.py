@@ -1,6 +1,6 @@
 """What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
 
-All times are FPGA times (`fpga.clock_estimate`). The scene decides what a finger feels; here it is kept until it
+All times are FPGA times but for those of `predict`. The scene decides what a finger feels; here it is kept until it
 plays. Whatever a command asked for gets exactly one outcome.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from controller.clocks import NEVER
+from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.errors import ConfigError
 from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
@@ -51,7 +51,7 @@ class Scheduler:
 
     def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
         self.scene = scene
-        self.spots = Spots(scene.spots, 0.0)
+        self.spots = Spots(scene.spots, FpgaTime(0.0))
         self._counters = counters
         self._confirmed = confirmed
         self._unconfirmed_most = unconfirmed_most
@@ -60,9 +60,9 @@ class Scheduler:
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self._due: dict[Owner, Emission] = {}  # the newest of each
 
-    def touch(self, sample: TouchSample) -> None:
-        """A finger began, moved or was released."""
-        finger, x_m, y_m, time_s, contact, _ = sample
+    def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
+        """A finger began, moved or was released, at a time that is `sample.time_s` in FPGA time."""
+        finger, x_m, y_m, _, contact, _ = sample
         active = self._active.get(finger)
         if not contact:
             self._release(finger, active, time_s)
@@ -79,7 +79,7 @@ class Scheduler:
         else:
             self._counters.skipped.between_emissions += 1
 
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
+    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime) -> None:
         """A command plays an effect at a point, or for a finger.
 
         Raises
@@ -99,7 +99,7 @@ class Scheduler:
         self._make_room(emissions)
         self._add(emissions)
 
-    def advance(self, until_s: float) -> None:
+    def advance(self, until_s: FpgaTime) -> None:
         """Collect what becomes due by itself up to a time."""
         advanced = False
         for active in self._active.values():
@@ -109,12 +109,12 @@ class Scheduler:
         if advanced:
             self._drop_ended()
 
-    def add_spots(self, now_s: float, until_s: float) -> None:
+    def add_spots(self, now_s: FpgaTime, until_s: FpgaTime) -> None:
         """Collect the spots whose beat comes up to a time."""
         for emission in self.spots.due(now_s, until_s):
             self._add((emission,))
 
-    def join_spots(self, emissions: list[Emission], next_s: float) -> list[Emission]:
+    def join_spots(self, emissions: list[Emission], next_s: FpgaTime) -> list[Emission]:
         """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
         self.spots.restart(next_s)
         played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
@@ -126,7 +126,7 @@ class Scheduler:
         """Whether anything waits to be played."""
         return bool(self._due)
 
-    def must_defer(self, now_s: float, until_s: float) -> bool:
+    def must_defer(self, now_s: FpgaTime, until_s: FpgaTime) -> bool:
         """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
 
         What has waited for MAX_DEFERRAL_S is not held any longer: of trains so fast that nothing goes between their beats,
@@ -137,7 +137,7 @@ class Scheduler:
         oldest = next(iter(self._due.values()))
         return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self._due.values())
 
-    def next_batch(self, duration_s: float, now_s: float) -> list[Emission]:
+    def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
         """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
         if len(self._due) == 1:
             chosen = list(self._due.values())
@@ -151,9 +151,9 @@ class Scheduler:
             self._due = {emission.owner: emission for emission in rest}
         return chosen
 
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When `advance` has something to do."""
-        return min([active.next_s for active in self._active.values()], default=NEVER)
+        return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
 
     def predict(
         self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
@@ -187,7 +187,7 @@ class Scheduler:
         focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
         return None if focus is None else (*focus, amplitude)
 
-    def started(self, emissions: Sequence[Emission], start_s: float) -> None:
+    def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
         """These were started; trains that began with them keep their beat from there."""
         for emission in emissions:
             if emission.ticket:
@@ -195,13 +195,13 @@ class Scheduler:
             if emission.period_s and emission.beat == 0 and emission.owner in self._active:
                 self._active[emission.owner].shift(emission.time_s, start_s)
 
-    def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: float) -> None:
+    def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: FpgaTime) -> None:
         """These will not be played."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
-    def _release(self, finger: int, active: ActiveEffects | None, now_s: float) -> None:
+    def _release(self, finger: int, active: ActiveEffects | None, now_s: FpgaTime) -> None:
         """A finger was lifted."""
         last: tuple[Emission, ...] = ()
         if active is not None:
@@ -212,7 +212,7 @@ class Scheduler:
         self._discard_waiting_of(finger, last, now_s)
         self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
 
-    def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: float) -> None:
+    def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
         """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
         waiting = self._due.get(finger)
         if waiting is not None and waiting not in last:
@@ -220,12 +220,12 @@ class Scheduler:
             self._counters.skipped.lifted += 1
             self.discarded([waiting], Outcome.SKIPPED, now_s)
 
-    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: float) -> None:
+    def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: FpgaTime) -> None:
         """Commands that end before their first emission."""
         for ticket, given_s in active.unplayed_commands:
             self._outcomes(ticket, outcome, now_s - given_s)
 
-    def reset(self, now_s: float) -> None:
+    def reset(self, now_s: FpgaTime) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
         waiting = list(self._due.values())
         self._due.clear()
@@ -237,7 +237,7 @@ class Scheduler:
         self._active = {owner: active for owner, active in self._active.items() if active.finger is not None}
         self.spots.restart(now_s)
 
-    def change_scene(self, scene: Scene, now_s: float) -> None:
+    def change_scene(self, scene: Scene, now_s: FpgaTime) -> None:
         """Go on with another scene: fingers that are down feel it from their next move on."""
         waiting = list(self._due.values())
         self._due.clear()

@@ -1,11 +1,11 @@
-"""The beat of a scene's spots: emissions that repeat at a place without any finger. All times are FPGA times."""
+"""The beat of a scene's spots: emissions that repeat at a place without any finger."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
-from controller.clocks import NEVER
+from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.loop.batching import select_batch
 from controller.scene.emission import Emission, spot_emission
 from controller.scene.scene import Spot
@@ -19,7 +19,7 @@ class Spots:
     Parameters
     ----------
     spots : sequence of Spot
-    start_s : float
+    start_s : FpgaTime
         When their beat begins.
 
     Attributes
@@ -28,12 +28,12 @@ class Spots:
         Period in which the FPGA can repeat all of them as one waveform; None if it cannot.
     """
 
-    def __init__(self, spots: Sequence[Spot], start_s: float) -> None:
+    def __init__(self, spots: Sequence[Spot], start_s: FpgaTime) -> None:
         self.common_period_s = common_period_s(spots)
         self._start_s = start_s
         self._beats = dict.fromkeys(spots, 0)
 
-    def due(self, now_s: float, until_s: float) -> list[Emission]:
+    def due(self, now_s: FpgaTime, until_s: FpgaTime) -> list[Emission]:
         """Emissions whose beat comes up to a time, of each spot one; beats that `now_s` has passed are left out."""
         if not self._beats:
             return []
@@ -46,7 +46,7 @@ class Spots:
                 self._beats[spot] = beat + missed + 1
         return emissions
 
-    def restart(self, start_s: float) -> None:
+    def restart(self, start_s: FpgaTime) -> None:
         """The beat begins anew."""
         self._start_s = start_s
         self._beats = dict.fromkeys(self._beats, 0)
@@ -55,14 +55,14 @@ class Spots:
         """What a batch takes along that is played one period before the beat begins."""
         return [spot_emission(spot, self._start_s, -1)._replace(period_s=0.0) for spot in self._beats]
 
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When the next beat comes; inf without spots."""
-        return min([spot_emission(spot, self._start_s, beat).time_s for spot, beat in self._beats.items()], default=NEVER)
+        return min([spot_emission(spot, self._start_s, beat).time_s for spot, beat in self._beats.items()], default=FPGA_NEVER)
 
 
 def common_period_s(spots: Sequence[Spot]) -> float | None:
     """Period in s in which the FPGA can repeat all spots as one waveform; None if they need turns, or there are none."""
     if not spots or len({(spot.rate_hz, spot.phase) for spot in spots}) > 1:
         return None
-    _, rest = select_batch([spot_emission(spot, 0.0, 0) for spot in spots], 0.0)
+    _, rest = select_batch([spot_emission(spot, FpgaTime(0.0), 0) for spot in spots], 0.0)
     return None if rest else 1 / spots[0].rate_hz

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from controller.clocks import FpgaTime
 from controller.scene.scene import Spot
 
 
@@ -12,8 +13,8 @@ class Emission(NamedTuple):
 
     Attributes
     ----------
-    time_s : float
-        When it is due.
+    time_s : FpgaTime
+        When it is due, in FPGA time.
     x_m, y_m : float
         Place on the plate.
     finger : int or None
@@ -32,7 +33,7 @@ class Emission(NamedTuple):
         It is to be played alone, in turn with others, not composed with them.
     """
 
-    time_s: float
+    time_s: FpgaTime
     x_m: float
     y_m: float
     finger: int | None
@@ -45,7 +46,7 @@ class Emission(NamedTuple):
     alternate: bool = False
 
 
-def spot_emission(spot: Spot, start_s: float, beat: int) -> Emission:
+def spot_emission(spot: Spot, start_s: FpgaTime, beat: int) -> Emission:
     """Emission number `beat` of a spot that plays since `start_s`."""
     period_s = 1 / spot.rate_hz
     return Emission(

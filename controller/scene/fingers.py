@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 
+from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
 from controller.scene.emission import Emission
 from controller.scene.scene import OUTSIDE, Scene
@@ -65,21 +66,21 @@ class ActiveEffects:
         self.x_m = x_m
         self.y_m = y_m
         self.region = OUTSIDE
-        self.next_s = math.inf
+        self.next_s = FPGA_NEVER
         self._trains: list[ActiveTrain] = []
         self._progress: tuple[DistanceProgress | GridProgress, ...] = ()
 
     @property
     def ended(self) -> bool:
         """Whether no train is active: the effects of a command are over then."""
-        return self.next_s == math.inf
+        return self.next_s == FPGA_NEVER
 
     @property
-    def unplayed_commands(self) -> tuple[tuple[int, float], ...]:
+    def unplayed_commands(self) -> tuple[tuple[int, FpgaTime], ...]:
         """Commands without an emission so far: ticket, and time of the command in s."""
         return tuple([(train.ticket, train.first_s - train.train.first_s) for train in self._trains if train.ticket])
 
-    def press(self, time_s: float) -> tuple[Emission, ...]:
+    def press(self, time_s: FpgaTime) -> tuple[Emission, ...]:
         """The finger is put down at its place.
 
         Returns
@@ -94,7 +95,7 @@ class ActiveEffects:
         trains = self._scene.regions[index].press
         return _at_most_one(self._begin(trains, index, time_s, ends_on_leave=True)) if trains else ()
 
-    def move(self, x_m: float, y_m: float, time_s: float) -> tuple[Emission, ...]:
+    def move(self, x_m: float, y_m: float, time_s: FpgaTime) -> tuple[Emission, ...]:
         """The finger that is down moves to another place."""
         scene = self._scene
         index = scene.region_at(x_m, y_m)
@@ -114,14 +115,14 @@ class ActiveEffects:
             emission = self._begin(scene.regions[index].enter, index, time_s, ends_on_leave=True, strongest=emission)
         return _at_most_one(emission)
 
-    def release(self, time_s: float) -> tuple[Emission, ...]:
+    def release(self, time_s: FpgaTime) -> tuple[Emission, ...]:
         """The finger is lifted from its place; this object is not used any more."""
         if self.region == OUTSIDE:
             return ()
         trains = self._scene.regions[self.region].release
         return _at_most_one(self._begin(trains, self.region, time_s, ends_on_leave=True)) if trains else ()
 
-    def start(self, effect: str, amplitude: float, time_s: float, ticket: int) -> tuple[Emission, ...]:
+    def start(self, effect: str, amplitude: float, time_s: FpgaTime, ticket: int) -> tuple[Emission, ...]:
         """A command plays an effect here.
 
         Parameters
@@ -149,7 +150,7 @@ class ActiveEffects:
         self._add(ActiveTrain(train, time_s, COMMAND, ends_on_leave=False, gain=amplitude, effect=effect, ticket=ticket))
         return self.advance(time_s)
 
-    def advance(self, until_s: float) -> tuple[Emission, ...]:
+    def advance(self, until_s: FpgaTime) -> tuple[Emission, ...]:
         """Take the beats of trains that are due up to a time.
 
         Returns
@@ -170,7 +171,7 @@ class ActiveEffects:
             emissions.sort(key=_time_s)
         return tuple(emissions)
 
-    def shift(self, first_s: float, start_s: float) -> None:
+    def shift(self, first_s: FpgaTime, start_s: FpgaTime) -> None:
         """Shift trains whose beat 0 was due at `first_s` so that it falls on the actual start `start_s`."""
         for train in self._trains:
             if train.first_s == first_s:
@@ -211,7 +212,7 @@ class ActiveEffects:
         return amplitude
 
     def _begin(
-        self, trains: tuple[Train, ...], region: int, time_s: float, *, ends_on_leave: bool, strongest: Emission | None = None
+        self, trains: tuple[Train, ...], region: int, time_s: FpgaTime, *, ends_on_leave: bool, strongest: Emission | None = None
     ) -> Emission | None:
         """Begin trains of a region; return the strongest of the emissions that are due at once and of one found before."""
         for train in trains:
@@ -223,7 +224,7 @@ class ActiveEffects:
                 strongest = first if strongest is None else _strongest(strongest, first)
         return strongest
 
-    def _beat(self, train: ActiveTrain, until_s: float) -> Emission | None:
+    def _beat(self, train: ActiveTrain, until_s: FpgaTime) -> Emission | None:
         """Last beat of one train that is due up to a time and not silent."""
         beat, amplitude = train.take(until_s)
         if beat == NO_BEAT:
@@ -243,7 +244,7 @@ class ActiveEffects:
 
     def _set_trains(self, trains: list[ActiveTrain]) -> None:
         self._trains = trains
-        self.next_s = min([train.next_s for train in trains], default=math.inf)
+        self.next_s = min([train.next_s for train in trains], default=FPGA_NEVER)
 
 
 def _strongest(one: Emission, other: Emission) -> Emission:
@@ -258,5 +259,5 @@ def _at_most_one(emission: Emission | None) -> tuple[Emission, ...]:
     return () if emission is None else (emission,)
 
 
-def _time_s(emission: Emission) -> float:
+def _time_s(emission: Emission) -> FpgaTime:
     return emission.time_s

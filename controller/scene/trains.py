@@ -7,6 +7,7 @@ from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
+from controller.clocks import FpgaTime
 from controller.scene.effects import MIN_AMPLITUDE, EffectTable
 
 SILENCE = MIN_AMPLITUDE / 2  # an envelope below it is nearer to silence than to the weakest emission
@@ -80,7 +81,7 @@ class ActiveTrain:
     def __init__(
         self,
         train: Train,
-        start_s: float,
+        start_s: FpgaTime,
         region: int,
         *,
         ends_on_leave: bool,
@@ -103,11 +104,11 @@ class ActiveTrain:
         return self.beat >= self.train.beats
 
     @property
-    def next_s(self) -> float:
+    def next_s(self) -> FpgaTime:
         """When the next beat is due."""
         return self.first_s + self.beat * self.train.period_s
 
-    def take(self, until_s: float) -> tuple[int, float]:
+    def take(self, until_s: FpgaTime) -> tuple[int, float]:
         """Take all beats that are due up to a time.
 
         Returns

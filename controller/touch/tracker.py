@@ -23,7 +23,7 @@ from controller.touch.prediction import Motion
 from controller.touch.reports import ReportRate
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-NEAR_M = 5e-3
+REUSE_RADIUS_M = 5e-3
 BRIDGED_PERIODS = 1.5
 UNTOLD_PERIODS = 1.5  # a report that told nothing of a contact is taken for one that found it still there
 CONFIRMING_REPORTS = 2
@@ -267,7 +267,7 @@ class Tracker:
 
     def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
         """The lost finger that a new contact is: of those that would be near by now, the nearest."""
-        found, nearest_m = None, NEAR_M
+        found, nearest_m = None, REUSE_RADIUS_M
         for lost in self._lost:
             at_x_m, at_y_m = lost.motion.place(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
             off_m = hypot(x_m - at_x_m, y_m - at_y_m)

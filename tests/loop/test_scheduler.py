@@ -55,6 +55,10 @@ def scheduler_of(scene, told, confirmed=lambda _: True, most=1):
     return Scheduler(scene, Counters(), confirmed, most, lambda ticket, outcome, age_s: told.append((ticket, outcome, age_s)))
 
 
+def touch(scheduler, finger, x_m, y_m, time_s, contact):
+    scheduler.touch(TouchSample(finger, x_m, y_m, time_s, contact), time_s)
+
+
 def command(scheduler, ticket, x_m=0.1, y_m=0.07, effect="tap", finger=None, now_s=0.0):
     scheduler.play(ticket, effect, x_m, y_m, finger, 1.0, now_s)
 
@@ -140,20 +144,20 @@ def test_an_unknown_effect_or_finger_is_refused_and_nothing_waits(scheduler, tol
 
 
 def test_a_command_for_a_finger_follows_it_and_ends_with_it(scheduler, told):
-    scheduler.touch(TouchSample(3, 0.05, 0.05, 0.0, True))
+    touch(scheduler, 3, 0.05, 0.05, 0.0, True)
     played(scheduler, 0.0)
     command(scheduler, 1, effect="roll", finger=3)
     assert played(scheduler, 0.0)[0].finger == 3
-    scheduler.touch(TouchSample(3, 0.09, 0.05, 0.005, True))
+    touch(scheduler, 3, 0.09, 0.05, 0.005, True)
     scheduler.advance(0.01)
     assert scheduler.next_batch(T_S, 0.0)[0].x_m == 0.09
-    scheduler.touch(TouchSample(3, 0.09, 0.05, 0.012, False))
+    touch(scheduler, 3, 0.09, 0.05, 0.012, False)
     scheduler.advance(0.1)
     assert not scheduler.due
 
 
 def test_what_waits_when_the_outputs_go_off_is_refused_and_not_played_later(scheduler, told):
-    scheduler.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    touch(scheduler, 0, 0.05, 0.05, 0.0, True)
     command(scheduler, 1, effect="roll")
     scheduler.reset(0.5)
     assert told == [(1, Outcome.REFUSED, pytest.approx(0.5))]
@@ -164,7 +168,7 @@ def test_what_waits_when_the_outputs_go_off_is_refused_and_not_played_later(sche
 def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, told):
     sure = set()
     scheduler = scheduler_of(scene, told, confirmed=lambda finger: finger in sure)
-    scheduler.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    touch(scheduler, 0, 0.05, 0.05, 0.0, True)
     assert len(played(scheduler, 0.0)) == 1
     for ticket in (1, 2):
         command(scheduler, ticket, finger=0)
@@ -178,30 +182,30 @@ def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, t
 def test_who_takes_the_number_of_a_finger_that_was_lifted_gets_a_share_of_its_own(scene, told):
     scheduler = scheduler_of(scene, told, confirmed=lambda _: False)
     for at_s in (0.0, 1.0, 2.0):
-        scheduler.touch(TouchSample(0, 0.05, 0.05, at_s, True))
+        touch(scheduler, 0, 0.05, 0.05, at_s, True)
         assert len(played(scheduler, at_s)) == 1
-        scheduler.touch(TouchSample(0, 0.05, 0.05, at_s + 0.1, False))
+        touch(scheduler, 0, 0.05, 0.05, at_s + 0.1, False)
 
 
 def test_another_scene_takes_over_while_fingers_are_down(scheduler, board, tmp_path, told):
-    scheduler.touch(TouchSample(0, 0.05, 0.05, 0.0, True))
+    touch(scheduler, 0, 0.05, 0.05, 0.0, True)
     command(scheduler, 1, now_s=0.25)
     file = tmp_path / "other.toml"
     file.write_text('[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n')
     scheduler.change_scene(load_scene(file, board), 1.0)
     assert told == [(1, Outcome.SKIPPED, pytest.approx(0.75))]
-    scheduler.touch(TouchSample(0, 0.056, 0.05, 1.1, True))
+    touch(scheduler, 0, 0.056, 0.05, 1.1, True)
     assert scheduler.due
 
 
 @pytest.mark.parametrize("how", ["lifted", "outputs off"])
 def test_a_command_that_ends_before_its_first_emission_is_told_so_once(scheduler, told, how):
-    scheduler.touch(TouchSample(3, 0.1, 0.05, 0.0, True))
+    touch(scheduler, 3, 0.1, 0.05, 0.0, True)
     played(scheduler, 0.0)
     command(scheduler, 1, effect="late", finger=3, now_s=1.0)
     assert not scheduler.due
     if how == "lifted":
-        scheduler.touch(TouchSample(3, 0.1, 0.05, 1.003, False))
+        touch(scheduler, 3, 0.1, 0.05, 1.003, False)
     else:
         scheduler.reset(1.003)
     scheduler.advance(2.0)
@@ -227,7 +231,7 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
         f'{spot}[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
     )
     scheduler = scheduler_of(load_scene(tmp_path / "spot.toml", board), told)
-    scheduler.touch(TouchSample(3, finger_mm * 1e-3, 0.07, 1.0, True))
+    touch(scheduler, 3, finger_mm * 1e-3, 0.07, 1.0, True)
     emissions = scheduler.join_spots(scheduler.next_batch(T_S, 0.0), 1.05)
     assert [e.finger for e in emissions] == [3, None][:together]
     assert scheduler.spots.next_s() == 1.05
@@ -245,7 +249,7 @@ def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
 
 
 def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_do_not(scheduler):
-    scheduler.touch(TouchSample(3, 0.05, 0.05, 0.0, True))
+    touch(scheduler, 3, 0.05, 0.05, 0.0, True)
     command(scheduler, 1, effect="roll")
     scheduler.reset(0.005)
     assert scheduler.next_s() > 1e6
@@ -266,7 +270,7 @@ def test_a_finger_that_hardly_moves_is_at_rest_and_nothing_is_foreseen_for_it(
     def place(_, at_s):
         return 0.05 + step_mm * 1e-3 * at_s / 0.01, 0.05
 
-    scheduler.touch(TouchSample(0, *place(0, 0.0), 0.0, True))
+    touch(scheduler, 0, *place(0, 0.0), 0.0, True)
     wanted = scheduler.predict(0, place, 0.0, 0.01, 2e-3)
     assert (wanted is not None) == foreseen
     if foreseen:
