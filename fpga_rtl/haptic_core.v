@@ -53,6 +53,37 @@ module haptic_core #(
     localparam BUFFER_BITS = $clog2(SLOTS + 1);
     localparam ALIVE_HALF_TICKS = CLOCK_HZ / 40_000 > 0 ? CLOCK_HZ / 40_000 : 1;
 
+    // Registers' telemetry and settings. The lines between `generated` and `end of` come from controller/fpga/registers.py.
+    // generated: wires
+    wire [31:0] idle_word;
+    wire [31:0] channel_mask;
+    wire [31:0] bit_period;
+    wire [17:0] ramp_samples;
+    wire [31:0] heartbeat_ticks;
+    wire [15:0] pulse_ticks;
+    wire [23:0] channel_edges;
+    wire [28:0] total_edges;
+    wire [31:0] emission_ticks;
+    wire [16:0] duty_share;
+    wire [31:0] duty_ticks;
+    wire [15:0] fault;
+    wire [31:0] fault_channels;
+    wire [31:0] fault_count;
+    wire [63:0] fault_time;
+    wire [2:0]  inputs;
+    wire [63:0] input_time;
+    wire [31:0] triggers;
+    wire [31:0] triggers_ignored;
+    wire [63:0] trigger_time;
+    wire [31:0] emissions;
+    wire [63:0] emission_time;
+    wire [31:0] plays_missed;
+    wire [31:0] underruns;
+    wire [15:0] slots_loaded;
+    wire [3:0]  queue;
+    wire [31:0] duty_level;
+    // end of wires
+
     // Pins that have no clock, through two flip-flops; a trigger is high for FILTER_TICKS, low as long before the next
     reg [3:0]  trigger_q;
     reg        triggered_q, command_q;
@@ -63,6 +94,8 @@ module haptic_core #(
     wire       command;
     wire       trigger         = (trigger_high && !triggered_q) || command_q;
     wire       run_permit, temperature_ok;
+    assign     inputs          = {trigger_q[1], temperature_ok, run_permit};
+    assign     input_time      = input_time_q;
 
     always @(posedge clk_i) begin
         trigger_q        <= {trigger_q[2:0], trigger_i};
@@ -110,7 +143,6 @@ module haptic_core #(
     wire [31:0]  spi_word, uart_word, relay_word;
     wire [6:0]   spi_payload_words, uart_payload_words;
     wire         landing_busy, landing_live;
-    wire [31:0]  bit_period;
     wire         spi_load_word;
 
     frame_decoder spi_decoder (
@@ -251,15 +283,8 @@ module haptic_core #(
         end
     end
 
-    wire [31:0] ignored, triggers, emissions, loaded, missed, underruns, fault_count, fault_channels, duty_level;
-    wire [63:0] trigger_time, emission_time, fault_time;
-    wire [31:0] idle_word, heartbeat_ticks, channel_mask, channel_edges, total_edges, emission_ticks, duty_ticks;
-    wire [15:0] fault, pulse_ticks;
-    wire [16:0] duty_share;
-    wire [17:0] ramp_samples;
     wire        arm, disarm, clear, stop;
     wire        off, settling, armed, ramp_up, ramp_down, stopping, alive, shut;
-    wire [3:0]  queued;
     wire        quiet, settled;
 
     register_file #(
@@ -273,16 +298,37 @@ module haptic_core #(
         .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
-        .off_i(off), .quiet_i((off || armed) && quiet && queued == 4'd0), .permitted_i(run_permit && temperature_ok),
+        .off_i(off), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
         .uart_i(from_uart), .refused_i({uart_refuse, spi_refuse}), .gap_i(gap),
-        .fault_i(fault), .fault_channels_i(fault_channels), .fault_count_i(fault_count), .fault_time_i(fault_time),
-        .inputs_i({trigger_q[1], temperature_ok, run_permit}), .input_time_i(input_time_q),
-        .triggers_i(triggers), .ignored_i(ignored), .trigger_time_i(trigger_time),
-        .emissions_i(emissions), .emission_time_i(emission_time),
-        .missed_i(missed), .underruns_i(underruns), .loaded_i(loaded), .queued_i(queued), .duty_level_i(duty_level),
-        .idle_word_o(idle_word), .channel_mask_o(channel_mask), .bit_period_o(bit_period), .ramp_samples_o(ramp_samples),
-        .heartbeat_ticks_o(heartbeat_ticks), .pulse_ticks_o(pulse_ticks), .channel_edges_o(channel_edges),
-        .total_edges_o(total_edges), .emission_ticks_o(emission_ticks), .duty_share_o(duty_share), .duty_ticks_o(duty_ticks),
+        // generated: connections
+        .fault_i(fault),
+        .fault_channels_i(fault_channels),
+        .fault_count_i(fault_count),
+        .fault_time_i(fault_time),
+        .inputs_i(inputs),
+        .input_time_i(input_time),
+        .triggers_i(triggers),
+        .triggers_ignored_i(triggers_ignored),
+        .trigger_time_i(trigger_time),
+        .emissions_i(emissions),
+        .emission_time_i(emission_time),
+        .plays_missed_i(plays_missed),
+        .underruns_i(underruns),
+        .slots_loaded_i(slots_loaded),
+        .queue_i(queue),
+        .duty_level_i(duty_level),
+        .idle_word_o(idle_word),
+        .channel_mask_o(channel_mask),
+        .bit_period_o(bit_period),
+        .ramp_samples_o(ramp_samples),
+        .heartbeat_ticks_o(heartbeat_ticks),
+        .pulse_ticks_o(pulse_ticks),
+        .channel_edges_o(channel_edges),
+        .total_edges_o(total_edges),
+        .emission_ticks_o(emission_ticks),
+        .duty_share_o(duty_share),
+        .duty_ticks_o(duty_ticks),
+        // end of connections
         .arm_o(arm), .disarm_o(disarm), .clear_o(clear), .stop_o(stop), .trigger_o(command)
     );
 
@@ -312,7 +358,7 @@ module haptic_core #(
         .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
         .load_result_o(load_result), .store_result_o(store_result),
         .slot_good_o(slot_good), .slot_buffer_o(slot_buffer), .slot_words_o(slot_words),
-        .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(loaded), .checking_o(checking),
+        .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(slots_loaded), .checking_o(checking),
         .landing_o(landing), .chunks_o(chunks),
         .memory_result_o(memory_result), .memory_data_o(memory_data), .crc_result_o(crc_result), .crc_data_o(crc_data),
         .play_i(playing), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
@@ -330,7 +376,7 @@ module haptic_core #(
         .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),
         .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast_q),
-        .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queued), .full_i(queue_full),
+        .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queue), .full_i(queue_full),
         .good_o(play_good), .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
     );
 
@@ -342,7 +388,7 @@ module haptic_core #(
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
         .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
         .when_o(head_when), .delayed_o(head_delayed), .delayed_one_o(head_delayed_one), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
-        .queued_o(queued), .full_o(queue_full),
+        .queued_o(queue), .full_o(queue_full),
         .address_i(argument[5:0]), .read_result_o(queue_result), .read_data_o(queue_data)
     );
 
@@ -364,7 +410,7 @@ module haptic_core #(
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),
         .repeating_o(repeating), .settled_o(settled), .quiet_o(quiet), .waiting_o(waiting),
-        .triggers_o(triggers), .ignored_o(ignored), .missed_o(missed),
+        .triggers_o(triggers), .ignored_o(triggers_ignored), .missed_o(plays_missed),
         .trigger_time_o(trigger_time), .emission_time_o(emission_time)
     );
 
@@ -378,7 +424,7 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .run_permit_i(run_permit_i), .temperature_ok_i(temperature_ok_i),
         .arm_i(arm), .disarm_i(disarm), .clear_i(clear), .heard_i(accept), .link_i(from_uart),
         .channel_mask_i(channel_mask), .heartbeat_ticks_i(heartbeat_ticks), .pulse_ticks_i(pulse_ticks),
-        .channel_edges_i(channel_edges), .total_edges_i(total_edges), .emission_ticks_i(emission_ticks),
+        .channel_edges_i({8'd0, channel_edges}), .total_edges_i({3'd0, total_edges}), .emission_ticks_i(emission_ticks),
         .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
         .drive_i(drive), .bit_ticks_i(bit_period[31:16]), .playing_i(playing), .start_i(start), .ended_i(ended),
         .underrun_i(underrun), .ramp_done_i(ramp_done), .settled_i(settled), .now_i(now_q),
@@ -409,7 +455,7 @@ module haptic_core #(
     assign state[`STATE_RAMPING]          = settling || ramp_up || ramp_down || stopping;
     assign state[`STATE_PLAYING]          = playing;
     assign state[`STATE_REPEATING]        = repeating;
-    assign state[`STATE_PENDING]          = queued != 4'd0;
+    assign state[`STATE_PENDING]          = queue != 4'd0;
     assign state[`STATE_LANDING_BUSY]     = landing_busy;
     assign state[`STATE_RUN_PERMIT]       = run_permit;
     assign state[`STATE_HEARTBEAT]        = alive;
@@ -424,7 +470,7 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select), .take_i(spi_take), .byte_o(spi_answer),
         .result_i(spi_result_q), .sequence_i(spi_sequence_q), .state_i(state), .fault_i(fault), .data_i(spi_data_q),
         .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
-        .queued_i({4'd0, queued}), .chunks_i(chunks), .ignored_i(ignored[15:0]),
+        .queued_i({4'd0, queue}), .chunks_i(chunks), .ignored_i(triggers_ignored[15:0]),
         .echo_i(spi_kind == `TYPE_TEST), .byte_valid_i(spi_byte_valid), .byte_i(spi_byte)
     );
 
@@ -432,7 +478,7 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .select_i(uart_select), .take_i(uart_take), .byte_o(uart_answer),
         .result_i(uart_result_q), .sequence_i(uart_sequence_q), .state_i(state), .fault_i(fault), .data_i(uart_data_q),
         .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
-        .queued_i({4'd0, queued}), .chunks_i(chunks), .ignored_i(ignored[15:0]),
+        .queued_i({4'd0, queue}), .chunks_i(chunks), .ignored_i(triggers_ignored[15:0]),
         .echo_i(1'b0), .byte_valid_i(1'b0), .byte_i(8'd0)
     );
 endmodule

@@ -1,5 +1,6 @@
 // Settings, identity and telemetry by address; CONTROL turns into pulses.
-// A 64-bit time is read LOW first, which holds its HIGH.
+// A 64-bit time is read LOW first, which keeps its HIGH.
+// The lines between `generated` and `end of` come from controller/fpga/registers.py: python -m controller.fpga.register_table
 `default_nettype none
 `include "registers.vh"
 
@@ -40,26 +41,39 @@ module register_file #(
     input  wire        permitted_i,        // run permit and temperature
     input  wire [1:0]  refused_i,          // pulses: a frame was refused, by SPI (0), by UART (1)
     input  wire        gap_i,              // with accept_i: its number does not follow that of the one before by its link
+    // telemetry
+    // generated: inputs
     input  wire [15:0] fault_i,
-    input  wire [31:0] fault_channels_i, fault_count_i,
+    input  wire [31:0] fault_channels_i,
+    input  wire [31:0] fault_count_i,
     input  wire [63:0] fault_time_i,
     input  wire [2:0]  inputs_i,
     input  wire [63:0] input_time_i,
-    input  wire [31:0] triggers_i, ignored_i,
+    input  wire [31:0] triggers_i,
+    input  wire [31:0] triggers_ignored_i,
     input  wire [63:0] trigger_time_i,
     input  wire [31:0] emissions_i,
     input  wire [63:0] emission_time_i,
-    input  wire [31:0] missed_i, underruns_i, loaded_i,
-    input  wire [3:0]  queued_i,
+    input  wire [31:0] plays_missed_i,
+    input  wire [31:0] underruns_i,
+    input  wire [15:0] slots_loaded_i,
+    input  wire [3:0]  queue_i,
     input  wire [31:0] duty_level_i,
+    // end of inputs
     // settings and commands
-    output wire [31:0] idle_word_o, channel_mask_o, bit_period_o,
+    // generated: outputs
+    output wire [31:0] idle_word_o,
+    output wire [31:0] channel_mask_o,
+    output wire [31:0] bit_period_o,
     output wire [17:0] ramp_samples_o,
     output wire [31:0] heartbeat_ticks_o,
     output wire [15:0] pulse_ticks_o,
-    output wire [31:0] channel_edges_o, total_edges_o, emission_ticks_o,
+    output wire [23:0] channel_edges_o,
+    output wire [28:0] total_edges_o,
+    output wire [31:0] emission_ticks_o,
     output wire [16:0] duty_share_o,
     output wire [31:0] duty_ticks_o,
+    // end of outputs
     output wire        arm_o,              // pulses
     output wire        disarm_o,
     output wire        clear_o,
@@ -80,7 +94,19 @@ module register_file #(
     wire [31:0] word2 = words_i[95:64];
     wire [31:0] word3 = words_i[127:96];
 
-    reg [31:0] idle_word_q, channel_mask_q, bit_period_q;
+    // of each link
+    reg [31:0] spi_errors_q, uart_errors_q, spi_gaps_q, uart_gaps_q;
+    reg [31:0] spi_high_q, uart_high_q;  // half of the time whose LOW was read last
+    reg [1:0]  unlocked_q;         // by the frame before
+
+    localparam ADDRESS_BITS = $clog2(`REGISTER_COUNT);
+    wire [15:0] register = {{16-ADDRESS_BITS{1'b0}}, address_i[ADDRESS_BITS-1:0]};  // where known_q
+    wire        change;            // the register is a setting, and takes word0
+
+    // generated: settings
+    reg [31:0] idle_word_q;
+    reg [31:0] channel_mask_q;
+    reg [31:0] bit_period_q;
     reg [17:0] ramp_samples_q;
     reg [31:0] heartbeat_ticks_q;
     reg [15:0] pulse_ticks_q;
@@ -89,110 +115,170 @@ module register_file #(
     reg [31:0] emission_ticks_q;
     reg [16:0] duty_share_q;
     reg [31:0] duty_ticks_q;
-    // of each link
-    reg [31:0] spi_errors_q, uart_errors_q, spi_gaps_q, uart_gaps_q;
-    reg [31:0] spi_high_q, uart_high_q;  // half of the time whose LOW was read last
-    reg [1:0]  unlocked_q;         // by the frame before
-
-    wire [15:0] register = {10'd0, address_i[5:0]};  // where known_q
-
-    reg [31:0] value;
-    always @* begin
-        case (register)
-            `REGISTER_IDENTITY:          value = `IDENTITY_MAGIC;
-            `REGISTER_PROTOCOL:          value = `PROTOCOL_VERSION;
-            `REGISTER_BUILD_HASH:        value = BUILD_HASH;
-            `REGISTER_BOARD:             value = BOARD;
-            `REGISTER_CLOCK_HZ:          value = CLOCK_HZ;
-            `REGISTER_GEOMETRY:          value = GEOMETRY;
-            `REGISTER_PARAMETERS:        value = PARAMETERS;
-            `REGISTER_EDGE_WINDOW_TICKS: value = EDGE_WINDOW_TICKS;
-            `REGISTER_IDLE_WORD:         value = idle_word_q;
-            `REGISTER_CHANNEL_MASK:      value = channel_mask_q;
-            `REGISTER_BIT_PERIOD:        value = bit_period_q;
-            `REGISTER_RAMP_SAMPLES:      value = {14'd0, ramp_samples_q};
-            `REGISTER_HEARTBEAT_TICKS:   value = heartbeat_ticks_q;
-            `REGISTER_PULSE_TICKS:       value = {16'd0, pulse_ticks_q};
-            `REGISTER_CHANNEL_EDGES:     value = {8'd0, channel_edges_q};
-            `REGISTER_TOTAL_EDGES:       value = {3'd0, total_edges_q};
-            `REGISTER_EMISSION_TICKS:    value = emission_ticks_q;
-            `REGISTER_DUTY_SHARE:        value = {15'd0, duty_share_q};
-            `REGISTER_DUTY_TICKS:        value = duty_ticks_q;
-            `REGISTER_FAULT:             value = {16'd0, fault_i};
-            `REGISTER_FAULT_CHANNELS:    value = fault_channels_i;
-            `REGISTER_FAULT_COUNT:       value = fault_count_i;
-            `REGISTER_FAULT_TIME_LOW:    value = fault_time_i[31:0];
-            `REGISTER_INPUTS:            value = {29'd0, inputs_i};
-            `REGISTER_INPUT_TIME_LOW:    value = input_time_i[31:0];
-            `REGISTER_TRIGGERS:          value = triggers_i;
-            `REGISTER_TRIGGERS_IGNORED:  value = ignored_i;
-            `REGISTER_TRIGGER_TIME_LOW:  value = trigger_time_i[31:0];
-            `REGISTER_EMISSIONS:         value = emissions_i;
-            `REGISTER_EMISSION_TIME_LOW: value = emission_time_i[31:0];
-            `REGISTER_FAULT_TIME_HIGH, `REGISTER_INPUT_TIME_HIGH, `REGISTER_TRIGGER_TIME_HIGH,
-            `REGISTER_EMISSION_TIME_HIGH: value = uart_i ? uart_high_q : spi_high_q;
-            `REGISTER_PLAYS_MISSED:      value = missed_i;
-            `REGISTER_UNDERRUNS:         value = underruns_i;
-            `REGISTER_FRAME_ERRORS:      value = uart_i ? uart_errors_q : spi_errors_q;
-            `REGISTER_SEQUENCE_GAPS:     value = uart_i ? uart_gaps_q : spi_gaps_q;
-            `REGISTER_SLOTS_LOADED:      value = loaded_i;
-            `REGISTER_QUEUE:             value = {28'd0, queued_i};
-            `REGISTER_DUTY_LEVEL:        value = duty_level_i;
-            `REGISTER_HV_SETTLE_TICKS:   value = HV_SETTLE_TICKS;
-            `REGISTER_CHANNEL_MASK_MAX:  value = CHANNEL_MASK_MAX;
-            `REGISTER_HEARTBEAT_TICKS_MAX: value = HEARTBEAT_TICKS_MAX;
-            `REGISTER_PULSE_TICKS_MIN:   value = PULSE_TICKS_MIN;
-            `REGISTER_CHANNEL_EDGES_MAX: value = CHANNEL_EDGES_MAX;
-            `REGISTER_TOTAL_EDGES_MAX:   value = TOTAL_EDGES_MAX;
-            `REGISTER_EMISSION_TICKS_MAX: value = EMISSION_TICKS_MAX;
-            `REGISTER_DUTY_SHARE_MAX:    value = DUTY_SHARE_MAX;
-            `REGISTER_DUTY_TICKS_MAX:    value = DUTY_TICKS_MAX;
-            default:                     value = 32'd0;
-        endcase
+    always @(posedge clk_i) begin
+        if (change) begin
+            case (register)
+                `REGISTER_IDLE_WORD: idle_word_q <= word0;
+                `REGISTER_CHANNEL_MASK: channel_mask_q <= word0;
+                `REGISTER_BIT_PERIOD: bit_period_q <= word0;
+                `REGISTER_RAMP_SAMPLES: ramp_samples_q <= word0[17:0];
+                `REGISTER_HEARTBEAT_TICKS: heartbeat_ticks_q <= word0;
+                `REGISTER_PULSE_TICKS: pulse_ticks_q <= word0[15:0];
+                `REGISTER_CHANNEL_EDGES: channel_edges_q <= word0[23:0];
+                `REGISTER_TOTAL_EDGES: total_edges_q <= word0[28:0];
+                `REGISTER_EMISSION_TICKS: emission_ticks_q <= word0;
+                `REGISTER_DUTY_SHARE: duty_share_q <= word0[16:0];
+                default: duty_ticks_q <= word0;
+            endcase
+        end
+        if (rst_i) begin
+            idle_word_q <= 32'd0;
+            channel_mask_q <= CHANNEL_MASK_MAX;
+            bit_period_q <= BIT_PERIOD_RESET;
+            ramp_samples_q <= RAMP_SAMPLES_RESET[17:0];
+            heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
+            pulse_ticks_q <= PULSE_TICKS_MIN[15:0];
+            channel_edges_q <= CHANNEL_EDGES_MAX[23:0];
+            total_edges_q <= TOTAL_EDGES_MAX[28:0];
+            emission_ticks_q <= EMISSION_TICKS_MAX;
+            duty_share_q <= DUTY_SHARE_MAX[16:0];
+            duty_ticks_q <= DUTY_TICKS_MAX;
+        end
     end
+    assign idle_word_o = idle_word_q;
+    assign channel_mask_o = channel_mask_q;
+    assign bit_period_o = bit_period_q;
+    assign ramp_samples_o = ramp_samples_q;
+    assign heartbeat_ticks_o = heartbeat_ticks_q;
+    assign pulse_ticks_o = pulse_ticks_q;
+    assign channel_edges_o = channel_edges_q;
+    assign total_edges_o = total_edges_q;
+    assign emission_ticks_o = emission_ticks_q;
+    assign duty_share_o = duty_share_q;
+    assign duty_ticks_o = duty_ticks_q;
+    // end of settings
 
-    reg [31:0] high;
-    reg        low;                // a time's LOW is asked for, whose other half this is
+    wire [31:0] bit_ticks     = {16'd0, bit_period_q[31:16]};
+    wire [31:0] frame_errors  = uart_i ? uart_errors_q : spi_errors_q;
+    wire [31:0] sequence_gaps = uart_i ? uart_gaps_q : spi_gaps_q;
+    wire [31:0] held          = uart_i ? uart_high_q : spi_high_q;
+
+    reg [31:0] value;              // of the register
+    reg [31:0] high;               // the other half of a time
+    reg        low;                // whose LOW the register is
+    reg        setting, in_range;  // it is a setting; word0 is a value for it
     always @* begin
-        low = 1'b1;
+        value    = 32'd0;
+        high     = 32'd0;
+        low      = 1'b0;
+        setting  = 1'b0;
+        in_range = 1'b1;
         case (register)
-            `REGISTER_FAULT_TIME_LOW:    high = fault_time_i[63:32];
-            `REGISTER_INPUT_TIME_LOW:    high = input_time_i[63:32];
-            `REGISTER_TRIGGER_TIME_LOW:  high = trigger_time_i[63:32];
-            `REGISTER_EMISSION_TIME_LOW: high = emission_time_i[63:32];
-            default: begin
-                high = 32'd0;
-                low  = 1'b0;
+            // generated: read
+            `REGISTER_IDENTITY: value = `IDENTITY_MAGIC;
+            `REGISTER_PROTOCOL: value = `PROTOCOL_VERSION;
+            `REGISTER_BUILD_HASH: value = BUILD_HASH;
+            `REGISTER_BOARD: value = BOARD;
+            `REGISTER_CLOCK_HZ: value = CLOCK_HZ;
+            `REGISTER_GEOMETRY: value = GEOMETRY;
+            `REGISTER_PARAMETERS: value = PARAMETERS;
+            `REGISTER_EDGE_WINDOW_TICKS: value = EDGE_WINDOW_TICKS;
+            `REGISTER_IDLE_WORD: begin
+                value    = idle_word_q;
+                setting  = 1'b1;
             end
+            `REGISTER_CHANNEL_MASK: begin
+                value    = channel_mask_q;
+                setting  = 1'b1;
+                in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;
+            end
+            `REGISTER_BIT_PERIOD: begin
+                value    = bit_period_q;
+                setting  = 1'b1;
+                in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH;
+            end
+            `REGISTER_RAMP_SAMPLES: begin
+                value    = {14'd0, ramp_samples_q};
+                setting  = 1'b1;
+                in_range = word0 != 32'd0 && word0 <= `RAMP_SAMPLES_MAX;
+            end
+            `REGISTER_HEARTBEAT_TICKS: begin
+                value    = heartbeat_ticks_q;
+                setting  = 1'b1;
+                in_range = word0 != 32'd0 && word0 <= HEARTBEAT_TICKS_MAX;
+            end
+            `REGISTER_PULSE_TICKS: begin
+                value    = {16'd0, pulse_ticks_q};
+                setting  = 1'b1;
+                in_range = word0 >= PULSE_TICKS_MIN && word0 <= bit_ticks;
+            end
+            `REGISTER_CHANNEL_EDGES: begin
+                value    = {8'd0, channel_edges_q};
+                setting  = 1'b1;
+                in_range = word0 <= CHANNEL_EDGES_MAX;
+            end
+            `REGISTER_TOTAL_EDGES: begin
+                value    = {3'd0, total_edges_q};
+                setting  = 1'b1;
+                in_range = word0 <= TOTAL_EDGES_MAX;
+            end
+            `REGISTER_EMISSION_TICKS: begin
+                value    = emission_ticks_q;
+                setting  = 1'b1;
+                in_range = word0 <= EMISSION_TICKS_MAX;
+            end
+            `REGISTER_DUTY_SHARE: begin
+                value    = {15'd0, duty_share_q};
+                setting  = 1'b1;
+                in_range = word0 <= DUTY_SHARE_MAX;
+            end
+            `REGISTER_DUTY_TICKS: begin
+                value    = duty_ticks_q;
+                setting  = 1'b1;
+                in_range = word0 <= DUTY_TICKS_MAX;
+            end
+            `REGISTER_FAULT: value = {16'd0, fault_i};
+            `REGISTER_FAULT_CHANNELS: value = fault_channels_i;
+            `REGISTER_FAULT_COUNT: value = fault_count_i;
+            `REGISTER_FAULT_TIME_LOW: begin value = fault_time_i[31:0]; high = fault_time_i[63:32]; low = 1'b1; end
+            `REGISTER_FAULT_TIME_HIGH: value = held;
+            `REGISTER_INPUTS: value = {29'd0, inputs_i};
+            `REGISTER_INPUT_TIME_LOW: begin value = input_time_i[31:0]; high = input_time_i[63:32]; low = 1'b1; end
+            `REGISTER_INPUT_TIME_HIGH: value = held;
+            `REGISTER_TRIGGERS: value = triggers_i;
+            `REGISTER_TRIGGERS_IGNORED: value = triggers_ignored_i;
+            `REGISTER_TRIGGER_TIME_LOW: begin value = trigger_time_i[31:0]; high = trigger_time_i[63:32]; low = 1'b1; end
+            `REGISTER_TRIGGER_TIME_HIGH: value = held;
+            `REGISTER_EMISSIONS: value = emissions_i;
+            `REGISTER_EMISSION_TIME_LOW: begin value = emission_time_i[31:0]; high = emission_time_i[63:32]; low = 1'b1; end
+            `REGISTER_EMISSION_TIME_HIGH: value = held;
+            `REGISTER_PLAYS_MISSED: value = plays_missed_i;
+            `REGISTER_UNDERRUNS: value = underruns_i;
+            `REGISTER_FRAME_ERRORS: value = frame_errors;
+            `REGISTER_SEQUENCE_GAPS: value = sequence_gaps;
+            `REGISTER_SLOTS_LOADED: value = {16'd0, slots_loaded_i};
+            `REGISTER_QUEUE: value = {28'd0, queue_i};
+            `REGISTER_DUTY_LEVEL: value = duty_level_i;
+            `REGISTER_HV_SETTLE_TICKS: value = HV_SETTLE_TICKS;
+            `REGISTER_CHANNEL_MASK_MAX: value = CHANNEL_MASK_MAX;
+            `REGISTER_HEARTBEAT_TICKS_MAX: value = HEARTBEAT_TICKS_MAX;
+            `REGISTER_PULSE_TICKS_MIN: value = PULSE_TICKS_MIN;
+            `REGISTER_CHANNEL_EDGES_MAX: value = CHANNEL_EDGES_MAX;
+            `REGISTER_TOTAL_EDGES_MAX: value = TOTAL_EDGES_MAX;
+            `REGISTER_EMISSION_TICKS_MAX: value = EMISSION_TICKS_MAX;
+            `REGISTER_DUTY_SHARE_MAX: value = DUTY_SHARE_MAX;
+            `REGISTER_DUTY_TICKS_MAX: value = DUTY_TICKS_MAX;
+            // end of read
+            default: ;
         endcase
+        if (register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q) in_range = 1'b0;
     end
 
     // Address and words rest long before their frame ends: what they mean is found out a clock early
     reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, known_q, idle_q;
 
-    reg setting, in_range;         // address_i is a setting; word0 is a value for it
-    always @* begin
-        setting  = 1'b1;
-        in_range = 1'b1;
-        case (register)
-            `REGISTER_IDLE_WORD: ;
-            `REGISTER_CHANNEL_MASK:    in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;
-            `REGISTER_BIT_PERIOD:      in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH
-                                                  && word0[31:16] >= pulse_ticks_q;
-            `REGISTER_RAMP_SAMPLES:    in_range = word0 != 32'd0 && word0 <= `RAMP_SAMPLES_MAX;
-            `REGISTER_HEARTBEAT_TICKS: in_range = word0 != 32'd0 && word0 <= HEARTBEAT_TICKS_MAX;
-            `REGISTER_PULSE_TICKS:     in_range = word0 >= PULSE_TICKS_MIN && word0 <= {16'd0, bit_period_q[31:16]};
-            `REGISTER_CHANNEL_EDGES:   in_range = word0 <= CHANNEL_EDGES_MAX;
-            `REGISTER_TOTAL_EDGES:     in_range = word0 <= TOTAL_EDGES_MAX;
-            `REGISTER_EMISSION_TICKS:  in_range = word0 <= EMISSION_TICKS_MAX;
-            `REGISTER_DUTY_SHARE:      in_range = word0 <= DUTY_SHARE_MAX;
-            `REGISTER_DUTY_TICKS:      in_range = word0 <= DUTY_TICKS_MAX;
-            default:                   setting = 1'b0;
-        endcase
-    end
-
     always @(posedge clk_i) begin
-        known_q    <= address_i <= `REGISTER_DUTY_TICKS_MAX;
+        known_q    <= address_i < `REGISTER_COUNT;
         control_q  <= address_i == `REGISTER_CONTROL;
         idle_q     <= register == `REGISTER_BIT_PERIOD;
         arm_q      <= word0 == `CONTROL_ARM;
@@ -220,7 +306,7 @@ module register_file #(
 
     wire command  = write_i && control_q;
     wire free     = idle_q ? quiet_i : off_i;            // BIT_PERIOD is written while nothing plays or waits, all others while disarmed
-    wire change   = write_i && known_q && setting_q && free && in_range_q;
+    assign change = write_i && known_q && setting_q && free && in_range_q;
 
     always @(posedge clk_i) begin
         if (read_i && known_q && low) begin
@@ -234,33 +320,7 @@ module register_file #(
         if (refused_i[0]) unlocked_q[0] <= 1'b0;
         if (refused_i[1]) unlocked_q[1] <= 1'b0;
         if (accept_i) unlocked_q[uart_i] <= command && unlock_q && key_good_q;
-        if (change) begin
-            case (register)
-                `REGISTER_IDLE_WORD:       idle_word_q       <= word0;
-                `REGISTER_CHANNEL_MASK:    channel_mask_q    <= word0;
-                `REGISTER_BIT_PERIOD:      bit_period_q      <= word0;
-                `REGISTER_RAMP_SAMPLES:    ramp_samples_q    <= word0[17:0];
-                `REGISTER_HEARTBEAT_TICKS: heartbeat_ticks_q <= word0;
-                `REGISTER_PULSE_TICKS:     pulse_ticks_q     <= word0[15:0];
-                `REGISTER_CHANNEL_EDGES:   channel_edges_q   <= word0[23:0];
-                `REGISTER_TOTAL_EDGES:     total_edges_q     <= word0[28:0];
-                `REGISTER_EMISSION_TICKS:  emission_ticks_q  <= word0;
-                `REGISTER_DUTY_SHARE:      duty_share_q      <= word0[16:0];
-                default:                   duty_ticks_q      <= word0;
-            endcase
-        end
         if (rst_i) begin
-            idle_word_q       <= 32'd0;
-            channel_mask_q    <= CHANNEL_MASK_MAX;
-            bit_period_q      <= BIT_PERIOD_RESET;
-            ramp_samples_q    <= RAMP_SAMPLES_RESET[17:0];
-            heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
-            pulse_ticks_q     <= PULSE_TICKS_MIN[15:0];
-            channel_edges_q   <= CHANNEL_EDGES_MAX[23:0];
-            total_edges_q     <= TOTAL_EDGES_MAX[28:0];
-            emission_ticks_q  <= EMISSION_TICKS_MAX;
-            duty_share_q      <= DUTY_SHARE_MAX[16:0];
-            duty_ticks_q      <= DUTY_TICKS_MAX;
             spi_errors_q      <= 32'd0;
             uart_errors_q     <= 32'd0;
             spi_gaps_q        <= 32'd0;
@@ -274,18 +334,7 @@ module register_file #(
     assign read_result_o  = known_q ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;
     assign write_result_o = !known_q ? `RESULT_UNKNOWN_REGISTER : control_q ? control_result : !setting_q ? `RESULT_READ_ONLY
                           : !free ? (idle_q ? `RESULT_BUSY : `RESULT_ARMED) : !in_range_q ? `RESULT_BAD_VALUE : `RESULT_OK;
-    assign data_o            = value;
-    assign idle_word_o       = idle_word_q;
-    assign channel_mask_o    = channel_mask_q;
-    assign bit_period_o      = bit_period_q;
-    assign ramp_samples_o    = ramp_samples_q;
-    assign heartbeat_ticks_o = heartbeat_ticks_q;
-    assign pulse_ticks_o     = pulse_ticks_q;
-    assign channel_edges_o   = {8'd0, channel_edges_q};
-    assign total_edges_o     = {3'd0, total_edges_q};
-    assign emission_ticks_o  = emission_ticks_q;
-    assign duty_share_o      = duty_share_q;
-    assign duty_ticks_o      = duty_ticks_q;
+    assign data_o    = value;
     assign arm_o     = command && arm_q && arm_good;
     assign disarm_o  = command && disarm_q;
     assign clear_o   = command && clear_q;

@@ -1,5 +1,5 @@
-// Every number the host and the FPGA have to agree on; controller/fpga/registers.py says the same,
-// and tests/fpga/test_registers.py compares the two line by line.
+// Every number that the host and the FPGA have to agree on. The numbers come from controller/fpga/registers.py, by
+// `python -m controller.fpga.register_table`; size, base and comment of a constant are written here.
 `ifndef REGISTERS_VH
 `define REGISTERS_VH
 
@@ -19,7 +19,26 @@
 `define CHANNELS 8'd32
 `define QUEUE_PLAYS 8'd8             // accepted and not yet begun
 
-// Frame types
+// What else can be read, by the argument's upper bits
+`define PLAY_LANDING 16'hFFFF        // PLAY what is still arriving
+`define READ_SLOT_CRC 16'h100       // + slot
+`define READ_QUEUE 16'h200          // + 8 play + word
+`define READ_MEMORY 16'h8000         // + 1024 slot + word
+
+// Limits of settings, and what they are after reset
+`define BIT_TICKS_MIN 32'd4
+`define BIT_CLOCK_HZ_MAX 32'd2000000
+`define BIT_CLOCK_HZ_MIN 32'd100000
+`define RAMP_SAMPLES_MAX 32'd262143
+`define DUTY_FULL 32'd65536
+
+// Clocks, for the timing tables and the model
+`define FILTER_TICKS 8'd3            // the trigger is high at least that long, or it is a glitch
+`define TRIGGER_LATENCY_TICKS 8'd8   // from the first clock that samples the trigger high to the first word
+`define TIME_LEAD_TICKS 64'd30       // a scheduled play begins so long behind the time of two clocks before it is accepted, or later
+
+// generated: codes
+// What a frame asks for
 `define TYPE_NOP 8'd0
 `define TYPE_READ 8'd1
 `define TYPE_WRITE 8'd2
@@ -27,13 +46,11 @@
 `define TYPE_STORE 8'd4
 `define TYPE_PLAY 8'd5
 `define TYPE_TEST 8'd6
-
-// What a play waits for
+// What a play waits for, once it is at the head of the queue
 `define START_TRIGGER 2'd0
 `define START_NOW 2'd1
 `define START_TIME 2'd2
-
-// Results of a frame, reported in the next status
+// What became of the frame before
 `define RESULT_OK 8'd0
 `define RESULT_BAD_SYNC 8'd1
 `define RESULT_BAD_LENGTH 8'd2
@@ -61,8 +78,14 @@
 `define RESULT_OVERLAP 8'd24
 `define RESULT_SLOT_DAMAGED 8'd25
 `define RESULT_LINK_SLOW 8'd26
-
-// Registers, 32 bits each
+// Words that the CONTROL register understands
+`define CONTROL_ARM 32'd1
+`define CONTROL_DISARM 32'd2
+`define CONTROL_CLEAR 32'd3
+`define CONTROL_STOP 32'd4
+`define CONTROL_UNLOCK 32'd5
+`define CONTROL_TRIGGER 32'd6
+// Addresses of the registers, and how many there are
 `define REGISTER_IDENTITY 16'd0
 `define REGISTER_PROTOCOL 16'd1
 `define REGISTER_BUILD_HASH 16'd2
@@ -114,22 +137,8 @@
 `define REGISTER_EMISSION_TICKS_MAX 16'd48
 `define REGISTER_DUTY_SHARE_MAX 16'd49
 `define REGISTER_DUTY_TICKS_MAX 16'd50
-
-// What else can be read, by the argument's upper bits
-`define PLAY_LANDING 16'hFFFF        // PLAY what is still arriving
-`define READ_SLOT_CRC 16'h0100       // + slot
-`define READ_QUEUE 16'h0200          // + 8 play + word
-`define READ_MEMORY 16'h8000         // + 1024 slot + word
-
-// Words for CONTROL
-`define CONTROL_ARM 32'd1
-`define CONTROL_DISARM 32'd2
-`define CONTROL_CLEAR 32'd3
-`define CONTROL_STOP 32'd4
-`define CONTROL_UNLOCK 32'd5
-`define CONTROL_TRIGGER 32'd6
-
-// Bit numbers of the state and of the faults in the status
+`define REGISTER_COUNT 16'd51
+// State bits of a status frame: numbers of the bits
 `define STATE_ARMED 0
 `define STATE_RAMPING 1
 `define STATE_PLAYING 2
@@ -143,6 +152,7 @@
 `define STATE_CHECKING 10
 `define STATE_DELAYED 11
 `define STATE_WAITING 12
+// Causes for which the FPGA has shut its outputs off: numbers of the bits
 `define FAULT_NO_PERMIT 0
 `define FAULT_HOST_SILENT 1
 `define FAULT_OVER_TEMPERATURE 2
@@ -152,17 +162,6 @@
 `define FAULT_TOTAL_EDGES 6
 `define FAULT_LONG_EMISSION 7
 `define FAULT_DUTY 8
-
-// Limits of settings, and what they are after reset
-`define BIT_TICKS_MIN 32'd4
-`define BIT_CLOCK_HZ_MAX 32'd2000000
-`define BIT_CLOCK_HZ_MIN 32'd100000
-`define RAMP_SAMPLES_MAX 32'd262143
-`define DUTY_FULL 32'd65536
-
-// Clocks, for the timing tables and the model
-`define FILTER_TICKS 8'd3            // the trigger is high at least that long, or it is a glitch
-`define TRIGGER_LATENCY_TICKS 8'd8   // from the first clock that samples the trigger high to the first word
-`define TIME_LEAD_TICKS 64'd30       // a scheduled play begins so long behind the time of two clocks before it is accepted, or later
+// end of codes
 
 `endif

@@ -32,7 +32,7 @@ module waveform_buffer #(
     output wire [9:0]             slot_words_o,   // 0: nothing
     output wire                   slot_intact_o,  // its CRC matches
     output wire                   slot_checking_o,
-    output wire [31:0]            loaded_o,
+    output wire [15:0]            loaded_o,
     output wire                   checking_o,
     output wire [BUFFER_BITS-1:0] landing_o,
     output wire [7:0]             chunks_o,       // of the landing buffer that count
@@ -91,7 +91,7 @@ module waveform_buffer #(
                 .read_word_i(play_i && play_buffer_i == index ? play_word_i : word), .read_data_o(read_data[index])
             );
         end
-        for (index = 0; index < 32; index = index + 1) begin : loaded
+        for (index = 0; index < 16; index = index + 1) begin : loaded
             if (index < SLOTS) begin : present
                 assign loaded_o[index] = intact_q[index];
             end else begin : absent

@@ -22,7 +22,7 @@ from controller.benchmark.focus_figures import emit, random_points, spread
 from controller.board.board import Board
 from controller.physics.plate_twin import PlateTwin
 from controller.waveforms.composition import Composer
-from controller.waveforms.selection import NEAR_M
+from controller.waveforms.selection import REUSE_RADIUS_M
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
@@ -53,13 +53,14 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
     dict
         `fingers`: for each number of fingers, `asked` and `got`, as shares of what exact composition gives each finger at
         full amplitude, and `error_percent`. `single`: for each amplitude, contrast and spot relative to full amplitude, and
-        edges. `between_cells`: relative amplitude when interpolated and from the nearest entry, and `NEAR_M` beside the point.
+        edges. `between_cells`: relative amplitude when interpolated and from the nearest entry, and `REUSE_RADIUS_M`
+        beside the point.
     """
     random = np.random.default_rng(seed)
     played = [[_scene(board, random, fingers) for _ in range(scenes)] for fingers in FINGERS]
     singles = random_points(board, seed, scenes)
     around = random.uniform(0, 2 * np.pi, scenes)
-    beside = singles + NEAR_M * np.column_stack([np.cos(around), np.sin(around)])
+    beside = singles + REUSE_RADIUS_M * np.column_stack([np.cos(around), np.sin(around)])
     places = np.concatenate([np.array(scene)[:, :2] for some in played for scene in some] + [singles, beside])
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "bank"
@@ -142,4 +143,8 @@ def _between_cells(bank: Bank, composer: Composer, twin: PlateTwin, points: Floa
         interpolated.append(here / reference_m)
         nearest.append(cell / reference_m)
         near.append(there / here)
-    return {"interpolated": spread(interpolated), "nearest_entry": spread(nearest), f"{NEAR_M * 1e3:g}_mm_beside": spread(near)}
+    return {
+        "interpolated": spread(interpolated),
+        "nearest_entry": spread(nearest),
+        f"{REUSE_RADIUS_M * 1e3:g}_mm_beside": spread(near),
+    }

@@ -24,7 +24,6 @@ from controller.fpga.registers import (
     CHANNELS,
     LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
-    REGISTERS,
     Register,
     Start,
 )
@@ -137,7 +136,7 @@ def _moved(capture: Capture) -> list[int]:
 
 def identify(session: Session) -> dict[str, int]:
     """Values of all readable registers, by name in lower case."""
-    return {register.name.lower(): session.exchange.read(register) for register in Register if REGISTERS[register].access != "WO"}
+    return {register.name.lower(): session.exchange.read(register) for register in Register if register.access != "WO"}
 
 
 def bit_errors(

@@ -89,20 +89,10 @@ def limits(board: Board) -> dict[Register, int]:
 
 def settings(board: Board) -> dict[Register, int]:
     """Settings of a board, by register, in the order in which they are written; limits are set to those built in."""
-    parameters = Parameters.of(board, 0)
-    return {
-        Register.IDLE_WORD: board.idle_word,
-        Register.CHANNEL_MASK: board.channel_mask,
-        Register.BIT_PERIOD: board.bit_period,
-        Register.RAMP_SAMPLES: parameters.ramp_samples_reset,
-        Register.HEARTBEAT_TICKS: parameters.heartbeat_ticks_max,
-        Register.PULSE_TICKS: parameters.pulse_ticks_min,
-        Register.CHANNEL_EDGES: parameters.channel_edges_max,
-        Register.TOTAL_EDGES: parameters.total_edges_max,
-        Register.EMISSION_TICKS: parameters.emission_ticks_max,
-        Register.DUTY_SHARE: parameters.duty_share_max,
-        Register.DUTY_TICKS: parameters.duty_ticks_max,
-    }
+    built = Parameters.of(board, 0).verilog()
+    after_reset = {register: register.reset for register in Register if register.access == "RW"}
+    values = {register: reset if isinstance(reset, int) else built[reset] for register, reset in after_reset.items()}
+    return values | {Register.IDLE_WORD: board.idle_word}
 
 
 def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:

@@ -1,12 +1,13 @@
-"""Every number the host and the FPGA have to agree on, with a plain sentence for each code.
+"""Every number that the host and the FPGA have to agree on, and what each register and code means.
 
-`fpga_rtl/registers.vh` says the same; tests/fpga/test_registers.py compares the two.
+This is the source: `python -m controller.fpga.register_table` writes from it `fpga_rtl/registers.vh`, the registers in
+`register_file.v` and `haptic_core.v` and the table in `fpga_rtl/README.md`; the gateware model takes its defaults from it.
 """
 
 from __future__ import annotations
 
-from enum import IntEnum, IntFlag
-from typing import Final, NamedTuple
+from enum import Enum, IntEnum, IntFlag, auto, unique
+from typing import Final, Self
 
 PROTOCOL_VERSION: Final = 2
 IDENTITY_MAGIC: Final = int.from_bytes(b"HPNL", "little")
@@ -60,148 +61,171 @@ class Start(IntEnum):
     TIME = 2
 
 
-class Description(NamedTuple):
-    """One register: `access` is RO, WO or RW (written only while disarmed, but for BIT_PERIOD)."""
+class Kind(Enum):
+    """Where the value of a register comes from; a name is that of the register in lower case unless told otherwise."""
 
-    access: str
-    bits: str
-    reset: str
-    text: str
+    CONSTANT = auto()  # a constant of this file
+    BUILT_IN = auto()  # a parameter of the Verilog, or a localparam of register_file.v, with the register's name
+    COMMAND = auto()  # nowhere: it is written only
+    SETTING = auto()  # a number that the host writes; an output of register_file.v
+    MASK = auto()  # likewise, but a bit may be set only where `high` has it set
+    LIVE = auto()  # the state of now; a wire in haptic_core.v
+    COUNTER = auto()  # counted since reset; a wire in haptic_core.v, an entry of the model's `Telemetry.counts`
+    LINK_COUNTER = auto()  # counted for each link on its own; a wire in register_file.v, an entry of `LinkState.counts`
+    TIME_LOW = auto()  # low half of a tick of 64 bits, a wire in haptic_core.v without _low; reading it keeps the high half
+    TIME_HIGH = auto()  # the high half that was kept when this link last read a TIME_LOW
 
 
+_ACCESS = {Kind.COMMAND: "WO", Kind.SETTING: "RW", Kind.MASK: "RW"}
+
+
+@unique
 class Register(IntEnum):
-    """Addresses of the 32-bit registers; `REGISTERS` describes them."""
+    """Addresses of the 32-bit registers, each with its record: address, kind, bits, text, reset, low, high.
 
-    IDENTITY = 0
-    PROTOCOL = 1
-    BUILD_HASH = 2
-    BOARD = 3
-    CLOCK_HZ = 4
-    GEOMETRY = 5
-    PARAMETERS = 6
-    EDGE_WINDOW_TICKS = 7
-    CONTROL = 8
-    IDLE_WORD = 9
-    CHANNEL_MASK = 10
-    BIT_PERIOD = 11
-    RAMP_SAMPLES = 12
-    HEARTBEAT_TICKS = 13
-    PULSE_TICKS = 14
-    CHANNEL_EDGES = 15
-    TOTAL_EDGES = 16
-    EMISSION_TICKS = 17
-    DUTY_SHARE = 18
-    DUTY_TICKS = 19
-    FAULT = 20
-    FAULT_CHANNELS = 21
-    FAULT_COUNT = 22
-    FAULT_TIME_LOW = 23
-    FAULT_TIME_HIGH = 24
-    INPUTS = 25
-    INPUT_TIME_LOW = 26
-    INPUT_TIME_HIGH = 27
-    TRIGGERS = 28
-    TRIGGERS_IGNORED = 29
-    TRIGGER_TIME_LOW = 30
-    TRIGGER_TIME_HIGH = 31
-    EMISSIONS = 32
-    EMISSION_TIME_LOW = 33
-    EMISSION_TIME_HIGH = 34
-    PLAYS_MISSED = 35
-    UNDERRUNS = 36
-    FRAME_ERRORS = 37
-    SEQUENCE_GAPS = 38
-    SLOTS_LOADED = 39
-    QUEUE = 40
-    DUTY_LEVEL = 41
-    HV_SETTLE_TICKS = 42
-    CHANNEL_MASK_MAX = 43
-    HEARTBEAT_TICKS_MAX = 44
-    PULSE_TICKS_MIN = 45
-    CHANNEL_EDGES_MAX = 46
-    TOTAL_EDGES_MAX = 47
-    EMISSION_TICKS_MAX = 48
-    DUTY_SHARE_MAX = 49
-    DUTY_TICKS_MAX = 50
+    Attributes
+    ----------
+    kind : Kind
+        Where its value comes from.
+    bits : int
+        Number of bits that are used, from bit 0 on.
+    text : str
+        What it is, without a vertical bar.
+    reset : int or str
+        Value after reset; as a name: the constant, or the parameter of the Verilog, that gives it.
+    low, high : int or str
+        Smallest and largest value of a setting, or the name of a constant, a parameter, or a signal of register_file.v.
+        `high` is None where every value of that many bits is allowed.
+    """
 
+    kind: Kind
+    bits: int
+    text: str
+    reset: int | str
+    low: int | str
+    high: int | str | None
 
-REGISTERS: Final[dict[Register, Description]] = {
-    Register.IDENTITY: Description("RO", "31:0", "0x4C4E5048", "'HPNL': this is a haptic panel"),
-    Register.PROTOCOL: Description("RO", "31:0", "2", "version of these frames and registers"),
-    Register.BUILD_HASH: Description("RO", "31:0", "built in", "CRC-32 of the Verilog it was built from"),
-    Register.BOARD: Description("RO", "31:0", "built in", "four letters that name the board"),
-    Register.CLOCK_HZ: Description("RO", "31:0", "built in", "clocks per second: what a tick is"),
-    Register.GEOMETRY: Description("RO", "31:0", "built in", "slots (7:0), words per slot (23:8), channels (31:24)"),
-    Register.PARAMETERS: Description(
-        "RO", "23:0", "built in", "plays in the queue (7:0), ticks from trigger to first word (15:8), of the glitch filter (23:16)"
-    ),
-    Register.EDGE_WINDOW_TICKS: Description("RO", "31:0", "built in", "ticks over which edges are counted, wherever they begin"),
-    Register.CONTROL: Description(
-        "WO",
-        "31:0",
-        "nothing",
+    def __new__(
+        cls,
+        address: int,
+        kind: Kind = Kind.LIVE,
+        bits: int = 32,
+        text: str = "",
+        reset: int | str = 0,
+        low: int | str = 0,
+        high: int | str | None = None,
+    ) -> Self:
+        """One record; the members below give its fields in this order."""
+        register = int.__new__(cls, address)
+        register._value_ = address
+        register.kind, register.bits, register.text = kind, bits, text
+        register.reset, register.low, register.high = reset, low, high
+        return register
+
+    IDENTITY = 0, Kind.CONSTANT, 32, "'HPNL': this is a haptic panel", "IDENTITY_MAGIC"
+    PROTOCOL = 1, Kind.CONSTANT, 32, "version of these frames and registers", "PROTOCOL_VERSION"
+    BUILD_HASH = 2, Kind.BUILT_IN, 32, "CRC-32 of the Verilog it was built from"
+    BOARD = 3, Kind.BUILT_IN, 32, "four letters that name the board"
+    CLOCK_HZ = 4, Kind.BUILT_IN, 32, "clocks per second: what a tick is"
+    GEOMETRY = 5, Kind.BUILT_IN, 32, "slots (7:0), words per slot (23:8), channels (31:24)"
+    PARAMETERS = (
+        6,
+        Kind.BUILT_IN,
+        24,
+        "plays in the queue (7:0), ticks from trigger to first word (15:8), of the glitch filter (23:16)",
+    )
+    EDGE_WINDOW_TICKS = 7, Kind.BUILT_IN, 32, "ticks over which edges are counted, wherever they begin"
+    CONTROL = (
+        8,
+        Kind.COMMAND,
+        32,
         "1 ARM, 2 DISARM, 3 CLEAR faults, 4 STOP, 5 UNLOCK (identity, version, build hash; directly before ARM), 6 TRIGGER",
-    ),
-    Register.IDLE_WORD: Description("RW", "31:0", "0", "level of each channel while armed and not playing"),
-    Register.CHANNEL_MASK: Description("RW", "31:0", "largest", "channels that may move; the others are low"),
-    Register.BIT_PERIOD: Description(
-        "RW",
-        "31:0",
-        "the board's",
-        "time one drive word is held, in 65536ths of a tick: 2 MHz to 100 kHz, 4 ticks or more; written while nothing plays",
-    ),
-    Register.RAMP_SAMPLES: Description("RW", "17:0", "the board's", "drive words in the glide between 0 and idle"),
-    Register.HEARTBEAT_TICKS: Description(
-        "RW", "31:0", "largest", "ticks without a good frame of the link that armed until HOST_SILENT; at most what is built in"
-    ),
-    Register.PULSE_TICKS: Description(
-        "RW", "15:0", "smallest", "shortest time between two changes of one channel; at least what is built in, at most BIT_PERIOD"
-    ),
-    Register.CHANNEL_EDGES: Description("RW", "23:0", "largest", "edges of one channel in a window; at most what is built in"),
-    Register.TOTAL_EDGES: Description("RW", "28:0", "largest", "edges of all channels in a window; at most what is built in"),
-    Register.EMISSION_TICKS: Description("RW", "31:0", "largest", "longest emission; at most what is built in"),
-    Register.DUTY_SHARE: Description(
-        "RW", "16:0", "largest", "65536ths of the time that may be emission or ramp in the long run; at most what is built in"
-    ),
-    Register.DUTY_TICKS: Description(
-        "RW", "31:0", "largest", "ticks of emission that may run ahead of DUTY_SHARE; at most what is built in"
-    ),
-    Register.FAULT: Description("RO", "15:0", "0", "causes of the fault, kept until CLEAR, and EDGE_WINDOW_TICKS if of a limit"),
-    Register.FAULT_CHANNELS: Description("RO", "31:0", "0", "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"),
-    Register.FAULT_COUNT: Description("RO", "31:0", "0", "times that a fault shut the outputs"),
-    Register.FAULT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them; holds its HIGH"),
-    Register.FAULT_TIME_HIGH: Description("RO", "31:0", "0", "high half of the time whose LOW this link read last"),
-    Register.INPUTS: Description("RO", "2:0", "the pins", "levels of the pins: run permit (0), temperature good (1), trigger (2)"),
-    Register.INPUT_TIME_LOW: Description("RO", "31:0", "0", "tick of the last change of run permit or temperature; holds its HIGH"),
-    Register.INPUT_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
-    Register.TRIGGERS: Description("RO", "31:0", "0", "trigger edges and TRIGGER commands"),
-    Register.TRIGGERS_IGNORED: Description("RO", "31:0", "0", "those that found nothing to start"),
-    Register.TRIGGER_TIME_LOW: Description("RO", "31:0", "0", "tick of the last of them, when it was decided on; holds its HIGH"),
-    Register.TRIGGER_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
-    Register.EMISSIONS: Description("RO", "31:0", "0", "emissions that ran to their end"),
-    Register.EMISSION_TIME_LOW: Description(
-        "RO", "31:0", "0", "tick of the first word of the last emission on the pins; holds its HIGH"
-    ),
-    Register.EMISSION_TIME_HIGH: Description("RO", "31:0", "0", "as FAULT_TIME_HIGH"),
-    Register.PLAYS_MISSED: Description(
-        "RO", "31:0", "0", "scheduled plays dropped because their time had passed or something sounded"
-    ),
-    Register.UNDERRUNS: Description("RO", "31:0", "0", "emissions that overtook their upload"),
-    Register.FRAME_ERRORS: Description("RO", "31:0", "0", "frames of this link refused for sync word, length or CRC"),
-    Register.SEQUENCE_GAPS: Description("RO", "31:0", "0", "frames of this link, before this one, whose number skipped"),
-    Register.SLOTS_LOADED: Description("RO", "15:0", "0", "bit k: slot k holds a waveform whose CRC matches"),
-    Register.QUEUE: Description("RO", "7:0", "0", "plays accepted and not yet begun"),
-    Register.DUTY_LEVEL: Description("RO", "31:0", "0", "ticks of emission that have run ahead of DUTY_SHARE"),
-    Register.HV_SETTLE_TICKS: Description("RO", "31:0", "built in", "ticks from hv_enable to the first edge of a ramp up"),
-    Register.CHANNEL_MASK_MAX: Description("RO", "31:0", "built in", "channels that have a stage: no other ever moves"),
-    Register.HEARTBEAT_TICKS_MAX: Description("RO", "31:0", "built in", "most that HEARTBEAT_TICKS can be"),
-    Register.PULSE_TICKS_MIN: Description("RO", "31:0", "built in", "least that PULSE_TICKS can be"),
-    Register.CHANNEL_EDGES_MAX: Description("RO", "31:0", "built in", "most that CHANNEL_EDGES can be"),
-    Register.TOTAL_EDGES_MAX: Description("RO", "31:0", "built in", "most that TOTAL_EDGES can be"),
-    Register.EMISSION_TICKS_MAX: Description("RO", "31:0", "built in", "most that EMISSION_TICKS can be"),
-    Register.DUTY_SHARE_MAX: Description("RO", "31:0", "built in", "most that DUTY_SHARE can be"),
-    Register.DUTY_TICKS_MAX: Description("RO", "31:0", "built in", "most that DUTY_TICKS can be"),
-}
+    )
+    IDLE_WORD = 9, Kind.SETTING, 32, "level of each channel while armed and not playing"
+    CHANNEL_MASK = 10, Kind.MASK, 32, "channels that may move; the others are low", "CHANNEL_MASK_MAX", 0, "CHANNEL_MASK_MAX"
+    BIT_PERIOD = (
+        11,
+        Kind.SETTING,
+        32,
+        "time one drive word is held, in 65536ths of a tick: 2 MHz to 100 kHz, 4 ticks and PULSE_TICKS or more;"
+        " written while nothing plays",
+        "BIT_PERIOD_RESET",
+        "BIT_PERIOD_LOW",
+        "BIT_PERIOD_HIGH",
+    )
+    RAMP_SAMPLES = 12, Kind.SETTING, 18, "drive words in the ramp between 0 and idle", "RAMP_SAMPLES_RESET", 1, "RAMP_SAMPLES_MAX"
+    HEARTBEAT_TICKS = (
+        13,
+        Kind.SETTING,
+        32,
+        "ticks without a good frame of the link that armed until HOST_SILENT",
+        "HEARTBEAT_TICKS_MAX",
+        1,
+        "HEARTBEAT_TICKS_MAX",
+    )
+    PULSE_TICKS = (
+        14,
+        Kind.SETTING,
+        16,
+        "shortest time between two changes of one channel; PULSE_TICKS_MIN to the whole ticks of BIT_PERIOD",
+        "PULSE_TICKS_MIN",
+        "PULSE_TICKS_MIN",
+        "bit_ticks",
+    )
+    CHANNEL_EDGES = 15, Kind.SETTING, 24, "edges of one channel in a window", "CHANNEL_EDGES_MAX", 0, "CHANNEL_EDGES_MAX"
+    TOTAL_EDGES = 16, Kind.SETTING, 29, "edges of all channels in a window", "TOTAL_EDGES_MAX", 0, "TOTAL_EDGES_MAX"
+    EMISSION_TICKS = 17, Kind.SETTING, 32, "longest emission", "EMISSION_TICKS_MAX", 0, "EMISSION_TICKS_MAX"
+    DUTY_SHARE = (
+        18,
+        Kind.SETTING,
+        17,
+        "65536ths of the time that may be emission or ramp in the long run",
+        "DUTY_SHARE_MAX",
+        0,
+        "DUTY_SHARE_MAX",
+    )
+    DUTY_TICKS = 19, Kind.SETTING, 32, "ticks of emission that may run ahead of DUTY_SHARE", "DUTY_TICKS_MAX", 0, "DUTY_TICKS_MAX"
+    FAULT = 20, Kind.LIVE, 16, "causes of the fault, kept until CLEAR, and EDGE_WINDOW_TICKS if of a limit"
+    FAULT_CHANNELS = 21, Kind.LIVE, 32, "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"
+    FAULT_COUNT = 22, Kind.COUNTER, 32, "times that a fault shut the outputs"
+    FAULT_TIME_LOW = 23, Kind.TIME_LOW, 32, "tick of the last of them; keeps its HIGH"
+    FAULT_TIME_HIGH = 24, Kind.TIME_HIGH, 32, "high half of the time whose LOW this link read last"
+    INPUTS = 25, Kind.LIVE, 3, "levels of the pins: run permit (0), temperature good (1), trigger (2)", "the pins"
+    INPUT_TIME_LOW = 26, Kind.TIME_LOW, 32, "tick of the last change of run permit or temperature; keeps its HIGH"
+    INPUT_TIME_HIGH = 27, Kind.TIME_HIGH, 32, "as FAULT_TIME_HIGH"
+    TRIGGERS = 28, Kind.COUNTER, 32, "trigger edges and TRIGGER commands"
+    TRIGGERS_IGNORED = 29, Kind.COUNTER, 32, "those that found nothing to start"
+    TRIGGER_TIME_LOW = 30, Kind.TIME_LOW, 32, "tick of the last of them, when it was decided on; keeps its HIGH"
+    TRIGGER_TIME_HIGH = 31, Kind.TIME_HIGH, 32, "as FAULT_TIME_HIGH"
+    EMISSIONS = 32, Kind.COUNTER, 32, "emissions that ran to their end"
+    EMISSION_TIME_LOW = 33, Kind.TIME_LOW, 32, "tick of the first word of the last emission on the pins; keeps its HIGH"
+    EMISSION_TIME_HIGH = 34, Kind.TIME_HIGH, 32, "as FAULT_TIME_HIGH"
+    PLAYS_MISSED = 35, Kind.COUNTER, 32, "scheduled plays dropped because their time had passed or something sounded"
+    UNDERRUNS = 36, Kind.COUNTER, 32, "emissions that overtook their upload"
+    FRAME_ERRORS = 37, Kind.LINK_COUNTER, 32, "frames of this link refused for sync word, length or CRC"
+    SEQUENCE_GAPS = 38, Kind.LINK_COUNTER, 32, "frames of this link, before this one, whose number skipped"
+    SLOTS_LOADED = 39, Kind.LIVE, 16, "bit k: slot k holds a waveform whose CRC matches"
+    QUEUE = 40, Kind.LIVE, 4, "plays accepted and not yet begun"
+    DUTY_LEVEL = 41, Kind.LIVE, 32, "ticks of emission that have run ahead of DUTY_SHARE"
+    HV_SETTLE_TICKS = 42, Kind.BUILT_IN, 32, "ticks from hv_enable to the first edge of a ramp up"
+    CHANNEL_MASK_MAX = 43, Kind.BUILT_IN, 32, "channels that have a stage: no other ever moves"
+    HEARTBEAT_TICKS_MAX = 44, Kind.BUILT_IN, 32, "most that HEARTBEAT_TICKS can be"
+    PULSE_TICKS_MIN = 45, Kind.BUILT_IN, 32, "least that PULSE_TICKS can be"
+    CHANNEL_EDGES_MAX = 46, Kind.BUILT_IN, 32, "most that CHANNEL_EDGES can be"
+    TOTAL_EDGES_MAX = 47, Kind.BUILT_IN, 32, "most that TOTAL_EDGES can be"
+    EMISSION_TICKS_MAX = 48, Kind.BUILT_IN, 32, "most that EMISSION_TICKS can be"
+    DUTY_SHARE_MAX = 49, Kind.BUILT_IN, 32, "most that DUTY_SHARE can be"
+    DUTY_TICKS_MAX = 50, Kind.BUILT_IN, 32, "most that DUTY_TICKS can be"
+
+    @property
+    def access(self) -> str:
+        """RO, WO, or RW: written only while disarmed, BIT_PERIOD while nothing plays."""
+        return _ACCESS.get(self.kind, "RO")
+
+    @property
+    def used_bits(self) -> int:
+        """Mask of the bits that are used."""
+        return (1 << self.bits) - 1
 
 
 class Control(IntEnum):
@@ -233,100 +257,78 @@ class State(IntFlag):
     WAITING = 1 << 12
 
 
+@unique
 class Fault(IntFlag):
-    """Causes for which the FPGA has shut its outputs off."""
+    """Causes for which the FPGA has shut its outputs off: number of the bit, sentence for the user."""
 
-    NO_PERMIT = 1 << 0
-    HOST_SILENT = 1 << 1
-    OVER_TEMPERATURE = 1 << 2
-    UNDERRUN = 1 << 3
-    SHORT_PULSE = 1 << 4
-    CHANNEL_EDGES = 1 << 5
-    TOTAL_EDGES = 1 << 6
-    LONG_EMISSION = 1 << 7
-    DUTY = 1 << 8
+    _sentence: str
+
+    def __new__(cls, bit: int, sentence: str = "") -> Self:
+        """One cause."""
+        cause = int.__new__(cls, 1 << bit)
+        cause._value_ = 1 << bit
+        cause._sentence = sentence
+        return cause
+
+    NO_PERMIT = 0, "The run permit was lost while the outputs were on."
+    HOST_SILENT = 1, "The host that armed sent no valid frame within the heartbeat timeout."
+    OVER_TEMPERATURE = 2, "The temperature input went low while the outputs were on."
+    UNDERRUN = 3, "An emission reached words that had not been uploaded yet."
+    SHORT_PULSE = 4, "A channel changed twice within limits.min_pulse_us."
+    CHANNEL_EDGES = 5, "Edge rate of a channel exceeded limits.max_channel_edge_rate_hz (stage protection)."
+    TOTAL_EDGES = (
+        6,
+        "Total edge rate exceeded limits.max_total_edge_rate_hz (supply protection).",
+    )
+    LONG_EMISSION = 7, "An emission lasted longer than limits.longest_emission_ms."
+    DUTY = 8, "Emissions exceeded the duty limit: limits.max_duty with limits.duty_budget_ms."
 
     @property
     def sentence(self) -> str:
         """All causes for the user, one plain sentence each."""
-        return " ".join(_FAULT_SENTENCES[cause] for cause in Fault if cause in self) or "No fault."
+        return " ".join(cause._sentence for cause in Fault if cause in self) or "No fault."
 
 
+@unique
 class Result(IntEnum):
-    """What became of the frame before."""
+    """What became of the frame before: code, sentence for the user."""
 
-    OK = 0
-    BAD_SYNC = 1
-    BAD_LENGTH = 2
-    BAD_CRC = 3
-    UNKNOWN_TYPE = 4
-    UNKNOWN_REGISTER = 5
-    READ_ONLY = 6
-    BAD_VALUE = 7
-    BAD_SLOT = 8
-    BAD_CHUNK = 9
-    INCOMPLETE = 10
-    EMPTY_SLOT = 11
-    BUSY = 12
-    NOT_ARMED = 13
-    ARMED = 14
-    FAULTED = 15
-    NO_PERMIT = 16
-    BAD_KEY = 17
-    LOCKED = 18
-    QUEUE_FULL = 19
-    BAD_RANGE = 20
-    BAD_PERIOD = 21
-    TOO_LONG = 22
-    TOO_LATE = 23
-    OVERLAP = 24
-    SLOT_DAMAGED = 25
-    LINK_SLOW = 26
+    sentence: str
 
-    @property
-    def sentence(self) -> str:
-        """One plain sentence for the user."""
-        return _RESULT_SENTENCES[self]
+    def __new__(cls, code: int, sentence: str = "") -> Self:
+        """One result."""
+        result = int.__new__(cls, code)
+        result._value_ = code
+        result.sentence = sentence
+        return result
+
+    OK = 0, "Done."
+    BAD_SYNC = 1, "The frame did not begin with the sync word."
+    BAD_LENGTH = 2, "The frame was longer or shorter than it should be."
+    BAD_CRC = 3, "The frame was damaged on its way: its CRC does not match."
+    UNKNOWN_TYPE = 4, "The FPGA does not know this type of frame."
+    UNKNOWN_REGISTER = 5, "The FPGA has no register of this number."
+    READ_ONLY = 6, "This register cannot be written."
+    BAD_VALUE = 7, "The value is outside what the FPGA allows."
+    BAD_SLOT = 8, "The FPGA has no slot of this number."
+    BAD_CHUNK = 9, "A waveform has no chunk of this number."
+    INCOMPLETE = 10, "Not all chunks of the waveform have arrived."
+    EMPTY_SLOT = 11, "Nothing has been stored in this slot."
+    BUSY = 12, "What is needed is still in use: try again a little later."
+    NOT_ARMED = 13, "The outputs are not armed."
+    ARMED = 14, "This can be done only while disarmed."
+    FAULTED = 15, "A fault is latched: read its cause and clear it first."
+    NO_PERMIT = 16, "The run permit is not given."
+    BAD_KEY = 17, "Identity, protocol version or build hash are not those of this FPGA."
+    LOCKED = 18, "Arming was not unlocked by the frame directly before."
+    QUEUE_FULL = 19, "The queue of plays is full."
+    BAD_RANGE = 20, "The words asked for reach beyond the waveform."
+    BAD_PERIOD = 21, "The period is neither the emission's length nor leaves the idle word room behind it."
+    TOO_LONG = 22, "The emission is longer than allowed."
+    TOO_LATE = 23, "The time of the play has passed, or is too near."
+    OVERLAP = 24, "The play would begin before the one scheduled before it has ended."
+    SLOT_DAMAGED = 25, "The slot's waveform in the FPGA's memory does not match its CRC: upload it again."
+    LINK_SLOW = 26, "The link is too slow to play a waveform that is still arriving."
 
 
-_FAULT_SENTENCES: Final = {
-    Fault.NO_PERMIT: "The run permit went away while the outputs were on.",
-    Fault.HOST_SILENT: "No good frame came within the heartbeat time from the host that armed.",
-    Fault.OVER_TEMPERATURE: "The temperature input went low while the outputs were on.",
-    Fault.UNDERRUN: "An emission reached words that had not arrived yet.",
-    Fault.SHORT_PULSE: "A channel changed twice within the shortest pulse allowed.",
-    Fault.CHANNEL_EDGES: "A channel had more edges in a window than its stage may be given.",
-    Fault.TOTAL_EDGES: "All channels together had more edges in a window than the supply may be asked for.",
-    Fault.LONG_EMISSION: "An emission lasted longer than allowed.",
-    Fault.DUTY: "There was more emission than the duty limit allows.",
-}
-
-_RESULT_SENTENCES: Final = {
-    Result.OK: "Done.",
-    Result.BAD_SYNC: "The frame did not begin with the sync word.",
-    Result.BAD_LENGTH: "The frame was longer or shorter than it should be.",
-    Result.BAD_CRC: "The frame was damaged on its way: its CRC does not match.",
-    Result.UNKNOWN_TYPE: "The FPGA does not know this type of frame.",
-    Result.UNKNOWN_REGISTER: "The FPGA has no register of this number.",
-    Result.READ_ONLY: "This register cannot be written.",
-    Result.BAD_VALUE: "The value is outside what the FPGA allows.",
-    Result.BAD_SLOT: "The FPGA has no slot of this number.",
-    Result.BAD_CHUNK: "A waveform has no chunk of this number.",
-    Result.INCOMPLETE: "Not all chunks of the waveform have arrived.",
-    Result.EMPTY_SLOT: "Nothing has been stored in this slot.",
-    Result.BUSY: "What is needed is still in use: try again a little later.",
-    Result.NOT_ARMED: "The outputs are not armed.",
-    Result.ARMED: "This can be done only while disarmed.",
-    Result.FAULTED: "A fault is latched: read its cause and clear it first.",
-    Result.NO_PERMIT: "The run permit is not given.",
-    Result.BAD_KEY: "Identity, protocol version or build hash are not those of this FPGA.",
-    Result.LOCKED: "Arming was not unlocked by the frame directly before.",
-    Result.QUEUE_FULL: "The queue of plays is full.",
-    Result.BAD_RANGE: "The words asked for reach beyond the waveform.",
-    Result.BAD_PERIOD: "The period is neither the emission's length nor leaves the idle word room behind it.",
-    Result.TOO_LONG: "The emission is longer than allowed.",
-    Result.TOO_LATE: "The time of the play has passed, or is too near.",
-    Result.OVERLAP: "The play would begin before the one scheduled before it has ended.",
-    Result.SLOT_DAMAGED: "The slot's waveform in the FPGA's memory does not match its CRC: upload it again.",
-    Result.LINK_SLOW: "The link is too slow to play a waveform that is still arriving.",
-}
+CONSTANTS: Final[dict[str, int]] = {name: value for name, value in globals().items() if name.isupper() and isinstance(value, int)}

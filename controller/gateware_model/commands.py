@@ -21,6 +21,7 @@ from controller.fpga.registers import (
     Control,
     Fault,
     FrameType,
+    Kind,
     Register,
     Result,
     Start,
@@ -34,12 +35,10 @@ from controller.gateware_model.registers import RegisterFile
 
 FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
-_HIGH_OF = {
-    Register.FAULT_TIME_LOW: Register.FAULT_TIME_HIGH,
-    Register.INPUT_TIME_LOW: Register.INPUT_TIME_HIGH,
-    Register.TRIGGER_TIME_LOW: Register.TRIGGER_TIME_HIGH,
-    Register.EMISSION_TIME_LOW: Register.EMISSION_TIME_HIGH,
-}
+
+
+def _zeros(kind: Kind) -> dict[Register, int]:
+    return {register: 0 for register in Register if register.kind is kind}
 
 
 @dataclass
@@ -50,8 +49,7 @@ class LinkState:
     sequence: int = 0
     data: int = 0
     high: int = 0  # half of the time whose LOW was read last
-    frame_errors: int = 0
-    gaps: int = 0
+    counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.LINK_COUNTER))
     unlocked: bool = False  # by the frame before
 
 
@@ -60,11 +58,7 @@ class Telemetry:
     """Everything that is only counted or noted."""
 
     links: tuple[LinkState, LinkState] = field(default_factory=lambda: (LinkState(), LinkState()))  # by Port
-    triggers: int = 0
-    ignored: int = 0
-    missed: int = 0
-    emissions: int = 0
-    underruns: int = 0
+    counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.COUNTER))
     trigger_tick: int = 0
     emission_tick: int = 0
     input_tick: int = 0
@@ -114,7 +108,7 @@ class Commands:
         """Note that a frame was refused."""
         link = self.telemetry.links[port]
         link.result, link.unlocked = refusal, False
-        link.frame_errors += 1
+        link.counts[Register.FRAME_ERRORS] += 1
 
     def carry_out(
         self, tick: int, port: Port, frame: Frame, ticks: int, *, landing_busy: bool, landing_live: bool, queue_full: bool
@@ -144,7 +138,8 @@ class Commands:
             telemetry.result, effect = self._play(tick, frame, queue_full=queue_full)
         elif frame.kind not in (FrameType.NOP, FrameType.TEST):
             telemetry.result = Result.UNKNOWN_TYPE
-        telemetry.gaps += frame.sequence != telemetry.sequence + 1 & 0xFF  # a READ of the gaps does not count its own
+        # a READ of the gaps does not count its own
+        telemetry.counts[Register.SEQUENCE_GAPS] += frame.sequence != telemetry.sequence + 1 & 0xFF
         telemetry.sequence = frame.sequence
         if effect is not None and effect.arms:
             self._armed_by = port
@@ -195,33 +190,28 @@ class Commands:
         if value is not None:
             return value
         telemetry, gate = self.telemetry, self.gate
-        times = {
-            Register.FAULT_TIME_LOW: gate.fault_tick,
-            Register.INPUT_TIME_LOW: telemetry.input_tick,
-            Register.TRIGGER_TIME_LOW: telemetry.trigger_tick,
-            Register.EMISSION_TIME_LOW: telemetry.emission_tick,
-        }
-        if register in times:
-            link.high = times[register] >> 32
-            return times[register]
-        if register in _HIGH_OF.values():
+        if register.kind is Kind.COUNTER:
+            return telemetry.counts[register]
+        if register.kind is Kind.LINK_COUNTER:
+            return link.counts[register]
+        if register.kind is Kind.TIME_HIGH:
             return link.high
+        if register.kind is Kind.TIME_LOW:
+            time = {
+                Register.FAULT_TIME_LOW: gate.fault_tick,
+                Register.INPUT_TIME_LOW: telemetry.input_tick,
+                Register.TRIGGER_TIME_LOW: telemetry.trigger_tick,
+                Register.EMISSION_TIME_LOW: telemetry.emission_tick,
+            }[register]
+            link.high = time >> 32
+            return time
         at_fault = gate.faults & (Fault.SHORT_PULSE | Fault.CHANNEL_EDGES)
         trigger = any(start <= tick < end for start, end in telemetry.trigger_pin)
-        inputs = gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2
         return {
             Register.CONTROL: 0,
             Register.FAULT: int(gate.faults),
             Register.FAULT_CHANNELS: gate.limits.channels(tick) if at_fault else 0,
-            Register.FAULT_COUNT: gate.fault_count,
-            Register.INPUTS: inputs,
-            Register.TRIGGERS: telemetry.triggers,
-            Register.TRIGGERS_IGNORED: telemetry.ignored,
-            Register.EMISSIONS: telemetry.emissions,
-            Register.PLAYS_MISSED: telemetry.missed,
-            Register.UNDERRUNS: telemetry.underruns,
-            Register.FRAME_ERRORS: link.frame_errors,
-            Register.SEQUENCE_GAPS: link.gaps,
+            Register.INPUTS: gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2,
             Register.SLOTS_LOADED: self.buffers.loaded(tick),
             Register.QUEUE: len(self.queue.plays),
             Register.DUTY_LEVEL: gate.limits.duty_level(tick),

@@ -40,7 +40,6 @@ class OutputGate:
         self.state = Gate.OFF
         self.faults = Fault(0)
         self._rest_until = 0  # the tick from which on a fault by a limit can be cleared
-        self.fault_count = 0
         self.fault_tick = 0
         self.permits = dict.fromkeys(Permit, False)
         self.silent_from = 0  # the tick from which on the host counts as silent
@@ -143,7 +142,6 @@ class OutputGate:
         self.faults |= cause
         if cause & LIMITS:
             self._rest_until = tick + 1 + self._registers.parameters.edge_window_ticks
-        self.fault_count += 1
         self.fault_tick = tick
         self.state = Gate.OFF
         self._live_until = tick + 1

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
-from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Result, Start, State
+from controller.fpga.registers import CHUNK_WORDS, FILTER_TICKS, Fault, FrameType, Register, Result, Start, State
 from controller.fpga.status import Status, pack_status
 from controller.gateware_model.commands import Commands
 from controller.gateware_model.decoder import Frame, decode
@@ -240,12 +240,12 @@ class GatewareModel:
             state,
             gate.faults,
             link.data,
-            telemetry.triggers & 0xFFFFFFFF,
+            telemetry.counts[Register.TRIGGERS] & 0xFFFFFFFF,
             now,
-            telemetry.emissions & 0xFFFFFFFF,
+            telemetry.counts[Register.EMISSIONS] & 0xFFFFFFFF,
             len(self._queue.plays),
             self._buffers.chunks(),
-            telemetry.ignored & 0xFFFF,
+            telemetry.counts[Register.TRIGGERS_IGNORED] & 0xFFFF,
         )
 
     def _waiting(self, tick: int) -> bool:
@@ -357,7 +357,7 @@ class GatewareModel:
             begin = max(tick + BEGIN_TICKS - 1, self._spi_until + 1)
             self._expect(_Event(begin, _Kind.UART_BEGIN, port=Port.UART))
         if ended and not cause:
-            self._telemetry.emissions += 1
+            self._telemetry.counts[Register.EMISSIONS] += 1
             self._gate.pins.focus(tick + 1, self._registers.bit_ticks)
         halted = effect is not None and effect.halts
         self._move_player(tick, trigger, halted)
@@ -370,7 +370,8 @@ class GatewareModel:
         if noted:
             self._telemetry.input_tick = tick
         if cause:
-            self._telemetry.underruns += Fault.UNDERRUN in cause
+            self._telemetry.counts[Register.UNDERRUNS] += Fault.UNDERRUN in cause
+            self._telemetry.counts[Register.FAULT_COUNT] += 1
             self._gate.shut(tick, cause)
             self._commands.drop(tick)
             self._player.drop(tick)
@@ -391,11 +392,11 @@ class GatewareModel:
                 begins = self._queue.pop(tick)
             elif head.start is Start.TIME and seen and head.when < tick + DECISION_TICKS:
                 self._queue.pop(tick)
-                telemetry.missed += 1
+                telemetry.counts[Register.PLAYS_MISSED] += 1
         if trigger:
-            telemetry.triggers += 1
+            telemetry.counts[Register.TRIGGERS] += 1
             telemetry.trigger_tick = tick
-            telemetry.ignored += begins is None or begins.start is not Start.TRIGGER
+            telemetry.counts[Register.TRIGGERS_IGNORED] += begins is None or begins.start is not Start.TRIGGER
         repeats = player.repeating and not player.delayed and tick == player.due_tick and begins is None and not halted
         released = player.release_tick == tick and not halted
         if player.playing and tick == player.end - 1:

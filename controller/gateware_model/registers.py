@@ -8,74 +8,48 @@ from controller.fpga.registers import (
     BIT_CLOCK_HZ_MIN,
     BIT_TICKS_MIN,
     CHANNELS,
+    CONSTANTS,
     FILTER_TICKS,
-    IDENTITY_MAGIC,
-    PROTOCOL_VERSION,
     QUEUE_PLAYS,
-    RAMP_SAMPLES_MAX,
-    REGISTERS,
     TRIGGER_LATENCY_TICKS,
     WAVEFORM_WORDS,
+    Kind,
     Register,
     Result,
 )
 from controller.gateware_model.limit_settings import LimitSettings
 
-_ALL_ONES = 0xFFFFFFFF
-HARD_LIMITS = (
-    "HV_SETTLE_TICKS",
-    "CHANNEL_MASK_MAX",
-    "HEARTBEAT_TICKS_MAX",
-    "PULSE_TICKS_MIN",
-    "CHANNEL_EDGES_MAX",
-    "TOTAL_EDGES_MAX",
-    "EMISSION_TICKS_MAX",
-    "DUTY_SHARE_MAX",
-    "DUTY_TICKS_MAX",
-)
+_SETTINGS = (Kind.SETTING, Kind.MASK)
 
 
 class RegisterFile:
-    """Settings by name; everything else by address."""
+    """Settings by name; constants, what is built in and settings by address, as their records in `Register` say.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        With which the gateware is built.
+
+    Attributes
+    ----------
+    bit_period_low, bit_period_high : int
+        Range of BIT_PERIOD, in 65536ths of a tick.
+    limits : LimitSettings
+        Settings of the stages' limits.
+    """
 
     def __init__(self, parameters: Parameters) -> None:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
-        most = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest)
+        self.bit_period_low = fewest << 16
+        self.bit_period_high = max(p.clock_hz // BIT_CLOCK_HZ_MIN, fewest) << 16
+        self.geometry = p.slots | WAVEFORM_WORDS << 8 | CHANNELS << 24
         self._values: dict[Register, int] = {
-            Register.IDENTITY: IDENTITY_MAGIC,
-            Register.PROTOCOL: PROTOCOL_VERSION,
-            Register.BUILD_HASH: p.build_hash,
-            Register.BOARD: p.board,
-            Register.CLOCK_HZ: p.clock_hz,
-            Register.GEOMETRY: p.slots | WAVEFORM_WORDS << 8 | CHANNELS << 24,
-            Register.PARAMETERS: QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16,
-            Register.EDGE_WINDOW_TICKS: p.edge_window_ticks,
-            Register.IDLE_WORD: 0,
-            Register.CHANNEL_MASK: p.channel_mask_max,
-            Register.BIT_PERIOD: p.bit_period_reset,
-            Register.RAMP_SAMPLES: p.ramp_samples_reset,
-            Register.HEARTBEAT_TICKS: p.heartbeat_ticks_max,
-            Register.PULSE_TICKS: p.pulse_ticks_min,
-            Register.CHANNEL_EDGES: p.channel_edges_max,
-            Register.TOTAL_EDGES: p.total_edges_max,
-            Register.EMISSION_TICKS: p.emission_ticks_max,
-            Register.DUTY_SHARE: p.duty_share_max,
-            Register.DUTY_TICKS: p.duty_ticks_max,
-        } | {Register[name]: getattr(p, name.lower()) for name in HARD_LIMITS}
-        self._ranges = {
-            Register.IDLE_WORD: (0, _ALL_ONES),
-            Register.CHANNEL_MASK: (0, _ALL_ONES),
-            Register.BIT_PERIOD: (fewest << 16, most << 16),
-            Register.RAMP_SAMPLES: (1, RAMP_SAMPLES_MAX),
-            Register.HEARTBEAT_TICKS: (1, p.heartbeat_ticks_max),
-            Register.PULSE_TICKS: (p.pulse_ticks_min, _ALL_ONES),
-            Register.CHANNEL_EDGES: (0, p.channel_edges_max),
-            Register.TOTAL_EDGES: (0, p.total_edges_max),
-            Register.EMISSION_TICKS: (0, p.emission_ticks_max),
-            Register.DUTY_SHARE: (0, p.duty_share_max),
-            Register.DUTY_TICKS: (0, p.duty_ticks_max),
+            register: self._number(register.name if register.kind is Kind.BUILT_IN else register.reset)
+            for register in Register
+            if register.kind in (Kind.CONSTANT, Kind.BUILT_IN, *_SETTINGS) and register is not Register.PARAMETERS
         }
+        self._values[Register.PARAMETERS] = QUEUE_PLAYS | TRIGGER_LATENCY_TICKS << 8 | FILTER_TICKS << 16
         self.limits = LimitSettings()
         self._set_limits()
 
@@ -118,23 +92,34 @@ class RegisterFile:
         if address not in set(Register):
             return Result.UNKNOWN_REGISTER
         register = Register(address)
-        if REGISTERS[register].access == "RO":
+        if register.kind not in _SETTINGS:
             return Result.READ_ONLY
         if register == Register.BIT_PERIOD:
             if not quiet:
                 return Result.BUSY
         elif not disarmed:
             return Result.ARMED
-        low, high = self._ranges[register]
-        if register == Register.BIT_PERIOD:
-            low = max(low, self._values[Register.PULSE_TICKS] << 16)
-        elif register == Register.PULSE_TICKS:
-            high = self.bit_ticks
-        if not low <= value <= high or (register == Register.CHANNEL_MASK and value & ~self.parameters.channel_mask_max):
+        if not self._allowed(register, value):
             return Result.BAD_VALUE
         self._values[register] = value
         self._set_limits()
         return Result.OK
+
+    def _allowed(self, register: Register, value: int) -> bool:
+        high = register.used_bits if register.high is None else self._number(register.high)
+        if register.kind is Kind.MASK:
+            return not value & ~high
+        if register == Register.BIT_PERIOD and value >> 16 < self._values[Register.PULSE_TICKS]:
+            return False
+        return self._number(register.low) <= value <= high
+
+    def _number(self, name: int | str) -> int:
+        """The number that a record names: a constant, a property of this object, or a parameter."""
+        if isinstance(name, int):
+            return name
+        if name in CONSTANTS:
+            return CONSTANTS[name]
+        return int(getattr(self if hasattr(self, name.lower()) else self.parameters, name.lower()))
 
     def _set_limits(self) -> None:
         self.limits.pulse_ticks = self._values[Register.PULSE_TICKS]

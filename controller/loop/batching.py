@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 from controller.clocks import FpgaTime
 from controller.scene.emission import Emission
+from controller.waveforms.composition import MAX_FOCI
 
-MAX_FOCI = 10  # foci of one waveform
 MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place
 SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
 ENDLESS = 0  # repetitions: until they are replaced

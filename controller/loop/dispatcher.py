@@ -232,7 +232,7 @@ class Dispatcher:
         assert finger is not None
         reported_s = turn.now_s - max(turn.report_ns, 0) * 1e-9
         focus_after_s = self._occupancy.duration_s + RESIDENT_START_S
-        wanted = self._scheduler.predict(finger, self._source.place, reported_s, self._source.report_s, focus_after_s)
+        wanted = self._scheduler.predict(finger, self._source.predict, reported_s, self._source.report_s, focus_after_s)
         if wanted is None or self._session.wire_free_s() > turn.now_s:
             return
         next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))

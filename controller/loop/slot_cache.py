@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 
-from controller.waveforms.selection import NEAR_M, Key
+from controller.waveforms.selection import REUSE_RADIUS_M, Key
 
 SingleFocus = tuple[float, float, int]  # x and y in m, amplitude in steps below full
 
@@ -31,7 +31,7 @@ class SlotCache:
     slots : int
     """
 
-    def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = NEAR_M) -> None:
+    def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = REUSE_RADIUS_M) -> None:
         self.slots = slots
         self._single_focus = single_focus
         self._near_m2 = near_m**2

@@ -24,7 +24,19 @@ Shape = Rectangle | Circle | Polygon
 
 
 class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
-    """What all regions have. Without effects it is a place where nothing is felt."""
+    """A region of the plate and what is felt there; without effects, nothing. A finger is in the first region that contains it.
+
+    Attributes
+    ----------
+    name
+        Name of the region; no two have the same.
+    effects
+        Names of effects of the library or of the scene's own [effects.NAME], or tables with the keys of [effects.NAME].
+    amplitude
+        Factor of the amplitudes of its effects.
+    policy
+        `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
+    """
 
     name: Annotated[str, Meta(min_length=1)]
     effects: tuple[str | EffectTable, ...]
@@ -33,7 +45,17 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
 
 
 class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
-    """A rectangle from its corner of smallest x and y."""
+    """A rectangle.
+
+    Attributes
+    ----------
+    x_mm, y_mm
+        Corner with the smallest x and y.
+    width_mm
+        Extent along x.
+    height_mm
+        Extent along y.
+    """
 
     x_mm: PlaceMm
     y_mm: PlaceMm
@@ -42,7 +64,15 @@ class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
 
 
 class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
-    """A disc around its centre."""
+    """A circle.
+
+    Attributes
+    ----------
+    x_mm, y_mm
+        Centre.
+    radius_mm
+        Radius.
+    """
 
     x_mm: PlaceMm
     y_mm: PlaceMm
@@ -50,7 +80,13 @@ class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
 
 
 class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
-    """A polygon by its corners."""
+    """A polygon.
+
+    Attributes
+    ----------
+    corners_mm
+        Corners [x, y] in order; edges do not cross.
+    """
 
     corners_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(min_length=3, max_length=1000)]
 
@@ -69,7 +105,15 @@ AnyRegionTable = RectangleTable | CircleTable | PolygonTable | PlateTable
 
 
 class SceneTable(Record, frozen=True):
-    """The whole file."""
+    """A scene: regions of the plate and the effects that are felt in them.
+
+    Attributes
+    ----------
+    regions
+        The regions; of those that contain a finger the first counts.
+    effects
+        Effects of the scene by name, in addition to those of the library.
+    """
 
     regions: Annotated[tuple[AnyRegionTable, ...], Meta(min_length=1)]
     effects: Tables = msgspec.field(default_factory=dict)

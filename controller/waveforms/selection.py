@@ -1,9 +1,8 @@
-"""Which waveform serves a set of points: an entry as it is, or responses composed.
+"""Selects the waveform for a set of points: an entry of the bank as it is, or responses composed.
 
-A lone finger near a cell's centre at full amplitude plays the bank's entry without any arithmetic.
-Farther off, for less, and for several points at once, responses are interpolated, summed and signed.
-Points are first rounded to a lattice and amplitudes to steps, so that a finger at rest asks for the
-same waveform again and finds it resident.
+A single point near a cell's centre at full amplitude plays the bank's entry without any arithmetic. Farther off, at a lower
+amplitude, and for several points at once, responses are interpolated, summed and signed. Points are first rounded to a lattice
+and amplitudes to steps, so that a finger at rest asks for the same waveform again and finds it resident in the FPGA.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
 
 LATTICE_M = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
-NEAR_M = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less (README.md)
+REUSE_RADIUS_M = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
 
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
@@ -31,9 +30,9 @@ class Selection:
     bank : Bank
         The open bank.
     snap_m : float
-        A lone finger of full amplitude at most this far from a cell's centre plays that cell.
+        A single point of full amplitude at most this far from a cell's centre plays that cell.
     idle_word : int
-        Level of every channel while nothing is to be gained by another.
+        Level of each channel at rest: bit q is channel q.
     """
 
     def __init__(self, bank: Bank, snap_m: float, idle_word: int) -> None:
@@ -44,11 +43,11 @@ class Selection:
 
     @property
     def composes(self) -> bool:
-        """Whether anything had to be composed so far, and the response section with it mapped."""
+        """Whether anything was composed so far; the bank's response section is mapped then."""
         return self._composer is not None
 
     def prepare(self) -> None:
-        """Take the memory for composing now, that of the linear algebra (32 MB) included, where it must not be taken later.
+        """Take the memory for composing, that of the linear algebra (32 MB) included, before playing begins.
 
         Raises
         ------
@@ -97,26 +96,40 @@ class Selection:
         return words
 
     def crc(self, key: Key, words: memoryview) -> int:
-        """CRC-32 of the drive words of a key: of an entry the one it was built with, which vouches for it up to the FPGA."""
+        """CRC-32 of the drive words of a key.
+
+        For an entry it is the CRC-32 with which the entry was built, so that the FPGA finds whatever changed since.
+        """
         return self._bank.drive_crc(key) if isinstance(key, int) else zlib.crc32(words)
 
     def recheck(self, key: Key) -> None:
-        """Raise BankError if words of a key that the FPGA found wrong came so from the bank."""
+        """Check drive words of a key again that the FPGA refused for a wrong CRC.
+
+        Raises
+        ------
+        BankError
+            If they are wrong in the bank.
+        """
         if isinstance(key, int):
             self._bank.recheck(key)
 
-    def reusable(self, key: Key, resident: Key, near_m: float = NEAR_M) -> bool:
-        """Whether a waveform that the FPGA holds serves instead of another that it does not.
+    def reusable(self, key: Key, resident: Key) -> bool:
+        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within REUSE_RADIUS_M.
 
-        Only for one point: of the same amplitude, and at most `near_m` away.
+        Parameters
+        ----------
+        key : Key
+            The waveform that is to be played.
+        resident : Key
+            The one that the FPGA holds.
         """
         wanted, there = self.single_focus(key), self.single_focus(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False
-        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= near_m
+        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= REUSE_RADIUS_M
 
     def single_focus(self, key: Key) -> tuple[float, float, int] | None:
-        """Place and step of amplitude of a key of one point."""
+        """Place (x_m, y_m) and amplitude step of a key of a single point; None for a key of several."""
         if isinstance(key, int):
             return (*self._bank.grid.place(key), 0)
         if len(key) != 1:

@@ -21,7 +21,7 @@ from controller.touch.event_codes import POSITIONS
 from controller.touch.event_reader import DeviceDescription
 from controller.touch.linux_input import INPUT_EVENT
 from controller.touch.tracker import Tracker
-from controller.waveforms.selection import LATTICE_M, NEAR_M
+from controller.waveforms.selection import LATTICE_M, REUSE_RADIUS_M
 
 SOURCE = Path(__file__).with_name("c_twin.c")
 REGIONS = 16
@@ -223,7 +223,7 @@ class Twin:
             "x0_m": grid.x0_m,
             "y0_m": grid.y0_m,
             "snap_m": board.bank.snap_mm * 1e-3,
-            "near_m": NEAR_M,
+            "near_m": REUSE_RADIUS_M,
             "lattice_m": LATTICE_M,
             "length_m": board.plate.length_m,
             "width_m": board.plate.width_m,
@@ -244,8 +244,8 @@ class Watched(Tracker):
 
     twin: Twin | None = None
 
-    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+    def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """As the tracker's."""
         if self.twin is not None:
             self.twin.aimed(finger, at_s)
-        return super().place(finger, at_s)
+        return super().predict(finger, at_s)

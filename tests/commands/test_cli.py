@@ -140,7 +140,7 @@ def test_a_scene_that_the_fpga_will_end_is_warned_of_before_it_plays(capsys, sma
     assert re.search(
         r"scene\.toml: up to 25 emissions a second make \d+ edges a second on one channel, above limits\.max_channel", warning
     )
-    assert "A channel had more edges in a window than its stage may be given." in fault
+    assert "Edge rate of a channel exceeded limits.max_channel_edge_rate_hz (stage protection)." in fault
 
 
 @pytest.mark.parametrize("file", sorted(file.name for file in RECORDINGS.iterdir() if file.name != "LICENSE"))

@@ -15,7 +15,7 @@ from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, REGISTERS, Control, FrameType, Register, Start, State
+from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, FrameType, Kind, Register, Start, State
 from controller.fpga.serial_link import SerialLink
 from controller.fpga.status import parse_status
 from controller.gateware_model.model import GatewareModel
@@ -25,7 +25,7 @@ BUILD = build_hash(data_folder("fpga_rtl"))
 BAUD = int(os.environ.get("HAPTIC_PANEL_BAUD", "1000000"))
 PASSING = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.CHECKING  # as the board is wired, and as time passes
 OWN = {Register.BOARD, Register.INPUTS, Register.INPUT_TIME_LOW, Register.FRAME_ERRORS, Register.SEQUENCE_GAPS}
-OWN |= {register for register, entry in REGISTERS.items() if entry.reset in {"built in", "largest", "smallest", "500 kHz"}}
+OWN |= {register for register in Register if register.kind is Kind.BUILT_IN}
 
 
 @pytest.fixture
@@ -76,9 +76,9 @@ def conversation():
         ask(f"control {command}", frames.pack_control, command)
     ask("unlock with a wrong key", frames.pack_unlock, BUILD ^ 1)
     for register in Register:
-        if REGISTERS[register].access == "RO" and register not in OWN:
+        if register.access == "RO" and register not in OWN:
             ask(register.name, frames.pack_read, register)
-        if REGISTERS[register].access == "RW":
+        if register.access == "RW":
             for value in (0, 1, 0xFFFFFFFF):
                 ask(f"{register.name} = {value}", frames.pack_write, register, value)
     ask("an unknown register", frames.pack_read, len(Register))

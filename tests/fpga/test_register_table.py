@@ -1,83 +1,153 @@
-"""The register table: what is printed, and which descriptions are refused."""
+"""What is written for a register of each kind, and which records and files are refused."""
 
+import shutil
 from enum import IntEnum
-from typing import NamedTuple
 
 import pytest
 
-from controller.fpga.register_table import insert, main, reset_value, table, used_bits
+from controller.board.board import data_folder
+from controller.fpga.register_table import main, rewritten, settings, table, with_table
+from controller.fpga.registers import Kind, Register
 
 
 class Toy(IntEnum):
-    LIMIT = 2
-    CONTROL = 1
-    IDENTITY = 0
+    """Registers with the fields of `Register`."""
+
+    __new__ = Register._new_member_
+    IDENTITY = 0, Kind.CONSTANT, 32, "'HPNL'", "IDENTITY_MAGIC"
+    CONTROL = 1, Kind.COMMAND, 32, "1 ARM, 2 DISARM"
+    WORDS = 2, Kind.SETTING, 18, "drive words", 5000, 1
+    MASK = 3, Kind.MASK, 32, "channels", "CHANNEL_MASK_MAX", 0, "CHANNEL_MASK_MAX"
+    ON = 4, Kind.LIVE, 1, "whether it is on"
+    HEAT_TIME_LOW = 5, Kind.TIME_LOW, 32, "tick of the last alarm"
+
+    access = Register.access
+    used_bits = Register.used_bits
 
 
-class Description(NamedTuple):
-    access: str
-    bits: str
-    reset: str
-    text: str
+class Loose(int):
+    """A register beside an enum."""
+
+    name = "EXTRA"
+    used_bits = Register.used_bits
 
 
-TOYS = {
-    Toy.LIMIT: Description("RW", "17:0", "5000", "drive words, 1 to 262143"),
-    Toy.CONTROL: Description("WO", "31:0", "-", "1 ARM, 2 DISARM"),
-    Toy.IDENTITY: Description("RO", "31:0", "0x4C4E5048", "'HPNL'"),
-}
 TABLE = [
     "| address | name | access | bits | after reset | what |",
     "|---|---|---|---|---|---|",
     "| 0 | IDENTITY | RO | 31:0 | 0x4C4E5048 | 'HPNL' |",
-    "| 1 | CONTROL | WO | 31:0 | - | 1 ARM, 2 DISARM |",
-    "| 2 | LIMIT | RW | 17:0 | 5000 | drive words, 1 to 262143 |",
+    "| 1 | CONTROL | WO | 31:0 | nothing | 1 ARM, 2 DISARM |",
+    "| 2 | WORDS | RW | 17:0 | 5000 | drive words |",
+    "| 3 | MASK | RW | 31:0 | CHANNEL_MASK_MAX | channels; a bit only where CHANNEL_MASK_MAX has it |",
+    "| 4 | ON | RO | 0 | 0 | whether it is on |",
+    "| 5 | HEAT_TIME_LOW | RO | 31:0 | 0 | tick of the last alarm |",
 ]
 
 
-def test_the_table_is_in_the_order_of_addresses():
-    assert table(TOYS) == TABLE
+@pytest.fixture
+def folder(tmp_path):
+    """A copy of what is written into."""
+    for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md"):
+        shutil.copy(data_folder("fpga_rtl") / name, tmp_path)
+    return tmp_path
+
+
+def test_the_table_says_what_the_records_say():
+    assert table(Toy) == TABLE
+
+
+def test_each_kind_has_its_verilog(folder):
+    texts = {path.name: text for path, text in rewritten(folder, Toy).items()}
+    assert "`define REGISTER_HEAT_TIME_LOW 16'd5\n`define REGISTER_COUNT 16'd6\n" in texts["registers.vh"]
+    for line in (
+        "`REGISTER_IDENTITY: value = `IDENTITY_MAGIC;",
+        "value    = {14'd0, words_q};",
+        "in_range = word0 != 32'd0 && word0 <= 32'd262143;",
+        "in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;",
+        "`REGISTER_ON: value = {31'd0, on_i};",
+        "`REGISTER_HEAT_TIME_LOW: begin value = heat_time_i[31:0]; high = heat_time_i[63:32]; low = 1'b1; end",
+        "input  wire        on_i,",
+        "input  wire [63:0] heat_time_i,",
+        "output wire [17:0] words_o,",
+        "words_q <= 18'd5000;",
+        "mask_q <= CHANNEL_MASK_MAX;",
+    ):
+        assert f" {line}\n" in texts["register_file.v"], line
+    assert "REGISTER_CONTROL:" not in texts["register_file.v"], "a command has no value"
+    for line in ("wire        on;", "wire [63:0] heat_time;", ".on_i(on),", ".words_o(words),"):
+        assert f" {line}\n" in texts["haptic_core.v"], line
+
+
+def test_the_last_setting_needs_no_label():
+    """Only a setting is written there: of the last one no address is compared."""
+    assert [line.strip() for line in settings(Toy) if "<= word0" in line] == [
+        "`REGISTER_WORDS: words_q <= word0[17:0];",
+        "default: mask_q <= word0;",
+    ]
 
 
 @pytest.mark.parametrize(
-    ("changes", "what"),
+    ("record", "what"),
     [
-        ({"access": "rw"}, "access"),
-        ({"bits": "0:17"}, "highest first"),
-        ({"bits": "32"}, "highest first"),
-        ({"bits": "all"}, "neither a bit"),
-        ({"bits": ""}, "neither a bit"),
-        ({"bits": "8:4, 4"}, "twice"),
-        ({"bits": "11:0"}, "beside"),
-        ({"text": "a | b"}, "break"),
-        ({"text": ""}, "break"),
-        ({"reset": ""}, "break"),
+        ((7, Kind.LIVE, 32, "text"), "the next one free is 6"),
+        ((6, Kind.LIVE, 33, "text"), "33 bits"),
+        ((6, Kind.LIVE, 0, "text"), "0 bits"),
+        ((6, Kind.SETTING, 8, "text", 256), "more than 8 bits"),
+        ((6, Kind.LIVE, 8, "a | b"), "break"),
+        ((6, Kind.LIVE, 8, ""), "break"),
+        ((6, Kind.TIME_LOW, 32, "text"), "_LOW"),
     ],
 )
-def test_a_description_that_cannot_be_right_is_refused(changes, what):
-    with pytest.raises(ValueError, match=what):
-        table(TOYS | {Toy.LIMIT: TOYS[Toy.LIMIT]._replace(**changes)})
-
-
-def test_bits_and_resets():
-    assert used_bits("31:0") == 0xFFFFFFFF
-    assert used_bits("0, 7:4, 31") == 0x800000F1
-    assert used_bits("7:0 slots, 31:24 channels") == 0xFF0000FF
-    assert [reset_value(reset) for reset in ("0", "0xFF", "the limit built in", "HEARTBEAT_TICKS_MAX")] == [0, 255, None, None]
+def test_a_record_that_cannot_be_right_is_refused(folder, record, what):
+    wrong = Register._new_member_(Loose, *record)
+    with pytest.raises(ValueError, match=f"EXTRA: .*{what}"):
+        rewritten(folder, [*Toy, wrong])
 
 
 def test_the_table_replaces_the_one_that_is_there():
     readme = "# A\n\n| address | name | what |\n|---|---|---|\n| 0 | OLD | x |\n\nbelow\n"
-    assert insert(readme, TABLE) == "# A\n\n" + "\n".join(TABLE) + "\n\nbelow\n"
-    assert insert(insert(readme, TABLE), TABLE) == insert(readme, TABLE)
+    assert with_table(readme, TABLE) == "# A\n\n" + "\n".join(TABLE) + "\n\nbelow\n"
+    assert with_table(with_table(readme, TABLE), TABLE) == with_table(readme, TABLE)
     for wrong in ("no table\n", readme + readme):
         with pytest.raises(ValueError, match="not one"):
-            insert(wrong, TABLE)
+            with_table(wrong, TABLE)
 
 
-def test_a_readme_is_rewritten(tmp_path, monkeypatch):
-    monkeypatch.setattr("controller.fpga.register_table.REGISTERS", TOYS)
-    readme = tmp_path / "README.md"
-    readme.write_text("| address | name |\n|---|---|\n")
-    main(readme)
-    assert readme.read_text() == "\n".join(TABLE) + "\n"
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("registers.vh", "`define FAULT_DUTY 8", "`define FAULT_DUTY 9"),
+        ("registers.vh", "`define QUEUE_PLAYS 8'd8", "`define QUEUE_PLAYS 8'd9"),
+        ("registers.vh", "`define FRAME_SYNC 16'hA55A", "`define FRAME_SYNC 16'hA55B"),
+        ("register_file.v", "`REGISTER_TRIGGERS: value = triggers_i;", "`REGISTER_TRIGGERS: value = emissions_i;"),
+        ("haptic_core.v", "        .duty_level_i(duty_level),\n", ""),
+        ("README.md", "| 28 | TRIGGERS |", "| 28 | TRIGGER |"),
+    ],
+)
+def test_what_was_changed_by_hand_is_told_and_written_again(folder, name, old, new):
+    path, said = folder / name, []
+    right = path.read_text()
+    assert right.count(old) == 1
+    path.write_text(right.replace(old, new))
+    assert main(["--check", "--folder", str(folder)], said.append) == 1
+    assert said == [f"{path}: not as registers.py says\n"]
+    assert main(["--folder", str(folder)], said.append) == 0
+    assert path.read_text() == right
+    assert main(["--check", "--folder", str(folder)], said.append) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "what"),
+    [
+        ("registers.vh", "`define QUEUE_PLAYS 8'd8", "`define OTHER 8'd8", "OTHER, QUEUE_PLAYS"),
+        ("register_file.v", "// end of read", "", "has the generated blocks"),
+        ("haptic_core.v", "// generated: wires", "", "has the generated blocks"),
+    ],
+)
+def test_a_file_without_the_place_is_refused(folder, capsys, name, old, new, what):
+    path = folder / name
+    path.write_text(path.read_text().replace(old, new))
+    with pytest.raises(SystemExit) as exited:
+        main(["--folder", str(folder)])
+    assert exited.value.code == 2
+    assert what in capsys.readouterr().err

@@ -525,7 +525,7 @@ def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_
     reports = [(0.0, {0: cell[1]} if tap else {}), (0.05, {0: None} if tap else {}), (9.0, {})]
     with Bank.open(bank_file, board) as bank:
         link, counters, loop = loop_of(board, bank, tmp_path, StallingClock(stalls), reports, evemu_text, CLICK)
-        with pytest.raises(FaultError, match=r"No good frame came within the heartbeat time.*\(4 times in a row"):
+        with pytest.raises(FaultError, match=r"The host that armed sent no valid frame.*\(4 times in a row"):
             loop.run()
         link.close()
     assert (counters.emissions, counters.host_silent) == (tap, 4)
@@ -561,7 +561,7 @@ def test_a_lost_run_permit_is_waited_for_with_its_cause_and_outputs_off(board, b
     assert not capture.hv[without].any()
     assert not capture.words[without].any()
     assert counters.outages == 1
-    assert "run permit went away" in counters.outage
+    assert "run permit was lost" in counters.outage
     assert (capture.focus_ticks > 1.0 * board.link.clock_hz).any(), "given back, the panel plays again"
 
 

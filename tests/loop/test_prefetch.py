@@ -10,7 +10,7 @@ from controller.bank.reader import Bank
 from controller.scene.scene import load_scene
 from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording
-from controller.waveforms.selection import NEAR_M
+from controller.waveforms.selection import REUSE_RADIUS_M
 
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 5.0 }]\n'
 CLICK = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
@@ -45,8 +45,8 @@ def test_what_was_sent_ahead_is_played_where_the_finger_is_then(perform):
     for played in run.played[2:]:
         (emission,) = played.emissions
         x_m, y_m = track.position(played.trigger_s - run.start_s + run.board.waveform.duration_s)
-        assert emission.x_m == pytest.approx(x_m, abs=NEAR_M + 0.6e-3)
-        assert emission.y_m == pytest.approx(y_m, abs=NEAR_M)
+        assert emission.x_m == pytest.approx(x_m, abs=REUSE_RADIUS_M + 0.6e-3)
+        assert emission.y_m == pytest.approx(y_m, abs=REUSE_RADIUS_M)
 
 
 def test_nothing_is_sent_ahead_of_a_finger_at_rest_or_one_that_feels_nothing_as_it_moves(perform):

@@ -5,6 +5,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, settled
 
+from controller.fpga.register_table import signal
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
@@ -15,10 +16,10 @@ from controller.fpga.registers import (
     PROTOCOL_VERSION,
     QUEUE_PLAYS,
     RAMP_SAMPLES_MAX,
-    REGISTERS,
     TRIGGER_LATENCY_TICKS,
     WAVEFORM_WORDS,
     Control,
+    Kind,
     Register,
     Result,
 )
@@ -26,26 +27,8 @@ from controller.fpga.registers import (
 ALL = 0xFFFFFFFF
 PULSES = {Control.ARM: "arm_o", Control.DISARM: "disarm_o", Control.CLEAR: "clear_o", Control.STOP: "stop_o"}
 PULSES |= {Control.TRIGGER: "trigger_o"}
-TIMES = {
-    Register.FAULT_TIME_LOW: "fault_time_i",
-    Register.INPUT_TIME_LOW: "input_time_i",
-    Register.TRIGGER_TIME_LOW: "trigger_time_i",
-    Register.EMISSION_TIME_LOW: "emission_time_i",
-}
-INPUTS = {
-    Register.FAULT: ("fault_i", 16),
-    Register.FAULT_CHANNELS: ("fault_channels_i", 32),
-    Register.FAULT_COUNT: ("fault_count_i", 32),
-    Register.INPUTS: ("inputs_i", 3),
-    Register.TRIGGERS: ("triggers_i", 32),
-    Register.TRIGGERS_IGNORED: ("ignored_i", 32),
-    Register.EMISSIONS: ("emissions_i", 32),
-    Register.PLAYS_MISSED: ("missed_i", 32),
-    Register.UNDERRUNS: ("underruns_i", 32),
-    Register.SLOTS_LOADED: ("loaded_i", 32),
-    Register.QUEUE: ("queued_i", 4),
-    Register.DUTY_LEVEL: ("duty_level_i", 32),
-}
+TIMES = {register: f"{signal(register)}_i" for register in Register if register.kind is Kind.TIME_LOW}
+INPUTS = {register: (f"{signal(register)}_i", register.bits) for register in Register if register.kind in (Kind.LIVE, Kind.COUNTER)}
 FIRST_UNKNOWN = max(Register) + 1
 
 
@@ -78,6 +61,7 @@ class Reference:
             Register.RAMP_SAMPLES: int(dut.RAMP_SAMPLES_RESET.value),
             Register.PULSE_TICKS: self.pulse_min,
         } | self.most
+        self.settings |= {r: r.reset for r in Register if r.access == "RW" and r not in self.settings}
         self.unlocked, self.high, self.frame_errors, self.gaps = False, 0, 0, 0
 
     def range_of(self, register):
@@ -95,8 +79,9 @@ class Reference:
                 return self.pulse_min, self.settings[Register.BIT_PERIOD] >> 16
             case Register.HEARTBEAT_TICKS:
                 return 1, self.most[register]
-            case _:
+            case _ if register in self.most:
                 return 0, self.most[register]
+        return register.low, register.used_bits if register.high is None else register.high
 
     def takes(self, register, value):
         """A value is within its range now, and a mask within that of the channels there are."""
@@ -320,8 +305,8 @@ async def settings_take_the_values_allowed_and_only_while_they_may(dut):
         bench.state |= {"off": 1, "quiet": 1}
         if register is Register.PULSE_TICKS:
             assert await bench.write(register, reference.pulse_min) is Result.OK
-    for register, description in REGISTERS.items():
-        if description.access == "RO":
+    for register in Register:
+        if register.access == "RO":
             assert await bench.write(register, 1) is Result.READ_ONLY
         else:
             assert register in reference.settings or register is Register.CONTROL

@@ -451,7 +451,7 @@ def test_a_process_stopped_for_a_while_finds_its_outputs_off_and_comes_back(serv
         os.waitid(os.P_PID, service.process.pid, os.WSTOPPED | os.WNOWAIT)
         signal.sigtimedwait([], 0.5)  # two heartbeat timeouts
         service.process.send_signal(signal.SIGCONT)
-        assert "No good frame came" in service.says("outputs off")
+        assert "sent no valid frame" in service.says("outputs off")
         service.says("the outputs are on")
         assert client.play("click", at_mm=(60, 50)).outcome == "played"
     figures, code = service.end()

@@ -6,7 +6,7 @@ import pytest
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, edges
 from controller.bank.reader import Bank
-from controller.waveforms.amplitude import SHARES, THRESHOLDS, hold_threshold
+from controller.waveforms.amplitude_masking import SHARES, THRESHOLDS, masking_threshold
 from controller.waveforms.composition import Composer
 
 IDLE_WORD = 0x69969669
@@ -60,10 +60,10 @@ def reached(responses, rests):
 
 
 def test_the_table_is_its_own_inverse_and_falls():
-    assert [hold_threshold(share) for share in SHARES] == pytest.approx(THRESHOLDS)
-    assert hold_threshold(1.2) == 0
-    assert hold_threshold(0.001) == THRESHOLDS[-1]
-    between = [hold_threshold(share) for share in np.linspace(1, 0.06, 50)]
+    assert [masking_threshold(share) for share in SHARES] == pytest.approx(THRESHOLDS)
+    assert masking_threshold(1.2) == 0
+    assert masking_threshold(0.001) == THRESHOLDS[-1]
+    between = [masking_threshold(share) for share in np.linspace(1, 0.06, 50)]
     assert (np.diff(between) > 0).all()
 
 

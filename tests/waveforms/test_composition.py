@@ -5,7 +5,7 @@ from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.errors import BankError
-from controller.waveforms.composition import MOST_POINTS, Composer
+from controller.waveforms.composition import MAX_FOCI, Composer
 
 IDLE_WORD = 0x69969669
 SAMPLES = 200  # of the waves
@@ -44,7 +44,7 @@ def amplitude(words, response):
     return float(np.sum((channel_bits(np.frombuffer(words, "<u4")) * 2.0 - 1) * response) / np.abs(response).sum())
 
 
-@pytest.mark.parametrize("count", [1, 2, 5, MOST_POINTS])
+@pytest.mark.parametrize("count", [1, 2, 5, MAX_FOCI])
 def test_composes_what_its_definition_in_float64_gives(bank, count):
     random = np.random.default_rng(count)
     composer = Composer(bank, IDLE_WORD)
@@ -123,7 +123,7 @@ POINT = (0.01, 0.01, 1.0)
 
 @pytest.mark.parametrize(
     "points",
-    [[], [POINT] * (MOST_POINTS + 1), [(np.nan, 0, 1.0)], *([POINT, (0.01, 0.01, a)] for a in (np.nan, np.inf, 0.0, -0.5, 1.01))],
+    [[], [POINT] * (MAX_FOCI + 1), [(np.nan, 0, 1.0)], *([POINT, (0.01, 0.01, a)] for a in (np.nan, np.inf, 0.0, -0.5, 1.01))],
 )
 def test_refuses_what_cannot_be_composed(bank, points):
     with pytest.raises(ValueError, match=r"points|NaN|amplitude"):

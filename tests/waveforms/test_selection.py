@@ -88,7 +88,7 @@ def test_refuses_an_amplitude_that_cannot_be(selection, amplitude):
         selection.key([(0.05, 0.05, amplitude)])
 
 
-def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serves(bank, selection):
+def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serves(bank, selection, board):
     x_m, y_m = bank.grid.points()[50]
     cell = selection.key([(x_m, y_m, 1.0)])
     x_m += 1.5e-3  # off the cell
@@ -97,8 +97,11 @@ def test_a_resident_waveform_of_one_point_near_by_and_of_the_same_amplitude_serv
     assert selection.reusable(near, here)
     assert not selection.reusable(far, here)
     assert not selection.reusable(here, cell)
-    assert selection.reusable(here, cell, near_m=1.7e-3)
     assert selection.reusable(cell, cell)
+    fine = Selection(bank, 0.2e-3, board.idle_word)  # so that a place beside a cell does not play the cell itself
+    beside, farther = (fine.key([(x_m - 1.5e-3 + off_m, y_m, 1.0)]) for off_m in (0.3e-3, 0.7e-3))
+    assert fine.reusable(beside, cell)
+    assert not fine.reusable(farther, cell)
     weaker = selection.key([(x_m, y_m, 0.5)])
     assert not selection.reusable(weaker, here)
     assert selection.reusable(weaker, weaker)
