@@ -43,6 +43,17 @@ def test_the_map_of_the_rooms_is_that_of_the_contract():
         assert not missing, f"{names}: {missing}"
 
 
+def test_the_way_of_a_touch_names_functions_that_are_there():
+    text = (ROOT / "controller" / "README.md").read_text()
+    named = re.findall(r"\[([\w/]+\.py)\]\(\1\) `([\w.]+)`", text)
+    assert len(named) > 15
+    for file, name in named:
+        inside = ast.parse((ROOT / "controller" / file).read_text())
+        for part in name.split("."):
+            (inside,) = [node for node in inside.body if getattr(node, "name", None) == part] or [None]
+            assert inside, f"{file}: {name}"
+
+
 def test_the_top_level_is_the_customers():
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("not a git checkout")
@@ -110,6 +121,9 @@ def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
     ):
         assert f"{data}/{wanted}" in names
     assert any(name.startswith(f"{data}/systemd/") for name in names)
+    share = data.removesuffix("/haptic-panel")
+    assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
+    assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
     assert {"controller/cli.py", "controller/scene/effects.toml"} <= set(names)
     assert not any(name.startswith("tests/") or name.endswith(".sh") for name in names)
 
@@ -192,9 +206,9 @@ def anchors(path):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-def test_every_link_of_every_readme_leads_somewhere():
+def test_every_link_of_every_page_leads_somewhere():
     broken = []
-    for page in (page for page in ROOT.rglob("README.md") if not any(part.startswith(".") for part in page.parts)):
+    for page in (page for page in ROOT.rglob("*.md") if not any(part.startswith(".") for part in page.relative_to(ROOT).parts)):
         for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
             place, _, anchor = link.partition("#")
             target = page.parent / place if place else page

@@ -30,10 +30,6 @@ esac
 """
 
 
-# Which the wheel's verilated.mk sets without asking the environment; the flag for GCC's precompiled headers, used by the
-# largest designs, it leaves empty
-MAKE_VARIABLES = "OPT_FAST=-O1 CFG_CXXFLAGS_PCH_I=-include"
-
 COVERAGE: pytest.StashKey[dict] = pytest.StashKey()  # points that happened, bench by bench
 
 
@@ -59,7 +55,6 @@ def simulator(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VERILATOR_ROOT", str(root))
         patch.setenv("OBJCACHE", str(keeper))
-        patch.setenv("MAKEFLAGS", MAKE_VARIABLES)
         patch.setenv("PATH", os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)]))
         yield "verilator"
 

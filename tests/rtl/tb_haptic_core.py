@@ -1,5 +1,6 @@
 """haptic_core: frames go in over the pins, words come out on the channels, all as the model says."""
 
+import os
 import random
 import zlib
 from itertools import pairwise
@@ -61,7 +62,7 @@ SOUNDING = SHORT * BIT_TICKS
 FIRST_WORD_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the first clock edge that samples the trigger
 FINE = (BIT_TICKS << 16) + 21846  # 6 1/3 ticks a word
 UART_BYTE = 10 * UART_BIT_TICKS
-RANDOM_FRAMES = 1000
+RANDOM_FRAMES = int(os.environ.get("HAPTIC_PANEL_RANDOM_FRAMES", "300"))  # tests/conformance sends more of the same
 SCRIPTS_LATE = 3  # of which the model also gets inputs one tick late
 ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.ARMED | State.HV_ENABLE
 OFF = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT  # the link that armed was heard a moment ago
@@ -938,5 +939,5 @@ async def does_what_the_model_does_through_random_sequences(dut):
                 panel.check_against_model(late)
             except AssertionError:
                 noticed[late] += 1
-    assert emissions > 500, "too few emissions to mean anything"
+    assert emissions > RANDOM_FRAMES // 2, "too few emissions to mean anything"
     assert noticed == dict.fromkeys(noticed, SCRIPTS_LATE), "one tick more of any input is a difference"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benches import BENCHES, RUNS
+from benches import BENCHES, RUNS, make_variables
 from verilog_coverage import MODULES, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
 from controller.bank.grid import Grid
@@ -28,7 +28,11 @@ def one_entry_bank(board, tmp_path_factory):
 
 @pytest.mark.parametrize("run", RUNS)
 def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
-    environment = os.environ | {"HAPTIC_PANEL_TEST_BANK": str(one_entry_bank), "PYTHONPATH": os.pathsep.join(sys.path)}
+    environment = os.environ | {
+        "HAPTIC_PANEL_TEST_BANK": str(one_entry_bank),
+        "PYTHONPATH": os.pathsep.join(sys.path),
+        "MAKEFLAGS": make_variables(run),
+    }
     command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, tmp_path]
     done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     assert done.returncode == 0, done.stdout[-10_000:]
