@@ -121,6 +121,9 @@ def test_the_wheel_carries_boards_gateware_and_units(tmp_path):
     ):
         assert f"{data}/{wanted}" in names
     assert any(name.startswith(f"{data}/systemd/") for name in names)
+    share = data.removesuffix("/haptic-panel")
+    assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
+    assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
     assert {"controller/cli.py", "controller/scene/effects.toml"} <= set(names)
     assert not any(name.startswith("tests/") or name.endswith(".sh") for name in names)
 

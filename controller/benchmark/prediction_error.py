@@ -1,7 +1,7 @@
 """Prediction figures (touch/README.md, Prediction): distance of predicted from recorded places, for several predictors.
 
 `python -m controller.benchmark.prediction_error FILE...` replays recordings through the board's tracker. After every report it
-predicts where each finger will be, by the loop's own call (`Tracker.place`), and compares with the recorded track at that
+predicts where each finger will be, by the loop's own call (`Tracker.predict`), and compares with the recorded track at that
 time. Stops and turns at a known instant and noise at rest, which no recording shows, are synthesised.
 """
 
@@ -24,7 +24,7 @@ from controller.board.board import Board, find_board, load_board
 from controller.errors import ControllerError
 from controller.physics.plot import check_picture
 from controller.service.drivers import tracked
-from controller.touch.prediction import PAUSE_S, SHORTEST_STEP_S, Motion
+from controller.touch.prediction import MAX_INTERVAL_S, MIN_INTERVAL_S, Motion
 from controller.touch.recording import Recording, Track
 from controller.touch.replay import RecordingSource
 
@@ -90,9 +90,9 @@ class OneEuro(Motion):
         self._y_m += share * (y_m - self._y_m)
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
 
-    def place(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
-        """Predict, starting at the filtered place; see `Motion.place`."""
-        x_m, y_m = super().place(at_s, known_s, lag_s, period_s)
+    def predict(self, at_s: float, known_s: float, lag_s: float, period_s: float) -> tuple[float, float]:
+        """Predict, starting at the filtered place; see `Motion.predict`."""
+        x_m, y_m = super().predict(at_s, known_s, lag_s, period_s)
         return x_m - self.x_m + self._x_m, y_m - self.y_m + self._y_m
 
 
@@ -259,7 +259,7 @@ def _asked(
         if source.counts.reports == reports:
             continue
         for finger in down:
-            places = [place for horizon_s in ahead_s if (place := tracker.place(finger, now_s + horizon_s)) is not None]
+            places = [place for horizon_s in ahead_s if (place := tracker.predict(finger, now_s + horizon_s)) is not None]
             asked.append((finger, now_s, places))
     return asked, {finger: Track.joined(finger, found) for finger, found in parts.items()}
 
@@ -292,7 +292,7 @@ def _spread_mm(found: list[Places]) -> dict[str, float]:
 
 
 def _step_s(motion: Motion, time_s: float) -> float:
-    return min(max(time_s - motion.time_s, SHORTEST_STEP_S), PAUSE_S)
+    return min(max(time_s - motion.time_s, MIN_INTERVAL_S), MAX_INTERVAL_S)
 
 
 def _share(cutoff_hz: float, step_s: float) -> float:

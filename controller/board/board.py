@@ -263,11 +263,11 @@ class Board(Record, frozen=True):
     limits
         Limits.
     temperature
-        The temperature sensor; left out: the plate is taken to be as warm as the bank assumes.
+        Left out: the plate is taken to be as warm as the bank assumes.
     realtime
-        Scheduling of the event loop.
+        Left out: the defaults.
     application_socket
-        The socket for user interfaces; left out: there is none.
+        Left out: there is no socket.
     folder
         Folder of the board.toml; set on reading, not a key of the file.
     """
@@ -285,7 +285,7 @@ class Board(Record, frozen=True):
     temperature: Temperature | None = None
     realtime: Realtime = Realtime()
     application_socket: ApplicationSocket | None = None
-    folder: Path = Path()
+    folder: Path = msgspec.field(default_factory=Path)
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.actuators) <= CHANNELS:

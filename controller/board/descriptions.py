@@ -85,6 +85,7 @@ def described(kind: Type | None, unit: str = "") -> str:
             return "a table"
         case UnionType():
             parts = [described(other, unit) for other in kind.types if not isinstance(other, NoneType)]
+            parts = ["a list of these" if part in {f"a list, each {other}" for other in parts} else part for part in parts]
             return " or ".join(dict.fromkeys(parts)) if all(parts) else ""
         case _:
             return ""

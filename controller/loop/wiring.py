@@ -75,7 +75,7 @@ def assemble(
         selection,
         clock_estimate,
         Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty),
-        source.place,
+        source.predict,
         slots=board.link.slots if slots is None else slots,
         upload_s=board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
         command_s=board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),

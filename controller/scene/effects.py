@@ -23,28 +23,33 @@ EnvelopePoint = tuple[NotNegative, Annotated[float, Meta(ge=0, le=1)]]
 
 
 class EffectTable(Record, frozen=True):
-    """An effect as it stands in a file; None: the key is not given.
+    """An effect: when it is felt, how strong, and how often in time or how densely in space. A key that is not given is None.
 
     Attributes
     ----------
     effect : str or None
         Name of the effect that this one builds on.
     when : str or tuple of str
-        One occasion or several.
+        When it is felt: one occasion or several.
     amplitude : float
-    rate_hz, count, duration_ms : float, int, float
-        A train: `count` emissions, or as many as fit into `duration_ms`.
+        Share of the full amplitude; left out: 1.
+    rate_hz : float
+        Emissions a second of a train.
+    count : int
+        Emissions of a train.
+    duration_ms : float
+        Length of a train, instead of `count`.
     phase : float
         Delay of a train in periods, or offset of grid lines in spacings.
     spacing_mm : float
         From one emission to the next as the finger moves.
     along : str
-        "path": the spacing is of the distance travelled; "x" or "y": of grid lines across that axis, from the region's lower
-        end on.
+        "path" (if left out): the spacing is of the distance travelled; "x" or "y": of grid lines across that axis, from the
+        region's lower end on.
     envelope : tuple of (float, float)
-        Points (ms, amplitude) over the train.
+        Points [ms, amplitude] over the train; linear in between, amplitude 0 is silence.
     x_mm, y_mm : float
-        Where a spot is.
+        Place of a spot (`when = "always"`); left out: the region's centre.
     """
 
     effect: str | None = None
@@ -90,7 +95,7 @@ class EffectTable(Record, frozen=True):
         return 0.0 if self.rate_hz is None else (self.first_s + self.emissions / self.rate_hz) * 1e3
 
     def over(self, base: EffectTable) -> EffectTable:
-        """Another effect, with the keys that this one gives in place of its own."""
+        """The effect `base`, with the keys that this one gives in place of those of `base`."""
         given = {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
         given.pop("effect", None)
         if "count" in given or "duration_ms" in given:  # either key says how long the train is

@@ -14,12 +14,13 @@ from controller.board.panel_state import Condition
 from controller.clocks import NEVER
 from controller.errors import ControllerError, FaultError
 from controller.loop.commands import Outcome, PanelControl
-from controller.touch.ghost_figures import FEWEST_EMISSIONS, FEWEST_GHOSTS, LONGEST_S
+from controller.touch.ghost_figures import MAX_GHOST_LIFE_S, MIN_EMISSIONS, MIN_GHOSTS
 from controller.touch.source import Counts, TouchSample, TouchSource
 
 KNOCK = "knock"  # the effect that is asked for
 MOST_EMISSIONS = 600
-GAP_S = (LONGEST_S + 0.03, LONGEST_S + 0.08)  # from the end of an emission to the next, at random within the panel's scans
+# From the end of an emission to the next, at random within the panel's scans
+GAP_S = (MAX_GHOST_LIFE_S + 0.03, MAX_GHOST_LIFE_S + 0.08)
 SETTLED_S = 0.5  # what the ramp of arming has made is gone
 PATIENCE_S = 10.0  # for outputs that are off
 STAYS_S = 1.0  # no ghost: the rest need not be waited for
@@ -80,7 +81,7 @@ class Overheard:
         self.since_s = min(self._down.values(), default=NEVER)
         return ()
 
-    def place(self, _finger: int, _at_s: float) -> None:
+    def predict(self, _finger: int, _at_s: float) -> None:
         """No finger is anywhere."""
 
     @property
@@ -190,7 +191,7 @@ class Knocks:
 
     @property
     def _enough(self) -> bool:
-        return self.played >= FEWEST_EMISSIONS and self._panel.ghosts >= FEWEST_GHOSTS
+        return self.played >= MIN_EMISSIONS and self._panel.ghosts >= MIN_GHOSTS
 
     def outcome(self, _ticket: int, outcome: Outcome, _age_s: float) -> None:
         """A knock was played, or left out."""

@@ -1,8 +1,8 @@
-"""Which contact of protocol A is which: by tracking id where the device sends one, else by where each was going.
+"""Identities of the contacts of protocol A: by tracking id if the device sends one, else by predicted position.
 
-Without tracking ids all contacts of a report are assigned at once: the pairing with the smallest sum of squared distances
-between where each contact would be by its velocity, and where one is. Nearest first would swap fingers that pass each
-other within a few mm.
+Contacts without tracking ids are assigned all at once: the assignment with the smallest sum of squared distances between the
+predicted position of each old contact and a new one. Assigning the nearest first would swap fingers that pass each other
+within a few mm.
 """
 
 from __future__ import annotations
@@ -13,15 +13,41 @@ from dataclasses import dataclass
 
 from controller.touch.axes import Axes
 
-FIRST_SERIAL = 1 << 32  # identities given here, above every tracking id (32 bits signed)
-MAX_STEP_M = 0.03  # between two reports, 3 m/s at 100 Hz: farther off, it is another finger
-SHORTEST_STEP_S, PAUSE_S = 2e-3, 50e-3  # no panel reports faster; after a pause nothing is known of a velocity
-VELOCITY_SHARE = 0.7  # of the last step, in the velocity
+FIRST_SERIAL = 1 << 32  # identities assigned here, above every tracking id (32 bits signed)
+MAX_STEP_M = 0.03  # between two reports, 3 m/s at 100 Hz; farther away it is another finger
+MIN_INTERVAL_S, MAX_INTERVAL_S = 2e-3, 50e-3  # no panel reports faster; after a longer pause the velocity is unknown
+VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 
 
 @dataclass(slots=True, eq=False)
 class Contact:
-    """What is known of one contact, or of one slot."""
+    """State of one contact, or of one slot.
+
+    Attributes
+    ----------
+    identity : int
+        Tracking id, serial number from `FIRST_SERIAL` on, or a negative value of `decoder.py`.
+    x, y : int or None
+        Raw position; None before the first one.
+    moved : bool
+        Whether the position has changed since the last sample.
+    hovers, palm : bool
+        As the device reports it.
+    counted : bool
+        Whether it is among the contacts counted.
+    refused : bool
+        Whether it began while ten fingers were played.
+    finger : int or None
+        Number in the samples; None while it is not played.
+    x_m, y_m, size_m : float
+        Of its last sample.
+    size : int
+        ABS_MT_TOUCH_MAJOR.
+    at_x_m, at_y_m : float
+        Without a tracking id: position of its last report.
+    vx, vy : float
+        Without a tracking id: velocity in m/s.
+    """
 
     identity: int
     x: int | None = None
@@ -32,18 +58,18 @@ class Contact:
     counted: bool = False
     refused: bool = False
     finger: int | None = None
-    x_m: float = 0.0  # of its last sample
+    x_m: float = 0.0
     y_m: float = 0.0
-    size: int = 0  # ABS_MT_TOUCH_MAJOR
+    size: int = 0
     size_m: float = 0.0
-    at_x_m: float = 0.0  # without a tracking id: at its last report, and its velocity in m/s
+    at_x_m: float = 0.0
     at_y_m: float = 0.0
     vx: float = 0.0
     vy: float = 0.0
 
 
 def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:
-    """Carry what is known of the contacts of the last report over to those of a new one.
+    """Carry the state of the contacts of the last report over to those of a new one.
 
     Parameters
     ----------
@@ -52,80 +78,85 @@ def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: 
     new : list of Contact
         Contacts of this report, each with both positions and the device's tracking id, negative without one.
     axes : Axes
-        Gives places on the plate.
+        Gives positions on the plate.
     serials : iterator of int
         Identities for new contacts without tracking id, from FIRST_SERIAL on.
     step_s : float
-        From the last report to this one.
+        Time from the last report to this one.
 
     Returns
     -------
     dict
-        Contacts of this report by identity, the old ones updated in place. Of two with the same
-        tracking id the first counts.
+        Contacts of this report by identity, the old ones updated in place. Of two contacts with one tracking id the
+        first counts.
     """
     now: dict[int, Contact] = {}
-    unnamed = []
+    untracked = []
     for contact in new:
         if contact.identity < 0:
-            contact.at_x_m, contact.at_y_m = axes.place_m(*axes.clamp(contact.x or 0, contact.y or 0))
-            unnamed.append(contact)
+            contact.at_x_m, contact.at_y_m = axes.position_m(*axes.clamp(contact.x or 0, contact.y or 0))
+            untracked.append(contact)
         elif contact.identity not in now:
-            now[contact.identity] = _moved(old.get(contact.identity), contact)
-    strangers = [was for was in old.values() if was.identity >= FIRST_SERIAL]
-    partners = _partners(strangers, unnamed, step_s)
-    for contact, partner in zip(unnamed, partners, strict=True):
+            now[contact.identity] = _carried_over(old.get(contact.identity), contact)
+    old_untracked = [contact for contact in old.values() if contact.identity >= FIRST_SERIAL]
+    partners = _partners(old_untracked, untracked, step_s)
+    for contact, partner in zip(untracked, partners, strict=True):
         if partner is None:
             contact.identity = next(serials)
         else:
-            _drive(partner, contact, step_s)
-        same = _moved(partner, contact)
+            _update_velocity(partner, contact, step_s)
+        same = _carried_over(partner, contact)
         now[same.identity] = same
     return now
 
 
 def assignment(costs: Sequence[Sequence[float]]) -> list[int]:
-    """Column of each row, another for each, with the smallest sum of costs.
+    """Assign a column to each row, each column at most once, with the smallest sum of costs.
 
-    Shortest augmenting paths (Jonker and Volgenant, Computing 38, 1987); a row whose cheapest column nobody else wants
-    costs one look.
+    Shortest augmenting paths (Jonker and Volgenant, Computing 38, 1987); a row whose cheapest column no other row prefers is
+    assigned at once.
 
     Parameters
     ----------
     costs : (row, column) sequences of float
-        At least as many columns as rows; inf where a pair cannot be, at least one cost of a row finite.
+        At least as many columns as rows; inf for an impossible pair, at least one finite cost in each row.
+
+    Returns
+    -------
+    list of int
+        Column of each row.
     """
     rows, columns = range(len(costs)), range(len(costs[0]) if costs else 0)
     row_of = [-1 for _ in columns]
     column_of = [-1 for _ in rows]
-    price = [min(row) for row in costs]
-    discount = [0.0 for _ in columns]
+    row_dual = [min(row) for row in costs]
+    column_dual = [0.0 for _ in columns]
     for i in rows:
-        j = costs[i].index(price[i])
+        j = costs[i].index(row_dual[i])
         if row_of[j] < 0:
             row_of[j], column_of[i] = i, j
     for start in rows:
         if column_of[start] >= 0:
             continue
-        away = [costs[start][j] - price[start] - discount[j] for j in columns]
+        distance = [costs[start][j] - row_dual[start] - column_dual[j] for j in columns]
         came_from = [start for _ in columns]
-        tied: list[int] = []
-        untied = list(columns)
+        scanned: list[int] = []
+        unscanned = list(columns)
         while True:
-            end = min(untied, key=away.__getitem__)
+            end = min(unscanned, key=distance.__getitem__)
             if row_of[end] < 0:
                 break
-            untied.remove(end)
-            tied.append(end)
+            unscanned.remove(end)
+            scanned.append(end)
             i = row_of[end]
-            for j in untied:
-                through = away[end] + costs[i][j] - price[i] - discount[j]
-                if through < away[j]:
-                    away[j], came_from[j] = through, i
-        price[start] += away[end]
-        for j in tied:
-            price[row_of[j]] += away[end] - away[j]
-            discount[j] -= away[end] - away[j]
+            for j in unscanned:
+                through = distance[end] + costs[i][j] - row_dual[i] - column_dual[j]
+                if through < distance[j]:
+                    distance[j], came_from[j] = through, i
+        row_dual[start] += distance[end]
+        for j in scanned:
+            row_dual[row_of[j]] += distance[end] - distance[j]
+            column_dual[j] -= distance[end] - distance[j]
         j = end
         while True:  # along the path, each row takes the next column
             i = came_from[j]
@@ -136,38 +167,38 @@ def assignment(costs: Sequence[Sequence[float]]) -> list[int]:
 
 
 def _partners(old: Sequence[Contact], new: Sequence[Contact], step_s: float) -> list[Contact | None]:
-    """The old contact that each new one is; one that has gone costs as much as the farthest step."""
+    """Old contact of each new one, None for a new finger; a released contact costs as much as the farthest step."""
     partners: list[Contact | None] = [None] * len(new)
     if not old or not new:
         return partners
-    ahead_s = step_s if 0.0 < step_s <= PAUSE_S else 0.0
+    ahead_s = step_s if 0.0 < step_s <= MAX_INTERVAL_S else 0.0
     farthest = MAX_STEP_M * MAX_STEP_M
-    gone = [farthest] * len(old)
+    released = [farthest] * len(old)
     costs = []
-    for was in old:
-        x_m, y_m = was.at_x_m + was.vx * ahead_s, was.at_y_m + was.vy * ahead_s
-        squares = [(x_m - is_now.at_x_m) ** 2 + (y_m - is_now.at_y_m) ** 2 for is_now in new]
-        costs.append([square if square <= farthest else math.inf for square in squares] + gone)
-    for was, column in zip(old, assignment(costs), strict=True):
+    for contact in old:
+        x_m, y_m = contact.at_x_m + contact.vx * ahead_s, contact.at_y_m + contact.vy * ahead_s
+        squares = [(x_m - other.at_x_m) ** 2 + (y_m - other.at_y_m) ** 2 for other in new]
+        costs.append([square if square <= farthest else math.inf for square in squares] + released)
+    for contact, column in zip(old, assignment(costs), strict=True):
         if column < len(new):
-            partners[column] = was
+            partners[column] = contact
     return partners
 
 
-def _drive(was: Contact, is_now: Contact, step_s: float) -> None:
-    """Take the velocity of a contact from its last step."""
-    if step_s > PAUSE_S:
-        was.vx = was.vy = 0.0
+def _update_velocity(old: Contact, new: Contact, step_s: float) -> None:
+    """Update the velocity of a contact with its last step."""
+    if step_s > MAX_INTERVAL_S:
+        old.vx = old.vy = 0.0
     elif step_s > 0.0:
-        share_hz = VELOCITY_SHARE / max(step_s, SHORTEST_STEP_S)
-        was.vx += share_hz * (is_now.at_x_m - was.at_x_m) - VELOCITY_SHARE * was.vx
-        was.vy += share_hz * (is_now.at_y_m - was.at_y_m) - VELOCITY_SHARE * was.vy
-    was.at_x_m, was.at_y_m = is_now.at_x_m, is_now.at_y_m
+        gain_hz = VELOCITY_GAIN / max(step_s, MIN_INTERVAL_S)
+        old.vx += gain_hz * (new.at_x_m - old.at_x_m) - VELOCITY_GAIN * old.vx
+        old.vy += gain_hz * (new.at_y_m - old.at_y_m) - VELOCITY_GAIN * old.vy
+    old.at_x_m, old.at_y_m = new.at_x_m, new.at_y_m
 
 
-def _moved(was: Contact | None, is_now: Contact) -> Contact:
-    if was is None:
-        return is_now
-    was.moved = (was.x, was.y) != (is_now.x, is_now.y)
-    was.x, was.y, was.palm, was.size = is_now.x, is_now.y, is_now.palm, is_now.size
-    return was
+def _carried_over(old: Contact | None, new: Contact) -> Contact:
+    if old is None:
+        return new
+    old.moved = (old.x, old.y) != (new.x, new.y)
+    old.x, old.y, old.palm, old.size = new.x, new.y, new.palm, new.size
+    return old

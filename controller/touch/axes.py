@@ -51,7 +51,7 @@ class Axes:
         """Raw position (`x`, `y`) clamped to both ranges."""
         return _clamped(x, self.x), _clamped(y, self.y)
 
-    def place_m(self, x: int, y: int) -> tuple[float, float]:
+    def position_m(self, x: int, y: int) -> tuple[float, float]:
         """Position on the plate of a raw position.
 
         Parameters

@@ -1,11 +1,11 @@
-"""One decoder for the kernel's touch event streams: protocol A, protocol B and single-touch.
+"""Decoder of the kernel's touch event streams: protocol A, protocol B and single-touch.
 
-Kernel documentation: input/multi-touch-protocol.rst, input/event-codes.rst. Events change contacts;
-each SYN_REPORT turns what changed into touch samples. What the three protocols share (hover, finger
-numbers, the limit, counting, losses) is here once; `associate.py` gives protocol A its identities.
+Kernel documentation: input/multi-touch-protocol.rst, input/event-codes.rst. Events change contacts; each SYN_REPORT gives
+touch samples of the changes. The three protocols share hover, finger numbers, the limit of ten, counts and losses;
+`associate.py` gives the contacts of protocol A their identities.
 
-The kernel sends an axis of a slot only when it differs from the slot's last value, even if another
-contact sent that: a slot keeps its position from one contact to the next.
+The kernel sends an axis of a slot only when it differs from the slot's last value, even if that value is from an earlier
+contact: a slot keeps its position from one contact to the next.
 """
 
 from __future__ import annotations
@@ -41,31 +41,38 @@ MAX_PLAYED = 10
 MAX_SLOTS = 256
 MAX_UNNAMED = 32  # contacts of a report that have no tracking id
 
-# Values of Contact.identity besides the tracking ids of the device, which are not negative.
-AWAY = -1  # no contact
-UNKNOWN = -2  # nothing heard of this slot yet: a finger may have been down before the stream began
-IMPLIED = -3  # a position came for an unknown slot, so a finger is there
+# Values of Contact.identity besides the tracking ids of the device, which are never negative
+NO_CONTACT = -1
+UNKNOWN = -2  # no event of this slot yet: a finger may have been down before the stream began
+IMPLIED = -3  # a position of an unknown slot: a finger is down
 
 
 class Decoder:
-    """Events in, touch samples out at each SYN_REPORT.
+    """Turns events into touch samples at each SYN_REPORT.
 
-    Hovering is no contact: BTN_TOUCH 0, ABS_MT_DISTANCE above 0 or, in protocol A, ABS_MT_TOUCH_MAJOR 0.
-    A palm (ABS_MT_TOOL_TYPE) is counted but not played. When ten fingers are played, one that comes
-    is not, as long as it stays: a finger that starts in the middle of its touch would feel like a press.
+    A hovering finger is no contact: BTN_TOUCH 0, ABS_MT_DISTANCE above 0 or, in protocol A, ABS_MT_TOUCH_MAJOR 0.
+    A palm (ABS_MT_TOOL_TYPE) is counted but not played. While ten fingers are played, a further finger is refused until it is
+    lifted: a finger that began in the middle of its touch would feel like a press.
 
-    `feed` is on the way from every touch to its emission: it allocates nothing but the samples.
+    `feed` is on the hot path from touch to emission: it allocates only the samples.
 
     Parameters
     ----------
     axes : Axes
         Maps raw positions to the plate.
     protocol : Protocol
-        See `panel.protocol_of`.
+        See `event_codes.protocol_of`.
     slot, last_slot : int
-        Slot current at the start; highest slot the device declares, None if unknown.
+        Current slot at the start; highest slot that the device declares, None if unknown.
     after : Decoder, optional
-        The one before the device was plugged in again: its counts, warnings and finger numbers go on.
+        Decoder before a reconnection of the device, whose counts, warnings and finger numbers are continued.
+
+    Attributes
+    ----------
+    counts : Counts
+        Reports, contacts and fingers so far.
+    warnings : Counter of str
+        Anomalies so far, by kind.
     """
 
     def __init__(
@@ -81,16 +88,16 @@ class Decoder:
         self._x_code, self._y_code = (ABS_X, ABS_Y) if single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
         self._slots: dict[int, Contact] = {}  # protocol A: by identity
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
-        self._packets_s = 0.0  # when they were told last
+        self._packets_s = 0.0  # time of the last report
         self._packet_seen = False
-        self._gone: list[Contact] = []  # replaced within the report by another contact in the same slot
-        self._touching: bool | None = None  # BTN_TOUCH, None until heard
-        self._losing = False
+        self._replaced: list[Contact] = []  # contacts that another one has replaced within the report
+        self._touching: bool | None = None  # BTN_TOUCH, None before its first event
+        self._dropping = False
         self._played = 0
         self._next_finger: int = after._next_finger if after else 0
         self._serials = count(FIRST_SERIAL)
         self._slot = slot
-        self._here: Contact = self._enter(slot)
+        self._current: Contact = self._contact_of(slot)
 
     def feed(self, kind: int, code: int, value: int, time_s: float) -> tuple[TouchSample, ...] | None:
         """Take one event.
@@ -100,100 +107,106 @@ class Decoder:
         kind, code, value : int
             As in struct input_event.
         time_s : float
-            Put into the samples as it is.
+            Time of the samples.
 
         Returns
         -------
         tuple of TouchSample or None
-            At SYN_REPORT: fingers released, begun or moved, in this order of kind; else None.
+            At SYN_REPORT: fingers released, then fingers moved or begun; else None.
         """
         if kind == EV_ABS:
-            if self._losing:
+            if self._dropping:
                 return None
-            here = self._here
+            current = self._current
             if code == self._x_code:
-                if value != here.x:
-                    here.x = value
-                    here.moved = True
+                if value != current.x:
+                    current.x = value
+                    current.moved = True
             elif code == self._y_code:
-                if value != here.y:
-                    here.y = value
-                    here.moved = True
+                if value != current.y:
+                    current.y = value
+                    current.moved = True
             else:
                 self._axis(code, value)
                 return None
-            if here.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
-                here.identity = IMPLIED
+            if current.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
+                current.identity = IMPLIED
         elif kind == EV_SYN:
             if code == SYN_REPORT:
                 return self._report(time_s)
             if code == SYN_MT_REPORT:
-                if self.protocol is Protocol.A and not self._losing:
+                if self.protocol is Protocol.A and not self._dropping:
                     self._end_packet()
-            elif code == SYN_DROPPED and not self._losing:
-                self._losing = True
+            elif code == SYN_DROPPED and not self._dropping:
+                self._dropping = True
                 self.warnings["dropped"] += 1
-        elif kind == EV_KEY and code == BTN_TOUCH and not self._losing:
+        elif kind == EV_KEY and code == BTN_TOUCH and not self._dropping:
             self._button(value != 0)
         return None
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Release every finger and forget the panel's state (the stream ended, or events were lost)."""
-        fingers = [c for c in (*self._gone, *self._slots.values()) if c.finger is not None]
+        """Release every finger and forget the panel's state, at the end of the stream or after a loss of events.
+
+        Parameters
+        ----------
+        time_s : float
+            Time of the samples.
+        """
+        fingers = [c for c in (*self._replaced, *self._slots.values()) if c.finger is not None]
         self._slots.clear()
-        self._gone.clear()
+        self._replaced.clear()
         self._packets.clear()
         self._touching = None
         self._select(self._slot)
         return tuple([self._released(contact, time_s) for contact in fingers])
 
     def fingers(self) -> list[tuple[int, float, float]]:
-        """Fingers down now as (finger, x_m, y_m), moving or at rest."""
+        """Fingers that are down, as (finger, x_m, y_m)."""
         return [(c.finger, c.x_m, c.y_m) for c in self._slots.values() if c.finger is not None]
 
     def _axis(self, code: int, value: int) -> None:
         """Any axis but the positions."""
         if self.protocol is Protocol.SINGLE:
             return
-        here = self._here
+        current = self._current
         if code == ABS_MT_SLOT:
             contact = self._slots.get(value)
             if contact is None:
                 self._select(value)
             else:
                 self._slot = value
-                self._here = contact
+                self._current = contact
         elif code == ABS_MT_TOUCH_MAJOR:
-            here.size = value
+            current.size = value
             if self.protocol is Protocol.A:
-                here.hovers = value == 0
+                current.hovers = value == 0
         elif code == ABS_MT_TRACKING_ID:
             if self.protocol is Protocol.B:
-                self._identify(here, max(value, AWAY))
+                self._identify(current, max(value, NO_CONTACT))
             else:
-                here.identity = value
+                current.identity = value
         elif code == ABS_MT_DISTANCE:
-            here.hovers = value > 0
+            current.hovers = value > 0
         elif code == ABS_MT_TOOL_TYPE:
-            here.palm = value == MT_TOOL_PALM
+            current.palm = value == MT_TOOL_PALM
 
     def _button(self, touching: bool) -> None:
         if self.protocol is Protocol.SINGLE:
-            self._identify(self._here, 0 if touching else AWAY)
+            self._identify(self._current, 0 if touching else NO_CONTACT)
         self._touching = touching
 
     def _select(self, slot: int) -> None:
         self._slot = slot
-        self._here = self._enter(slot)
+        self._current = self._contact_of(slot)
 
-    def _enter(self, slot: int) -> Contact:
-        """Contact of a slot; one that leads nowhere if no device has such a slot."""
+    def _contact_of(self, slot: int) -> Contact:
+        """Contact of a slot; a detached one if no device has such a slot."""
         contact = self._slots.get(slot)
         if contact is not None:
             return contact
         if not 0 <= slot < MAX_SLOTS:
             self.warnings["slot_absurd"] += 1
-            return Contact(AWAY)
+            return Contact(NO_CONTACT)
         if slot > self._last_slot:
             self.warnings["slot_beyond_range"] += 1
         contact = Contact(UNKNOWN)
@@ -206,48 +219,50 @@ class Decoder:
         if identity == contact.identity:
             return
         if contact.identity >= 0 and not contact.counted and self._down(contact):
-            self.counts.contacts += 1  # came and went within one report
+            self.counts.contacts += 1  # began and ended within one report
         if contact.finger is not None:
-            self._gone.append(Contact(AWAY, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m))
+            self._replaced.append(
+                Contact(NO_CONTACT, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m)
+            )
             contact.finger = None
         contact.identity = identity
         contact.counted = contact.refused = False
 
     def _end_packet(self) -> None:
-        """Protocol A: SYN_MT_REPORT closes one contact; an empty one says that there is none."""
+        """Protocol A: SYN_MT_REPORT ends one contact; an empty packet means that there is no contact."""
         self._packet_seen = True
-        if self._here.x is not None and self._here.y is not None and not self._here.hovers:
-            if len(self._packets) < (MAX_UNNAMED if self._here.identity < 0 else MAX_SLOTS):
-                self._packets.append(self._here)
+        if self._current.x is not None and self._current.y is not None and not self._current.hovers:
+            if len(self._packets) < (MAX_UNNAMED if self._current.identity < 0 else MAX_SLOTS):
+                self._packets.append(self._current)
             else:
                 self.warnings["contacts_absurd"] += 1
-        self._here = Contact(AWAY)
+        self._current = Contact(NO_CONTACT)
 
     def _report(self, time_s: float) -> tuple[TouchSample, ...]:
-        if self._losing:  # all before is void; what a live panel's state is, its reader says in the next report
-            self._losing = False
+        if self._dropping:  # all before is void; a live panel's driver gives its state as the next report
+            self._dropping = False
             return self.release(time_s)
         if self.protocol is Protocol.A:
-            if self._here.x is not None:
+            if self._current.x is not None:
                 self._end_packet()
             if self._packet_seen or self._touching is False:
                 now = associate(self._slots, self._packets, self._axes, self._serials, time_s - self._packets_s)
                 self._packets_s = time_s
-                self._gone += [was for key, was in self._slots.items() if was.finger is not None and key not in now]
+                self._replaced += [was for key, was in self._slots.items() if was.finger is not None and key not in now]
                 self._slots = now
                 self._packets.clear()
             self._packet_seen = False
-            self._here = Contact(AWAY)
+            self._current = Contact(NO_CONTACT)
         return self._samples(time_s)
 
     def _samples(self, time_s: float) -> tuple[TouchSample, ...]:
-        """What this report released, moved and began."""
+        """Samples of a report: fingers released, moved and begun."""
         samples = []
-        placed = []
-        if self._gone:
-            for contact in self._gone:
+        changed = []
+        if self._replaced:
+            for contact in self._replaced:
                 samples.append(self._released(contact, time_s))
-            self._gone.clear()
+            self._replaced.clear()
         hovering = self._touching is False
         down = 0
         for contact in self._slots.values():
@@ -266,17 +281,17 @@ class Decoder:
                     samples.append(self._released(contact, time_s))
                 contact.refused = False
             elif contact.moved or contact.finger is None:
-                placed.append(contact)
+                changed.append(contact)
         if down:
             counts = self.counts
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)
-        for contact in placed:  # after all releases: they make room for fingers that begin
+        for contact in changed:  # after all releases, which make room for new fingers
             self._place(contact, time_s, samples)
         return tuple(samples)
 
     def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
-        """Add the sample of a contact that is down and has moved or begun, if it is played."""
+        """Append the sample of a contact that has moved or begun, if it is played."""
         x, y = contact.x, contact.y
         if x is None or y is None or contact.refused:
             return
@@ -291,10 +306,10 @@ class Decoder:
             self._played += 1
         axes = self._axes
         if axes.x.minimum <= x <= axes.x.maximum and axes.y.minimum <= y <= axes.y.maximum:
-            x_m, y_m = axes.place_m(x, y)
+            x_m, y_m = axes.position_m(x, y)
         else:
             self.warnings["outside_axes"] += 1
-            x_m, y_m = axes.place_m(*axes.clamp(x, y))
+            x_m, y_m = axes.position_m(*axes.clamp(x, y))
         contact.x_m = x_m
         contact.y_m = y_m
         contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0

@@ -1,7 +1,7 @@
-"""What emissions do to a panel that nobody touches: how often they make ghosts, for how long, how large; and the `ghost_ms` for it.
+"""Statistics of ghost touches: how often emissions cause them on an untouched panel, how long, how large; `ghost_ms` from these.
 
-Each contact belongs to the last emission before its first report. What cannot be a ghost of an emission (a contact that was there
-before, came out of silence or stays) is a finger, water, or a panel with another fault: then nothing follows, and it is refused.
+Each contact is assigned to the last emission before its first report. A contact that cannot be a ghost (present before the
+first emission, long after an emission, or staying) is a finger, water or another fault: then the measurement is refused.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from controller.touch.event_capture import EV_SND, SND_CLICK
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
-FEWEST_EMISSIONS = 200  # without a ghost among so many they are made by less than 1.5 % of emissions, at 95 %
-FEWEST_GHOSTS = 60  # of fewer the longest seen says little of the longest there is
-LONGEST_S = 0.15  # after the end of an emission: a contact that comes or goes later is no ghost of it
-MARGIN_MS = 5.0  # beyond the longest life seen of at least FEWEST_GHOSTS ghosts
-MARGIN_OF_FEW_MS = 20.0  # of fewer
+MIN_EMISSIONS = 200  # without a ghost among them, less than 1.5 % of emissions cause one, at 95 % confidence
+MIN_GHOSTS = 60  # of fewer, the longest seen says little about the longest possible
+MAX_GHOST_LIFE_S = 0.15  # after the end of an emission: a contact that begins or ends later is no ghost of it
+MARGIN_MS = 5.0  # beyond the longest life seen of at least MIN_GHOSTS ghosts
+MARGIN_FEW_MS = 20.0  # of fewer
 RULE_OF_THREE = 3.0  # none among n: below 3 / n at 95 %
 
 
@@ -36,20 +36,20 @@ class _Contact(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class GhostFigures:
-    """What was found.
+    """Statistics of a measurement.
 
     Attributes
     ----------
     emissions, ghosts : int
-        Played; contacts that they made.
+        Emissions played; contacts that they caused.
     rate : float
-        Share of emissions that made one or more.
+        Share of emissions that caused at least one ghost, 0 to 1.
     appears_ms : (float, float) or None
-        First report after the emission's start: earliest and latest; None without any ghost.
+        From the emission's start to the ghost's first report: earliest and latest; None without any ghost.
     gone_ms : (float, float, float) or None
-        The report that it is gone, after the emission's end: median, 95th percentile and longest.
+        From the emission's end to the ghost's release: median, 95th percentile and longest; None without any ghost.
     size_mm : (float, float) or None
-        Median and largest; None where the panel tells no sizes.
+        Median and largest; None if the panel reports no sizes.
     """
 
     emissions: int
@@ -61,44 +61,44 @@ class GhostFigures:
 
     @property
     def rate_below(self) -> float | None:
-        """Where no ghost was seen: what their rate is below, at 95 %."""
+        """Upper bound of the rate, 0 to 1, at 95 % confidence, if no ghost was seen; else None."""
         return None if self.ghosts else RULE_OF_THREE / self.emissions
 
     @property
     def margin_ms(self) -> float:
-        """What `ghost_ms` is above the longest life seen."""
-        return MARGIN_MS if self.ghosts >= FEWEST_GHOSTS else MARGIN_OF_FEW_MS
+        """Margin of `ghost_ms` above the longest life seen, in ms."""
+        return MARGIN_MS if self.ghosts >= MIN_GHOSTS else MARGIN_FEW_MS
 
     @property
     def ghost_ms(self) -> float:
-        """For board.toml; 0 where no ghosts are."""
+        """Value for board.toml, in ms; 0 without any ghost."""
         return 0.0 if self.gone_ms is None else float(ceil(self.gone_ms[2] + self.margin_ms))
 
 
 def ghost_figures(recording: Recording, board: Board) -> GhostFigures:
-    """Judge a recording in which emissions were played and nobody touched the panel.
+    """Evaluate a recording of emissions on an untouched panel.
 
     Parameters
     ----------
     recording : Recording
-        With emissions among its events (`kept_events.emission_event`).
+        With emissions among its events (`event_capture.emission_event`).
     board : Board
-        Where the panel's axes lie.
+        Gives the map from the panel's axes to the plate.
 
     Raises
     ------
     CalibrationError
-        If there are too few emissions, or contacts that cannot be their ghosts.
+        If there are too few emissions, or contacts that cannot be ghosts.
     """
     emissions = [(at_s, at_s + us * 1e-6) for kind, code, us, at_s in recording.events if (kind, code) == (EV_SND, SND_CLICK)]
     if not emissions:
         raise CalibrationError(f"{recording.name} has no emissions in it: make one with calibrate-touch --ghosts --out FILE")
-    if any(later - end_s < LONGEST_S for (_, end_s), (later, _) in pairwise(emissions)):
-        raise CalibrationError(f"{recording.name}: emissions less than {LONGEST_S:g} s apart: whose a ghost is cannot be told")
+    if any(later - end_s < MAX_GHOST_LIFE_S for (_, end_s), (later, _) in pairwise(emissions)):
+        raise CalibrationError(f"{recording.name}: emissions less than {MAX_GHOST_LIFE_S:g} s apart: ghosts have no certain cause")
     contacts = [contact for contact in _contacts(recording, board) if contact.end_s > emissions[0][0]]
     of = _emissions_of(contacts, emissions)
-    if len(emissions) < FEWEST_EMISSIONS:
-        raise CalibrationError(f"only {len(emissions)} emissions: {FEWEST_EMISSIONS} are needed to judge")
+    if len(emissions) < MIN_EMISSIONS:
+        raise CalibrationError(f"only {len(emissions)} emissions: {MIN_EMISSIONS} are needed to judge")
     if not contacts:
         return GhostFigures(len(emissions), 0, 0.0, None, None, None)
     appears_ms = [(contact.begin_s - emissions[number][0]) * 1e3 for contact, number in zip(contacts, of, strict=True)]
@@ -131,17 +131,17 @@ def _contacts(recording: Recording, board: Board) -> list[_Contact]:
 
 
 def _emissions_of(contacts: Sequence[_Contact], emissions: Sequence[tuple[float, float]]) -> list[int]:
-    """Number of the emission that each contact belongs to; refuses those that belong to none."""
+    """Index of the emission that caused each contact; refuses contacts that none can have caused."""
     starts_s = [start_s for start_s, _ in emissions]
     of = [bisect_right(starts_s, contact.begin_s) - 1 for contact in contacts]
     strays = [number for number, contact in zip(of, contacts, strict=True) if _stray(number, contact, emissions)]
     if strays:
         raise CalibrationError(
-            f"{len(strays)} of {len(contacts)} contacts are no ghosts: they came before the first emission or out of silence,"
-            f" or stayed for more than {LONGEST_S * 1e3:g} ms: hands off the panel, nothing wet or metal on it, and do it again"
+            f"{len(strays)} of {len(contacts)} contacts are no ghosts: they began before the first emission, or began or"
+            f" ended more than {MAX_GHOST_LIFE_S * 1e3:g} ms after one: keep hands, water and metal off the panel and do it again"
         )
     return of
 
 
 def _stray(number: int, contact: _Contact, emissions: Sequence[tuple[float, float]]) -> bool:
-    return number < 0 or max(contact.begin_s, contact.end_s) - emissions[number][1] > LONGEST_S
+    return number < 0 or max(contact.begin_s, contact.end_s) - emissions[number][1] > MAX_GHOST_LIFE_S

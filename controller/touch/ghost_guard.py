@@ -1,14 +1,14 @@
-"""Which contacts may be ghosts: 60 V edges of an emission couple into a capacitive panel.
+"""Ghost rejection: which contacts may be caused by the 60 V edges of an emission, which couple into a capacitive panel.
 
-The rule, with G = `touch.ghost_ms` of board.toml, how long after the end of an emission its ghosts may still be reported:
+The rule, with G = `touch.ghost_ms` of board.toml, the longest time from the end of an emission to the last report of a ghost:
 
-- An emission casts a shadow from its start until G after its end. Shadows that touch are one.
-- A contact first reported in a shadow is a suspect, and is held back.
-- A suspect that is still down when its shadow ends is a finger: no ghost lives so long.
+- The ghost window of an emission lasts from its start until G after its end. Windows that touch are merged.
+- A contact first reported in a ghost window is a suspect and is held back.
+- A suspect that is still down when its window ends is a finger: no ghost lives so long.
 
-Under emissions close to each other a shadow would have no end. So the panel listens: while there is a suspect, the loop begins
-no emission (`Tracker.quiet_until_s`), and the shadow ends at most T + G after the suspect's first report. A finger that
-lands in an emission waits for so long at most, and a ghost is never played. What listening may cost is bounded (`Listening`).
+With emissions in quick succession a window would never end. Therefore, while there is a suspect, the loop begins no emission
+(`Tracker.quiet_until_s`), and the window ends at most T + G after the suspect's first report (T: length of an emission). A
+finger put down during an emission waits at most that long, and a ghost is never played. `QuietBudget` limits the quiet time.
 
 G = 0: the panel makes no ghosts (resistive, acoustic, infrared).
 """
@@ -17,116 +17,140 @@ from __future__ import annotations
 
 from math import inf
 
-SHARE = 2 / 3  # of the time may be spent listening: a storm of ghosts leaves every emission a third of it
-BURST_S = 0.1  # of listening beyond that share, when there was little of it before
-BURST_GHOSTS = 4  # the same in ghosts' lives, where they live long
+MAX_QUIET_SHARE = 2 / 3  # of all time: even a storm of ghosts leaves emissions a third of it
+BURST_S = 0.1  # quiet time allowed at once beyond that share
+BURST_LIVES = 4  # the same in multiples of G, if that is longer
 
 
 class GhostGuard:
-    """The shadows of the last emissions.
+    """Ghost windows of the last emissions.
 
     Parameters
     ----------
     ghost_s : float
-        G of the rule; 0: nobody is a suspect.
+        G of the rule; 0: no contact is a suspect.
     """
 
-    __slots__ = ("_before", "_end_s", "_ghost_s", "_length_s", "_period_s", "_shadow_s", "_start_s")
+    __slots__ = ("_end_s", "_ghost_s", "_length_s", "_period_s", "_previous", "_start_s", "_window_begin_s")
 
     def __init__(self, ghost_s: float) -> None:
         self._ghost_s = ghost_s
-        self._before = (-inf, -inf)  # the shadow before the newest: reports are read later than they were made
-        self._start_s = self._end_s = -inf  # of the newest emission's own shadow
-        self._length_s = ghost_s  # of one emission's shadow
-        self._shadow_s = -inf  # when the shadow began that it is part of
+        self._previous = (-inf, -inf)  # begin and end of the last but one window: reports are read later than they were made
+        self._start_s = self._end_s = -inf  # of the newest emission's own window
+        self._length_s = ghost_s  # of the window of one emission
+        self._window_begin_s = -inf  # of the merged window
         self._period_s = inf
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
-        """An emission sounds, and what sounded before ends; see `TrackedTouch.emitted`."""
-        last = self._shadow(start_s)
+        """Announce an emission from `start_s` to `end_s`, repeated every `period_s` if above 0; see `TrackedTouch.emitted`."""
+        last = self._window(start_s)
         if start_s > last[1]:
-            self._before = last
-            self._shadow_s = start_s
+            self._previous = last
+            self._window_begin_s = start_s
         else:
-            self._shadow_s = last[0]
+            self._window_begin_s = last[0]
         self._start_s, self._end_s = start_s, end_s + self._ghost_s
         self._length_s = self._end_s - start_s
         self._period_s = period_s if period_s > 0 else inf
-        if self._period_s <= self._length_s:  # each repetition's shadow touches that of the next
+        if self._period_s <= self._length_s:  # the windows of all repetitions merge
             self._end_s = inf
 
     def suspects(self, first_s: float) -> bool:
-        """Whether a contact first reported at a time may be a ghost."""
+        """Whether a contact first reported at `first_s` may be a ghost."""
         if self._ghost_s == 0:
             return False
-        begin_s, end_s = self._shadow(first_s)
-        return begin_s <= first_s < end_s or self._before[0] <= first_s < self._before[1]
+        begin_s, end_s = self._window(first_s)
+        return begin_s <= first_s < end_s or self._previous[0] <= first_s < self._previous[1]
 
     def cleared_s(self, first_s: float) -> float:
-        """When a suspect is a finger, if it is still down then: the end of its shadow; inf while repetitions prolong it.
+        """End of a suspect's ghost window: if it is still down then, it is a finger.
 
         Parameters
         ----------
         first_s : float
             Its first report.
-        """
-        return self._before[1] if first_s < self._before[1] else self._shadow(first_s)[1]
 
-    def silent_s(self, first_s: float, now_s: float) -> float:
-        """As `cleared_s`, if no emission and no repetition begins from `now_s` on."""
+        Returns
+        -------
+        float
+            On the loop's clock; inf while an emission repeats.
+        """
+        return self._previous[1] if first_s < self._previous[1] else self._window(first_s)[1]
+
+    def cleared_if_quiet_s(self, first_s: float, now_s: float) -> float:
+        """As `cleared_s` of `first_s`, provided that no emission and no repetition begins from `now_s` on."""
         cleared_s = self.cleared_s(first_s)
         if cleared_s != inf:
             return cleared_s
         return self._start_s + max((now_s - self._start_s) // self._period_s, 0.0) * self._period_s + self._length_s
 
-    def _shadow(self, at_s: float) -> tuple[float, float]:
-        """Begin and end of the newest shadow, or of that of its last repetition by a time."""
+    def _window(self, at_s: float) -> tuple[float, float]:
+        """Begin and end of the newest window at `at_s`; while an emission repeats, of that of its last repetition."""
         if inf in (self._period_s, self._end_s) or at_s < self._start_s + self._period_s:
-            return self._shadow_s, self._end_s
+            return self._window_begin_s, self._end_s
         since_s = (at_s - self._start_s) // self._period_s * self._period_s
         return self._start_s + since_s, self._end_s + since_s
 
 
-class Listening:
-    """How much silence may be asked for: `SHARE` of the time, and a little at once.
+class QuietBudget:
+    """Limits the quiet time to `MAX_QUIET_SHARE` of all time, with a reserve for a burst (a leaky bucket).
 
     Parameters
     ----------
     ghost_s : float
-        G.
+        G of the rule.
 
     Attributes
     ----------
     total_s : float
-        Silence that was asked for and kept.
-    again_s : float
-        When to ask again after a refusal; inf: nothing was refused.
+        Quiet time so far.
+    retry_s : float
+        When to ask again after a refusal, on the loop's clock; inf: nothing was refused.
     """
 
-    __slots__ = ("_at_s", "_credit_s", "_most_s", "_on", "again_s", "total_s")
+    __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "retry_s", "total_s")
 
     def __init__(self, ghost_s: float) -> None:
-        self._most_s = self._credit_s = max(BURST_S, BURST_GHOSTS * ghost_s) * (1 - SHARE)
-        self._at_s = -inf
-        self._on = False
-        self.again_s = inf
+        self._max_credit_s = self._credit_s = max(BURST_S, BURST_LIVES * ghost_s) * (1 - MAX_QUIET_SHARE)
+        self._last_s = -inf
+        self._quiet = False
+        self.retry_s = inf
         self.total_s = 0.0
 
     def begin(self, now_s: float, until_s: float) -> bool:
-        """Listen from now until a time, or go on doing so; False if that is too much."""
-        self.end(now_s, going_on=self._on)
-        cost_s = (until_s - now_s) * (1 - SHARE)
-        if not self._on and self._credit_s < min(cost_s, self._most_s):
-            self.again_s = now_s + (min(cost_s, self._most_s) - self._credit_s) / SHARE
+        """Begin or continue a quiet time.
+
+        Parameters
+        ----------
+        now_s, until_s : float
+            Its begin and expected end on the loop's clock.
+
+        Returns
+        -------
+        bool
+            False: refused, it would exceed the budget.
+        """
+        self.end(now_s, going_on=self._quiet)
+        cost_s = (until_s - now_s) * (1 - MAX_QUIET_SHARE)
+        if not self._quiet and self._credit_s < min(cost_s, self._max_credit_s):
+            self.retry_s = now_s + (min(cost_s, self._max_credit_s) - self._credit_s) / MAX_QUIET_SHARE
             return False
-        self._on = True
+        self._quiet = True
         return True
 
     def end(self, now_s: float, *, going_on: bool = False) -> None:
-        """Count the time that went by since the last call, and listen no longer."""
-        since_s, self._at_s = max(now_s - self._at_s, 0.0), now_s
-        if self._on:
+        """Account for the time since the last call and end the quiet time.
+
+        Parameters
+        ----------
+        now_s : float
+            On the loop's clock.
+        going_on : bool
+            Account only: a quiet time continues.
+        """
+        since_s, self._last_s = max(now_s - self._last_s, 0.0), now_s
+        if self._quiet:
             self.total_s += since_s
-        self._credit_s = min(self._credit_s + (SHARE - self._on) * since_s, self._most_s)
-        self._on = going_on
-        self.again_s = inf
+        self._credit_s = min(self._credit_s + (MAX_QUIET_SHARE - self._quiet) * since_s, self._max_credit_s)
+        self._quiet = going_on
+        self.retry_s = inf

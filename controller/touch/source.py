@@ -97,7 +97,7 @@ class TouchSource(Protocol):
 class TrackedTouch(TouchSource, Protocol):
     """A source behind the tracker: confirmed fingers with predicted positions."""
 
-    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+    def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """Predict the position of a finger.
 
         Parameters

@@ -1,12 +1,12 @@
-"""Between any source and the loop: which contacts are fingers that may be played, and where they will be.
+"""Tracker between a source and the loop: which contacts are fingers that may be played, and where each will be.
 
-What a contact goes through:
+States of a contact:
 
-- It waits until its `confirm_reports`-th report, or until so many reports would have told that it is gone; a suspect
-  (`ghost_guard.py`) waits until it is cleared. Then it is a finger, and its first sample carries the time of this decision.
-- Wider than `max_size_mm` it is a palm, from then until it is lifted; a finger that becomes one is released at once.
-- A finger that is lost keeps its place for `BRIDGED_PERIODS`; a contact that begins near by meanwhile is the same finger.
-  So a release reaches the loop that much later, with the time at which the panel told it.
+- It waits until its `confirm_reports`-th report, or until the time in which that many reports would have shown its release; a
+  suspect (`ghost_guard.py`) waits until it is cleared. Then it is a finger; its first sample has the time of this decision.
+- If it is wider than `max_size_mm` it is a palm until it is lifted; a finger that becomes a palm is released at once.
+- A lost finger is kept for `BRIDGE_PERIODS`; a contact that begins near its predicted position meanwhile is the same finger.
+  A release therefore reaches the loop that much later, with the time at which the panel reported it.
 """
 
 from __future__ import annotations
@@ -18,38 +18,58 @@ from math import hypot, inf
 from typing import Any
 
 from controller.board.devices import TouchPanel
-from controller.touch.ghost_guard import GhostGuard, Listening
+from controller.touch.ghost_guard import GhostGuard, QuietBudget
 from controller.touch.prediction import Motion
 from controller.touch.reports import ReportRate
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-REUSE_RADIUS_M = 5e-3
-BRIDGED_PERIODS = 1.5
-UNTOLD_PERIODS = 1.5  # a report that told nothing of a contact is taken for one that found it still there
+BRIDGE_RADIUS_M = 5e-3
+BRIDGE_PERIODS = 1.5
+MISSED_REPORT_PERIODS = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
 CONFIRMING_REPORTS = 2
 
 
 @dataclass(slots=True)
 class TrackerCounts:
-    """What became of contacts that were not simply fingers."""
+    """Contacts that were not simply fingers.
 
-    held_back: int = 0  # suspects
-    ghosts: int = 0  # suspects that were gone before they were cleared
-    flickers: int = 0  # gone before enough reports had told them
+    Attributes
+    ----------
+    held_back : int
+        Suspects.
+    ghosts : int
+        Suspects released before they were cleared.
+    flickers : int
+        Contacts released before `confirm_reports` reports.
+    palms : int
+        Contacts wider than `max_size_mm`.
+    bridged : int
+        Fingers lost and found again.
+    listened_s : float
+        Time in which emissions were held back to judge suspects.
+    longest_hold_s : float
+        Longest time from the first report of a suspect to its first sample.
+    longest_ghost_s : float
+        Longest time from first report to release of a ghost; if it is close to `ghost_ms`, that is too short.
+    """
+
+    held_back: int = 0
+    ghosts: int = 0
+    flickers: int = 0
     palms: int = 0
-    bridged: int = 0  # lost and found again
-    listened_s: float = 0.0  # emissions were held back for so long, that suspects could be judged
-    longest_hold_s: float = 0.0  # from the first report of a suspect to its first sample
-    longest_ghost_s: float = 0.0  # from first report to last; close to `ghost_ms`, that is too short
+    bridged: int = 0
+    listened_s: float = 0.0
+    longest_hold_s: float = 0.0
+    longest_ghost_s: float = 0.0
 
 
 class _Contact:
-    """One contact of the source, waiting, played or refused."""
+    """One contact of the source: waiting, played or refused (a palm)."""
 
     __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "suspect")
 
     def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
-        self.finger = finger  # as the loop knows it: the source's number of its first contact
+        self.finger = finger  # number in the loop's samples: the source's number of its first contact
         self.motion = motion
         self.first_s = motion.time_s
         self.reports = 1
@@ -57,31 +77,31 @@ class _Contact:
         self.suspect = suspect
         self.played = False
         self.refused = False
-        self.lost_s = inf  # when the panel told that it is gone
+        self.lost_s = inf  # time of its release by the panel
 
 
 class Tracker:
-    """A source behind debounce, palm and ghost guard, with prediction; a `TrackedTouch`.
+    """Debounce, palm rejection, ghost rejection and prediction behind a source; a `TrackedTouch`.
 
     Parameters
     ----------
     source : TouchSource
         Gives contacts with identities.
     settings : TouchPanel
-        The board's touch table.
+        The board's [touch].
     length_m, width_m : float
-        Of the plate: predicted places are held to it.
+        Of the plate: predicted positions are clamped to it.
     bridged : callable, optional
-        Told of a finger that was lost and found again: its number, and that of the source's contact which it is now.
+        Called when a finger was lost and found again, with its number and that of the source's new contact.
     motion : type of Motion
-        Another way to predict, to compare with.
+        Another predictor, for comparisons.
 
     Attributes
     ----------
     tracking : TrackerCounts
-        What was held back, bridged and refused.
+        Contacts held back, bridged and refused.
     rate : ReportRate
-        The panel's report period and its jitter, as measured.
+        Measured report period and jitter of the panel.
     """
 
     def __init__(
@@ -103,36 +123,36 @@ class Tracker:
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
         self._guard = GhostGuard(settings.ghost_s)
-        self._listening = Listening(settings.ghost_s)
+        self._quiet = QuietBudget(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
-        self._fingers: dict[int, _Contact] = {}  # played, by the loop's number
-        self._released: dict[int, _Contact] = {}  # of the last read: what they feel as they are lifted is decided after it
+        self._fingers: dict[int, _Contact] = {}  # played, by number in the loop's samples
+        self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
         self._lost: list[_Contact] = []
         self._reports = source.counts.reports
-        self._known_s = -inf  # until when all reports have been told
-        self._due_s = inf  # when something is to be decided without a report
+        self._known_s = -inf  # time up to which all reports have been taken
+        self._due_s = inf  # when a decision is due without a report
 
     @property
     def counts(self) -> Counts:
-        """Of the source."""
+        """Reports, contacts and fingers of the source."""
         return self._source.counts
 
     @property
     def warnings(self) -> Counter[str]:
-        """Of the source."""
+        """Anomalies found by the source, by kind."""
         return self._source.warnings
 
     def figures(self) -> dict[str, Any]:
-        """What was held back or refused, and how the panel reports, ready for JSON; None where too little is known."""
+        """`TrackerCounts` with report period and jitter in ms (None before the second report), for JSON."""
         median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
-        self.tracking.listened_s = round(self._listening.total_s, 6)
+        self.tracking.listened_s = round(self._quiet.total_s, 6)
         return asdict(self.tracking) | {
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
         }
 
     def fileno(self) -> int | None:
-        """Of the source."""
+        """File of the source."""
         return self._source.fileno()
 
     def close(self) -> None:
@@ -140,44 +160,44 @@ class Tracker:
         self._source.close()
 
     def next_time_s(self) -> float | None:
-        """When the source wants to be read, a contact that waits is due, or silence may be asked for again."""
+        """When the source is due, a contact that waits is due, or quiet time may be asked for again."""
         source_s = self._source.next_time_s()
-        next_s = min(inf if source_s is None else source_s, self._due_s, self._listening.again_s)
+        next_s = min(inf if source_s is None else source_s, self._due_s, self._quiet.retry_s)
         return None if next_s == inf else next_s
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Samples of at most one report of the source, and of contacts whose time to wait is over; see `TouchSource.read`."""
+        """Samples of at most one report of the source and of contacts that are due by `now_s`; see `TouchSource.read`."""
         if self._released:
             self._released.clear()
-        if now_s >= self._listening.again_s:
-            self._listening.again_s = inf
+        if now_s >= self._quiet.retry_s:
+            self._quiet.retry_s = inf
         samples = self._source.read(now_s)
-        known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may wait behind this one
+        known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may follow this one
         reports = self._source.counts.reports
-        told = reports != self._reports
-        if not samples and not told and now_s < self._due_s:
+        reported = reports != self._reports
+        if not samples and not reported and now_s < self._due_s:
             return ()
-        given: list[TouchSample] = []
+        out: list[TouchSample] = []
         for sample in samples:
-            self._take(sample, given)
-        if told:
+            self._take(sample, out)
+        if reported:
             self._reports = reports
             self.rate.report(known_s)
             self._found_still(known_s)
-        self._decide(known_s, given)
+        self._decide(known_s, out)
         if not self._contacts:
             self.rate.pause()
-        return tuple(given)
+        return tuple(out)
 
-    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
-        """Where a finger will be, (x_m, y_m) on the plate; None once it is released. See `TrackedTouch.place`."""
+    def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
+        """(x_m, y_m) of `finger` at `at_s`, clamped to the plate; None once it is released. See `TrackedTouch.predict`."""
         contact = self._fingers.get(finger)
         if contact is None:
             return None
         if contact.lost_s != inf:
             x_m, y_m = contact.motion.x_m, contact.motion.y_m
         else:
-            x_m, y_m = contact.motion.place(at_s, self._known_s, self._lag_s, self.rate.period_s)
+            x_m, y_m = contact.motion.predict(at_s, self._known_s, self._lag_s, self.rate.period_s)
         length_m, width_m = self._length_m, self._width_m
         return (
             0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m,
@@ -186,40 +206,37 @@ class Tracker:
 
     @property
     def report_s(self) -> float:
-        """As `TrackedTouch.report_s` has it."""
+        """Measured report period of the panel in s."""
         return self.rate.period_s
 
     def confirmed(self, finger: int) -> bool:
-        """Whether a second report, or silence for as long, has shown that the contact stays, or that it stayed.
-
-        Of a finger that was released this can be asked until the next `read`.
-        """
+        """Whether a second report of `finger`, or no release in that time, has confirmed it; see `TrackedTouch.confirmed`."""
         contact = self._fingers.get(finger) or self._released.get(finger)
         if contact is None:
             return False
-        stayed_s = min(self._known_s, contact.lost_s) - contact.first_s  # a lost one may come back, but did not stay
-        return contact.reports >= CONFIRMING_REPORTS or stayed_s >= UNTOLD_PERIODS * self.rate.period_s
+        stayed_s = min(self._known_s, contact.lost_s) - contact.first_s  # a lost one may come back, but was not confirmed meanwhile
+        return contact.reports >= CONFIRMING_REPORTS or stayed_s >= MISSED_REPORT_PERIODS * self.rate.period_s
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
-        """An emission sounds, or is repeated until the next call; see `TrackedTouch.emitted`."""
+        """Announce an emission from `start_s` to `end_s`, repeated every `period_s` if above 0; see `TrackedTouch.emitted`."""
         self._guard.emitted(start_s, end_s, period_s)
-        for contact in self._contacts.values():  # what is stopped frees suspects earlier than was known
+        for contact in self._contacts.values():  # the end of a repetition clears suspects earlier
             if contact.suspect and not contact.played and not contact.refused:
                 self._due_s = min(self._due_s, self._played_from_s(contact))
 
     def quiet_until_s(self, now_s: float, next_s: float) -> float:
-        """Until when no emission may begin; see `TrackedTouch.quiet_until_s`."""
-        silent_s = -inf
+        """Time until which no emission may begin, asked at `now_s` for one at `next_s`; see `TrackedTouch.quiet_until_s`."""
+        cleared_s = -inf
         for contact in self._contacts.values():
             if contact.suspect and not contact.played and not contact.refused:
-                silent_s = max(silent_s, self._guard.silent_s(contact.first_s, now_s))
-        if silent_s <= next_s:
-            self._listening.end(now_s)
-        elif self._listening.begin(now_s, silent_s):
-            return silent_s
+                cleared_s = max(cleared_s, self._guard.cleared_if_quiet_s(contact.first_s, now_s))
+        if cleared_s <= next_s:
+            self._quiet.end(now_s)
+        elif self._quiet.begin(now_s, cleared_s):
+            return cleared_s
         return now_s
 
-    def _take(self, sample: TouchSample, given: list[TouchSample]) -> None:
+    def _take(self, sample: TouchSample, out: list[TouchSample]) -> None:
         contact = self._contacts.get(sample.finger)
         if not sample.contact:
             if contact is not None:
@@ -234,18 +251,18 @@ class Tracker:
         if contact.refused:
             return
         if sample.size_m > self._max_size_m:
-            self._refuse(contact, time_s, given)
+            self._refuse(contact, time_s, out)
             return
         contact.motion.report(x_m, y_m, time_s)
         contact.reports += 1
         contact.size_m = sample.size_m
         if contact.played:
-            given.append(
+            out.append(
                 sample if contact.finger == sample.finger else TouchSample(contact.finger, x_m, y_m, time_s, True, sample.size_m)
             )
 
     def _begin(self, sample: TouchSample) -> _Contact:
-        """Contact for a number of the source that is new: a lost finger found again, or one that waits."""
+        """Contact for a new number of the source: a lost finger found again, or a contact that waits."""
         finger, x_m, y_m, time_s, _, size_m = sample
         palm = size_m > self._max_size_m
         found = None if palm or not self._lost else self._found_again(x_m, y_m, time_s)
@@ -266,10 +283,10 @@ class Tracker:
         return contact
 
     def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
-        """The lost finger that a new contact is: of those that would be near by now, the nearest."""
-        found, nearest_m = None, REUSE_RADIUS_M
+        """The lost finger whose predicted position is nearest to a new contact, within `BRIDGE_RADIUS_M`."""
+        found, nearest_m = None, BRIDGE_RADIUS_M
         for lost in self._lost:
-            at_x_m, at_y_m = lost.motion.place(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
+            at_x_m, at_y_m = lost.motion.predict(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
             off_m = hypot(x_m - at_x_m, y_m - at_y_m)
             if off_m <= nearest_m and time_s <= self._bridged_until_s(lost):
                 found, nearest_m = lost, off_m
@@ -287,35 +304,35 @@ class Tracker:
         else:
             self.tracking.flickers += 1
 
-    def _refuse(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
-        """A contact has become a palm."""
+    def _refuse(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
+        """Refuse a contact that has become a palm."""
         contact.refused = True
         self.tracking.palms += 1
         if contact.played:
             contact.played = False
             contact.lost_s = time_s
-            self._release(contact, time_s, given)
+            self._release(contact, time_s, out)
 
-    def _release(self, contact: _Contact, time_s: float, given: list[TouchSample]) -> None:
+    def _release(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
         self._released[contact.finger] = self._fingers.pop(contact.finger)
-        given.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
+        out.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:
-        """A report came: contacts that it did not tell are where they were."""
+        """Count a report for contacts that it did not mention: they have not moved."""
         for contact in self._contacts.values():
             motion = contact.motion
             if motion.time_s < time_s and not contact.refused:
                 motion.report(motion.x_m, motion.y_m, time_s)
                 contact.reports += 1
 
-    def _decide(self, known_s: float, given: list[TouchSample]) -> None:
-        """Give contacts that have waited long enough, release those that did not come back; all that `known_s` shows."""
+    def _decide(self, known_s: float, out: list[TouchSample]) -> None:
+        """Begin contacts that have waited long enough and release lost fingers, as far as due by `known_s`."""
         self._due_s = inf
         for lost in tuple(self._lost) if self._lost else ():
             until_s = self._bridged_until_s(lost)
             if known_s >= until_s:
                 self._lost.remove(lost)
-                self._release(lost, lost.lost_s, given)
+                self._release(lost, lost.lost_s, out)
             else:
                 self._due_s = min(self._due_s, until_s)
         for contact in self._contacts.values():
@@ -328,18 +345,18 @@ class Tracker:
             contact.played = True
             self._fingers[contact.finger] = contact
             motion = contact.motion
-            given.append(TouchSample(contact.finger, motion.x_m, motion.y_m, max(due_s, motion.time_s), True, contact.size_m))
+            out.append(TouchSample(contact.finger, motion.x_m, motion.y_m, max(due_s, motion.time_s), True, contact.size_m))
             if contact.suspect:
                 self.tracking.longest_hold_s = max(self.tracking.longest_hold_s, max(due_s, motion.time_s) - contact.first_s)
 
     def _played_from_s(self, contact: _Contact) -> float:
-        """When a contact that waits is a finger, should nothing be told of it."""
+        """When a contact that waits becomes a finger without any further report."""
         due_s = contact.first_s
         if contact.reports < self._confirm_reports:
-            due_s += (self._confirm_reports - 1) * UNTOLD_PERIODS * self.rate.period_s
+            due_s += (self._confirm_reports - 1) * MISSED_REPORT_PERIODS * self.rate.period_s
         if contact.suspect:
             due_s = max(due_s, self._guard.cleared_s(contact.first_s))
         return due_s
 
     def _bridged_until_s(self, lost: _Contact) -> float:
-        return lost.lost_s + BRIDGED_PERIODS * self.rate.period_s
+        return lost.lost_s + BRIDGE_PERIODS * self.rate.period_s

@@ -244,8 +244,8 @@ class Watched(Tracker):
 
     twin: Twin | None = None
 
-    def place(self, finger: int, at_s: float) -> tuple[float, float] | None:
+    def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """As the tracker's."""
         if self.twin is not None:
             self.twin.aimed(finger, at_s)
-        return super().place(finger, at_s)
+        return super().predict(finger, at_s)

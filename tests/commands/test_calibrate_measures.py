@@ -129,7 +129,7 @@ def test_a_finger_on_the_panel_ends_the_measurement_early_and_is_said(board, ban
 
     text, ended_s = played(board, bank_file, [(5.0, 60.0, (50, 50))])
     assert ended_s < 8.0
-    with pytest.raises(CalibrationError, match="hands off the panel"):
+    with pytest.raises(CalibrationError, match="off the panel and do it again"):
         ghost_figures(Recording(text), board)
 
 

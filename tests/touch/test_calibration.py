@@ -73,7 +73,7 @@ def test_fingertips_put_down_a_millimetre_off_give_a_map_no_farther_off(missed_m
     axes = Axes(_board(found), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
     right = Axes(_board(Calibration(*panel, ())), AxisRange(0, 1 << 20), AxisRange(0, 1 << 20))
     raw = [round(share * (1 << 20)) for share in touched((105, 74), *panel)]
-    assert math.dist(axes.place_m(*raw), right.place_m(*raw)) <= math.sqrt(2) * 1e-3
+    assert math.dist(axes.position_m(*raw), right.position_m(*raw)) <= math.sqrt(2) * 1e-3
 
 
 def _board(found):

@@ -12,7 +12,7 @@ from controller.board.board import data_folder, load_board
 from controller.board.devices import TouchPanel
 from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel
 from controller.touch.event_codes import Protocol
-from controller.touch.ghost_guard import SHARE, GhostGuard, Listening
+from controller.touch.ghost_guard import MAX_QUIET_SHARE, GhostGuard, QuietBudget
 from controller.touch.live_source import LiveSource
 from controller.touch.tracker import Tracker
 
@@ -148,7 +148,7 @@ def test_under_an_endless_spot_full_of_ghosts_real_fingers_are_played_and_ghosts
     _, fingers = perform(panel, spot_period_s=spot_period_s, until_s=5.0)
     assert panel.ghosts > 50
     assert [panel.is_real(*place) for _, place, _ in fingers] == [True] * len(taps)
-    longest_s = PERIOD_S + HELD_S / SHARE + UNDER_WAY_S  # in a storm there is not always silence to be had
+    longest_s = PERIOD_S + HELD_S / MAX_QUIET_SHARE + UNDER_WAY_S  # in a storm there is not always silence to be had
     assert max(begun_s - tap[0] for (begun_s, _, _), tap in zip(fingers, taps, strict=True)) <= longest_s
 
 
@@ -204,10 +204,10 @@ def test_a_shadow_ends_when_nothing_more_is_played():
     """As seen at a time: after the emission, or the repetition, that began last by then."""
     guard = GhostGuard(GHOST_S)
     guard.emitted(1.0, 1.002)
-    assert guard.silent_s(1.001, 1.02) == guard.cleared_s(1.001) == pytest.approx(1.032)
+    assert guard.cleared_if_quiet_s(1.001, 1.02) == guard.cleared_s(1.001) == pytest.approx(1.032)
     guard.emitted(1.1, 1.102, 0.02)
     for now_s, last_s in ((1.09, 1.1), (1.105, 1.1), (1.125, 1.12), (3.019, 3.0)):
-        assert guard.silent_s(1.101, now_s) == pytest.approx(last_s + HELD_S)
+        assert guard.cleared_if_quiet_s(1.101, now_s) == pytest.approx(last_s + HELD_S)
 
 
 def test_a_panel_without_ghosts_holds_nobody_back():
@@ -233,8 +233,8 @@ def test_while_a_contact_is_a_suspect_silence_is_asked_for_until_it_has_shown_wh
 
 @given(st.lists(st.tuples(st.floats(0, 0.05), st.floats(1e-3, 0.04)), max_size=200), st.floats(1e-3, 0.5))
 def test_listening_takes_its_share_of_the_time_and_no_more(wishes, ghost_s):
-    """Whoever asks, and whenever: of any time at most SHARE, and what may be had at once."""
-    listening, now_s, listened_s = Listening(ghost_s), 0.0, 0.0
+    """Whoever asks, and whenever: of any time at most MAX_QUIET_SHARE, and what may be had at once."""
+    listening, now_s, listened_s = QuietBudget(ghost_s), 0.0, 0.0
     for gap_s, wish in wishes:
         now_s += gap_s
         wish_s = wish * ghost_s / 0.03
@@ -242,24 +242,24 @@ def test_listening_takes_its_share_of_the_time_and_no_more(wishes, ghost_s):
             now_s += wish_s
             listened_s += wish_s
             listening.end(now_s)
-        elif listening.again_s < math.inf:
-            assert listening.again_s > now_s
-        assert listened_s <= SHARE * now_s + max(0.1, 4 * ghost_s) + wish_s
+        elif listening.retry_s < math.inf:
+            assert listening.retry_s > now_s
+        assert listened_s <= MAX_QUIET_SHARE * now_s + max(0.1, 4 * ghost_s) + wish_s
     assert listening.total_s == pytest.approx(listened_s)
 
 
 @given(st.floats(1e-4, 0.5), st.integers(0, 20))
 def test_who_is_refused_silence_gets_it_at_the_time_that_is_told(ghost_s, spent):
-    listening, now_s, wish_s = Listening(ghost_s), 1.0, ghost_s + 2e-3
+    listening, now_s, wish_s = QuietBudget(ghost_s), 1.0, ghost_s + 2e-3
     for _ in range(spent):
         if listening.begin(now_s, now_s + wish_s):
             now_s += wish_s
             listening.end(now_s)
         now_s += 1e-3
     if not listening.begin(now_s, now_s + wish_s):
-        assert listening.again_s - now_s <= wish_s * (1 - SHARE) / SHARE + 1e-9
-        again_s = listening.again_s + 1e-9
-        assert listening.begin(again_s, again_s + wish_s)
+        assert listening.retry_s - now_s <= wish_s * (1 - MAX_QUIET_SHARE) / MAX_QUIET_SHARE + 1e-9
+        retry_s = listening.retry_s + 1e-9
+        assert listening.begin(retry_s, retry_s + wish_s)
 
 
 def test_a_suspect_that_stays_is_played_when_the_shadow_ends_and_one_that_goes_never():

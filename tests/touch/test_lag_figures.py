@@ -78,7 +78,7 @@ def test_a_mouse_that_did_not_move_with_the_finger_is_refused():
     mouse = [line for line in lines(other) if line.startswith("E:") and line.split()[2] == "0002"]
     events = sorted([line for line in body + mouse if line.startswith("E:")], key=lambda line: float(line.split()[1]))
     mixed = "".join([line for line in body if not line.startswith("E:")] + events)
-    with pytest.raises(CalibrationError, match="did not move as one"):
+    with pytest.raises(CalibrationError, match="did not move together"):
         lag_figures(Recording(mixed), BOARD)
 
 

@@ -199,7 +199,7 @@ def test_a_bus_that_hangs_costs_touches_and_no_heartbeat(board, bank_file, tmp_p
         assert made.counters.emissions == 1
         heartbeats.append(made.counters.heartbeats - first)
         control.write(b"go\nlift\n")
-        while made.counters.emissions < 1 or source.place(0, clock.now_s()) is not None:
+        while made.counters.emissions < 1 or source.predict(0, clock.now_s()) is not None:
             yield
         control.write(b"touch 500 300\n")
         while made.counters.emissions < 2:

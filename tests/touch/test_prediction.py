@@ -9,7 +9,15 @@ from scripted_source import ScriptedSource, touch
 
 from controller.benchmark.prediction_error import HORIZONS_MS, METHODS, Kalman, main, measure, overshoot_m, rest_m
 from controller.board.devices import TouchPanel
-from controller.touch.prediction import FARTHEST_AHEAD_M, LONGEST_AHEAD_S, PAUSE_S, REST_M, REST_REPORTS, STOP_GAIN, Motion
+from controller.touch.prediction import (
+    MAX_EXTRAPOLATION_M,
+    MAX_HORIZON_S,
+    MAX_INTERVAL_S,
+    MAX_SPEED_RATIO,
+    REST_RADIUS_M,
+    REST_REPORTS,
+    Motion,
+)
 from controller.touch.recording import Recording
 from controller.touch.tracker import Tracker
 
@@ -31,7 +39,7 @@ def moved(way, period_s=PERIOD_S):
 
 def place(motion, ahead_s, lag_s=0.0, known_s=None, period_s=PERIOD_S):
     """Its place so long after its last report; unless told otherwise, nothing later is known."""
-    return motion.place(motion.time_s + ahead_s, motion.time_s if known_s is None else known_s, lag_s, period_s)
+    return motion.predict(motion.time_s + ahead_s, motion.time_s if known_s is None else known_s, lag_s, period_s)
 
 
 @pytest.fixture(scope="module")
@@ -44,8 +52,8 @@ def test_a_finger_of_constant_velocity_is_met_exactly(vx, vy, lag_s, period_s):
     end_s = 99 * period_s
     motion = moved(lambda time_s: (vx * time_s, vy * time_s), period_s)
     at_s = end_s + 0.7 * period_s
-    x_m, y_m = motion.place(at_s, end_s, lag_s, period_s)
-    resting = REST_M if math.hypot(vx, vy) * 9 * period_s < 2 * REST_M else 0  # so slow that it may count as at rest
+    x_m, y_m = motion.predict(at_s, end_s, lag_s, period_s)
+    resting = REST_RADIUS_M if math.hypot(vx, vy) * 9 * period_s < 2 * REST_RADIUS_M else 0  # so slow that it may count as at rest
     assert math.hypot(x_m - vx * (at_s + lag_s), y_m - vy * (at_s + lag_s)) <= 1e-6 + 3 * resting
 
 
@@ -64,7 +72,7 @@ def test_a_finger_at_rest_has_one_place_whatever_noise_its_reports_have(noise):
         if k >= REST_REPORTS:
             places.add(place(motion, 5e-3, 10e-3))
     assert len(places) == 1
-    assert math.dist(places.pop(), (0.1, 0.05)) < REST_M
+    assert math.dist(places.pop(), (0.1, 0.05)) < REST_RADIUS_M
 
 
 def test_the_place_of_rest_is_that_of_the_reports_not_of_the_first_alone():
@@ -76,8 +84,8 @@ def test_the_place_of_rest_is_that_of_the_reports_not_of_the_first_alone():
 
 def test_a_finger_leaves_its_rest_with_the_first_report_beyond_the_dead_band():
     motion = moved(lambda _: (0.1, 0.05))
-    motion.report(0.1 + REST_M + 1e-6, 0.05, 100 * PERIOD_S)
-    assert place(motion, 0.0)[0] == 0.1 + REST_M + 1e-6
+    motion.report(0.1 + REST_RADIUS_M + 1e-6, 0.05, 100 * PERIOD_S)
+    assert place(motion, 0.0)[0] == 0.1 + REST_RADIUS_M + 1e-6
 
 
 def test_a_finger_that_is_not_reported_any_more_rests_where_it_was_reported_last():
@@ -90,7 +98,7 @@ def test_a_finger_that_is_not_reported_any_more_rests_where_it_was_reported_last
 
 def test_a_far_horizon_is_no_silence():
     motion = moved(lambda time_s: (0.3 * time_s, 0.0))
-    for ahead_s in (5e-3, 20e-3, 30e-3, LONGEST_AHEAD_S):
+    for ahead_s in (5e-3, 20e-3, 30e-3, MAX_HORIZON_S):
         assert place(motion, ahead_s)[0] - motion.x_m == pytest.approx(0.3 * ahead_s, rel=1e-3)
 
 
@@ -99,8 +107,8 @@ def test_reports_that_wait_behind_the_one_just_read_are_no_silence():
     late_s = 19 * PERIOD_S  # the loop was busy: it finds all of them at once
     for k in range(19):
         tracker.read(late_s)
-        assert tracker.place(0, late_s)[0] > 0.050 + 2e-3 * k or k == 0
-    assert tracker.place(0, late_s)[0] == pytest.approx(0.050 + 2e-3 * 19, abs=0.3e-3)
+        assert tracker.predict(0, late_s)[0] > 0.050 + 2e-3 * k or k == 0
+    assert tracker.predict(0, late_s)[0] == pytest.approx(0.050 + 2e-3 * 19, abs=0.3e-3)
 
 
 def test_once_a_report_shows_a_stop_the_prediction_is_close_to_it():
@@ -113,7 +121,7 @@ def test_once_a_report_shows_a_stop_the_prediction_is_close_to_it():
 def test_a_step_that_is_shorter_than_those_before_limits_the_speed():
     motion = moved(lambda time_s: (0.3 * time_s, 0.0))
     motion.report(motion.x_m + 0.3e-3, 0.0, motion.time_s + PERIOD_S)
-    assert motion.vx == pytest.approx(STOP_GAIN * 0.3e-3 / PERIOD_S)
+    assert motion.vx == pytest.approx(MAX_SPEED_RATIO * 0.3e-3 / PERIOD_S)
 
 
 def test_a_finger_that_turns_is_not_sent_on():
@@ -124,9 +132,9 @@ def test_a_finger_that_turns_is_not_sent_on():
 
 def test_neither_time_nor_way_ahead_is_without_limit():
     motion = moved(lambda time_s: (0.3 * time_s, 0.0))
-    assert place(motion, 0.0, 0.2)[0] - motion.x_m == pytest.approx(0.3 * LONGEST_AHEAD_S, rel=1e-3)
+    assert place(motion, 0.0, 0.2)[0] - motion.x_m == pytest.approx(0.3 * MAX_HORIZON_S, rel=1e-3)
     fast = moved(lambda time_s: (3.0 * time_s, 4.0 * time_s))
-    assert math.dist(place(fast, 0.0, 20e-3), (fast.x_m, fast.y_m)) == pytest.approx(FARTHEST_AHEAD_M)
+    assert math.dist(place(fast, 0.0, 20e-3), (fast.x_m, fast.y_m)) == pytest.approx(MAX_EXTRAPOLATION_M)
 
 
 def test_a_time_before_the_last_report_is_that_of_the_report():
@@ -136,9 +144,9 @@ def test_a_time_before_the_last_report_is_that_of_the_report():
 
 def test_after_a_pause_the_velocity_of_before_is_forgotten():
     motion = moved(lambda time_s: (0.3 * time_s, 0.0))
-    motion.report(motion.x_m, 1e-3, motion.time_s + PAUSE_S + 1e-3)
+    motion.report(motion.x_m, 1e-3, motion.time_s + MAX_INTERVAL_S + 1e-3)
     assert motion.vx == 0
-    assert 0 < motion.vy <= 1e-3 / PAUSE_S
+    assert 0 < motion.vy <= 1e-3 / MAX_INTERVAL_S
 
 
 @given(
@@ -151,7 +159,7 @@ def test_whatever_is_reported_and_however_time_jumps_the_place_is_not_far_from_t
     motion = Motion(0.1, 0.1, 0.0)
     for x_m, y_m, time_s in reports:
         motion.report(x_m, y_m, time_s)
-    assert math.dist(motion.place(at_s, known_s, lag_s, PERIOD_S), (motion.x_m, motion.y_m)) <= FARTHEST_AHEAD_M * (1 + 1e-9)
+    assert math.dist(motion.predict(at_s, known_s, lag_s, PERIOD_S), (motion.x_m, motion.y_m)) <= MAX_EXTRAPOLATION_M * (1 + 1e-9)
 
 
 def test_on_the_recordings_the_product_is_as_good_as_the_readme_says(figures):
@@ -177,7 +185,7 @@ def test_on_the_recordings_no_other_way_is_better_where_it_counts(figures):
 
 
 def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, monkeypatch):
-    """Both ask `Tracker.place`, so far ahead of what they have read; a change of it changes both."""
+    """Both ask `Tracker.predict`, so far ahead of what they have read; a change of it changes both."""
     asked_ahead_s = []
 
     def elsewhere(self, finger, at_s):
@@ -185,7 +193,7 @@ def test_the_figures_are_of_the_call_that_the_loop_makes(perform, evemu_text, mo
         asked_ahead_s.append(at_s - self._known_s)
         return 0.105, 0.074
 
-    monkeypatch.setattr(Tracker, "place", elsewhere)
+    monkeypatch.setattr(Tracker, "predict", elsewhere)
     reports = [(k * PERIOD_S, {0: (85.0, 54.0 + 0.5 * k)}) for k in range(60)]
     for found in measure([Recording(evemu_text(*reports))])["methods"].values():
         for horizon_ms in HORIZONS_MS:

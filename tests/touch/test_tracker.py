@@ -88,7 +88,7 @@ def test_a_finger_found_again_is_predicted_again():
     steps = [(1 + k * PERIOD_S, [touch(k > 20, 50 + k)] if k != 20 else []) for k in range(60)]
     t = tracker(*steps, lag_ms=10.0)
     played(t, 1.585)
-    assert t.place(0, 1.59)[0] * 1e3 == pytest.approx(110, abs=0.01)
+    assert t.predict(0, 1.59)[0] * 1e3 == pytest.approx(110, abs=0.01)
 
 
 @pytest.mark.parametrize(("where_mm", "back_s"), [(106, 1.02), (101, 1.0251)])
@@ -183,12 +183,12 @@ def test_the_place_of_a_lost_finger_is_the_last_one_and_that_of_a_released_one_i
     t = tracker(*reports(100, 103, 106, None), lag_ms=20.0)
     for at_s in (1.0, 1.01, 1.02):
         t.read(at_s)
-    assert t.place(0, 1.023)[0] > 0.107
+    assert t.predict(0, 1.023)[0] > 0.107
     t.read(1.03)
-    assert t.place(0, 1.033) == (0.106, 0.05)
+    assert t.predict(0, 1.033) == (0.106, 0.05)
     played(t)
-    assert t.place(0, 1.05) is None
-    assert t.place(7, 1.05) is None
+    assert t.predict(0, 1.05) is None
+    assert t.predict(7, 1.05) is None
     assert t.confirmed(0), "what it feels as it is lifted is still to be decided"
     t.read(1.06)
     assert not t.confirmed(0)
@@ -208,14 +208,14 @@ def test_predicted_places_are_held_to_the_plate(from_mm, step_mm, held_m):
     places = [[start + k * step for start, step in zip(from_mm, step_mm, strict=True)] for k in range(5)]
     t = tracker(*[(1.0 + k * PERIOD_S, [touch(0, *place)]) for k, place in enumerate(places)], lag_ms=30.0)
     played(t)
-    assert t.place(0, 1.05) == pytest.approx(held_m)
+    assert t.predict(0, 1.05) == pytest.approx(held_m)
 
 
 def test_the_lag_of_the_panel_is_made_up_for():
     for lag_ms, x_mm in ((0.0, 199.0), (10.0, 200.0), (20.0, 201.0)):
         t = tracker(*reports(*range(100, 200)), lag_ms=lag_ms)
         played(t)
-        assert t.place(0, 1.99)[0] * 1e3 == pytest.approx(x_mm, abs=0.005)
+        assert t.predict(0, 1.99)[0] * 1e3 == pytest.approx(x_mm, abs=0.005)
 
 
 def test_a_contact_is_confirmed_by_its_second_report_or_by_silence_for_as_long():
@@ -323,7 +323,7 @@ def peak_of_a_turn_bytes(fingers):
         tracemalloc.reset_peak()
         held, _ = tracemalloc.get_traced_memory()
         t.read(at_s)
-        t.place(0, at_s + 3e-3)
+        t.predict(0, at_s + 3e-3)
         t.confirmed(0)
         t.emitted(at_s, at_s + 2e-3)
         largest = max(largest, tracemalloc.get_traced_memory()[1] - held)

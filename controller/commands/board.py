@@ -1,0 +1,110 @@
+"""`haptic-panel board`: check a board and its scene, and describe the keys of both files."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import TYPE_CHECKING, Any
+
+from controller.board.board import Board, find_board, load_board
+from controller.board.reference import reference, schema
+from controller.commands.output import show
+from controller.errors import ConfigError
+from controller.scene.effects import EffectTable
+from controller.scene.scene_file import SceneTable, find_scene, read_scene
+from controller.touch.recording import Recording
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+NAMED = {"effects": EffectTable}  # tables of scene.toml by names of the user's choice
+
+
+def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    board = commands.add_parser("board", help="check a board and its scene; describe the keys of both files")
+    actions = board.add_subparsers(title="actions", metavar="ACTION", required=True)
+    check = actions.add_parser(
+        "check",
+        parents=[common],
+        help="read and check board.toml, its scene and its recording",
+        description="Read and check board.toml, its scene and its recording, without any device. Exit code 78 if one is invalid, "
+        "with file, key and what is valid. `haptic-panel doctor` looks at the devices.",
+    )
+    check.add_argument("name", nargs="?", metavar="BOARD", help="as for --board")
+    check.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
+    check.set_defaults(command=board_check)
+    describe = actions.add_parser("reference", help="print every key of board.toml and scene.toml, as Markdown")
+    describe.set_defaults(command=board_reference)
+    schemas = actions.add_parser("schema", help="print the JSON schema of board.toml, for editors")
+    schemas.add_argument("--scene", action="store_true", help="of scene.toml instead")
+    schemas.set_defaults(command=board_schema)
+
+
+def board_check(options: argparse.Namespace) -> int:
+    """Check a board and its scene, and say what was found.
+
+    Raises
+    ------
+    ConfigError, TouchError
+        If board, scene or recording is invalid.
+    """
+    folder = find_board(options.name or options.board)
+    board = load_board(folder)
+    scene_file = find_scene(board, options.scene)
+    scene = read_scene(scene_file, board)
+    recording = None
+    if board.touch.recording:
+        file = board.beside(board.touch.recording)
+        if not file.is_file():
+            raise ConfigError(f"{folder / 'board.toml'}: touch.recording = {board.touch.recording!r}: there is no file {file}")
+        recording = Recording.open(file)
+    figures = {
+        "board": board.name,
+        "file": str(folder / "board.toml"),
+        "plate_mm": [board.plate.length_mm, board.plate.width_mm, board.plate.thickness_mm],
+        "channels": len(board.actuators),
+        "emission_ms": board.waveform.duration_s * 1e3,
+        "touch": _tag(board.touch),
+        "link": board.link.kind,
+        "temperature": board.temperature.kind if board.temperature else None,
+        "application_socket": board.application_socket.path if board.application_socket else None,
+        "scene": str(scene_file),
+        "regions": len(scene.regions),
+        "effects": sorted(scene.playable),
+        "recording": recording.name if recording else None,
+    }
+    show(options, figures, _table)
+    return 0
+
+
+def board_reference(_: argparse.Namespace) -> int:
+    """Print the reference that is committed as board/reference.md."""
+    print(reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED), end="")
+    return 0
+
+
+def board_schema(options: argparse.Namespace) -> int:
+    """Print the JSON schema that is committed as boards/board.schema.json or boards/scene.schema.json."""
+    found = schema(SceneTable, NAMED) if options.scene else schema(Board)
+    print(json.dumps(found, indent=1, ensure_ascii=False))
+    return 0
+
+
+def _tag(table: Any) -> str:
+    return str(table.__struct_config__.tag)
+
+
+def _table(figures: dict[str, Any]) -> str:
+    length_mm, width_mm, thickness_mm = figures["plate_mm"]
+    devices = [f"touch panel {figures['touch']}", f"link {figures['link']}"]
+    devices += [f"{name.replace('_', ' ')} {figures[name]}" for name in ("temperature", "application_socket") if figures[name]]
+    lines = [
+        f"{figures['file']}: board {figures['board']!r}, plate {length_mm:g} × {width_mm:g} × {thickness_mm:g} mm,"
+        f" {figures['channels']} channels, emissions of {figures['emission_ms']:g} ms",
+        f"devices: {', '.join(devices)}",
+        f"{figures['scene']}: {figures['regions']} regions, {len(figures['effects'])} effects that a command can play",
+    ]
+    if figures["recording"]:
+        lines.append(f"recording: {figures['recording']}")
+    return "\n".join([*lines, "PASS: every key is valid"])

@@ -1,0 +1,31 @@
+"""`haptic-panel completion`: print a shell's completion of this command line."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from controller.commands.output import Subparsers
+
+SHELL_FILES = Path(__file__).with_name("shell")
+COMPLETIONS = {"bash": "haptic-panel.bash", "zsh": "_haptic-panel", "tcsh": "haptic-panel.tcsh"}
+
+
+def add(commands: Subparsers, _: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    command = commands.add_parser(
+        "completion",
+        help="print a shell's completion of this command line",
+        description="Print the completion for a shell. For one session: source <(haptic-panel completion bash). The wheel also "
+        "installs it below share/bash-completion and share/zsh, and the manual page below share/man.",
+    )
+    command.add_argument("shell", choices=list(COMPLETIONS))
+    command.set_defaults(command=completion)
+
+
+def completion(options: argparse.Namespace) -> int:
+    """Print the file that `shell_files` has generated: the device needs no package for it."""
+    print((SHELL_FILES / COMPLETIONS[options.shell]).read_text(encoding="utf-8"), end="")
+    return 0
