@@ -32,12 +32,15 @@ class ClockEstimate:
         False until the first exchange; `offset_s` is 0 until then.
     offset_s : float
         FPGA time minus host time: the middle of the interval.
+    error_s : float
+        Largest possible error of `offset_s` at the newest exchange: half the width of the interval.
     """
 
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
         self.known = False
         self.offset_s = 0.0
+        self.error_s = 0.0
         self._low_s = self._high_s = 0.0  # bounds of the offset
         self._updated_s = 0.0
 
@@ -61,12 +64,8 @@ class ClockEstimate:
                 low_s, high_s = both_low_s, both_high_s
         self._low_s, self._high_s = low_s, high_s
         self.offset_s = (low_s + high_s) / 2
+        self.error_s = (high_s - low_s) / 2
         self.known = True
-
-    @property
-    def error_s(self) -> float:
-        """Largest possible error of `offset_s` at the newest exchange: half the width of the interval."""
-        return (self._high_s - self._low_s) / 2
 
     def fpga_s(self, host_s: float) -> FpgaTime:
         """FPGA time in s at the host time `host_s`."""

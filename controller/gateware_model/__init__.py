@@ -1,1 +1,1 @@
-"""The gateware computed: a bit-exact model of the Verilog, and the links by which it is reached."""
+"""A bit-exact model of the gateware's Verilog, and links to it."""

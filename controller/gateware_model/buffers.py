@@ -1,4 +1,4 @@
-"""Waveform buffers of the gateware model: `waveform_buffer.v`, with the check of what was stored."""
+"""Waveform buffers of the gateware model: `waveform_buffer.v`, with the CRC check of what was stored."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from controller.fpga.registers import CHUNK_WORDS, CHUNKS, WAVEFORM_WORDS, Result
 
-CHECK_TICKS = 5  # from the tick in which a STORE is carried out, beyond one for each word, until its slot is checked
-ADDRESS_TICKS = 4  # for which an address must have had its way before a READ of memory
+CHECK_TICKS = 5  # from the execution of a STORE to the end of its check, in addition to one tick for each word
+ADDRESS_TICKS = 4  # a READ of memory must not follow other addresses of the memory sooner
 
 
 class _Check(NamedTuple):
@@ -22,32 +22,37 @@ class _Check(NamedTuple):
 
 
 class Buffers:
-    """One waveform buffer more than there are slots, behind a map: the odd one out is where uploads land."""
+    """The waveform buffers: one for each slot, and the landing buffer for uploads; STORE exchanges two of them.
+
+    Parameters
+    ----------
+    slots : int
+    """
 
     def __init__(self, slots: int) -> None:
         self._words = np.zeros((slots + 1, WAVEFORM_WORDS), np.uint32)
         self.slot_buffer = list(range(slots))
         self.slot_words = [0] * slots  # 0: nothing stored
         self.landing = slots
-        self.chunk_words = [0] * CHUNKS  # of the landing buffer; 0: does not count
+        self.chunk_words = [0] * CHUNKS  # in the landing buffer; 0: not accepted
         self._slot_crc = [0] * slots
         self._intact = [False] * slots
         self._check: _Check | None = None
         self._checked_until = 0
 
     def waveform(self, buffer: int) -> NDArray[np.uint32]:
-        """View of a whole buffer."""
+        """View of a whole buffer, (1000,) uint32."""
         return self._words[buffer, :]
 
     def write(self, chunk: int, payload: memoryview) -> None:
-        """Words of a LOAD enter the landing buffer; its chunk does not count until the frame is accepted."""
+        """Write the words of a LOAD to the landing buffer; their chunk counts only once the frame is accepted."""
         first = chunk * CHUNK_WORDS
         words = np.frombuffer(payload, "<u4")
         self._words[self.landing, first : first + len(words)] = words
         self.chunk_words[chunk] = 0
 
     def checking(self, tick: int) -> bool:
-        """Whether a slot is being checked."""
+        """Whether some slot is being checked in `tick`."""
         if self._check and tick >= self._check.until:
             slot, intact, crc, until = self._check
             self._intact[slot], self._slot_crc[slot] = intact, crc
@@ -56,15 +61,31 @@ class Buffers:
         return self._check is not None
 
     def checking_slot(self, tick: int, slot: int) -> bool:
-        """Whether this slot is being checked."""
+        """Whether `slot` is being checked in `tick`."""
         return self.checking(tick) and self._check is not None and self._check.slot == slot
 
     def intact(self, tick: int, slot: int) -> bool:
-        """Whether what the slot holds has the CRC it was stored with."""
+        """Whether the content of `slot` has been checked and matches its CRC."""
         return not self.checking_slot(tick, slot) and self._intact[slot]
 
     def store(self, tick: int, slot: int, length_words: int, crc: int, *, live: bool) -> Result:
-        """Give the landing buffer to a slot; the slot's old one is where the next upload lands."""
+        """Exchange the landing buffer for that of a slot, and begin its check.
+
+        Parameters
+        ----------
+        tick : int
+        slot : int
+        length_words : int
+        crc : int
+            Expected CRC-32.
+        live : bool
+            Whether the landing buffer plays, or waits to.
+
+        Returns
+        -------
+        Result
+            OK, or why nothing was stored.
+        """
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT
         if not 1 <= length_words <= WAVEFORM_WORDS:
@@ -83,15 +104,15 @@ class Buffers:
         return Result.OK
 
     def loaded(self, tick: int) -> int:
-        """Bit k: slot k holds a waveform whose CRC matches."""
+        """Value of SLOTS_LOADED: bit k is set if slot k holds a waveform whose CRC matches."""
         return sum(1 << slot for slot in range(len(self.slot_words)) if self.intact(tick, slot))
 
     def chunks(self) -> int:
-        """Bit k: chunk k of the landing buffer counts."""
+        """Bit k is set if chunk k of the landing buffer was accepted."""
         return sum(1 << chunk for chunk, words in enumerate(self.chunk_words) if words)
 
     def read_crc(self, tick: int, slot: int) -> tuple[Result, int]:
-        """CRC of what a slot holds."""
+        """Result and value of reading the CRC of a slot."""
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT, 0
         if not self.slot_words[slot]:
@@ -101,7 +122,15 @@ class Buffers:
         return Result.OK, self._slot_crc[slot]
 
     def read_memory(self, tick: int, slot: int, word: int, played_until: dict[int, int]) -> tuple[Result, int]:
-        """A word of a slot, unless check or player had its address lately; `played_until`: of each buffer."""
+        """Result and value of reading a word of a slot, which is BUSY during and shortly after a check or an emission.
+
+        Parameters
+        ----------
+        tick : int
+        slot, word : int
+        played_until : dict of int to int
+            For each buffer the tick after its last emission.
+        """
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT, 0
         if word >= self.slot_words[slot]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from controller.fpga.build_parameters import Parameters
@@ -13,15 +11,10 @@ from controller.fpga.registers import (
     IDENTITY_MAGIC,
     PLAY_LANDING,
     PROTOCOL_VERSION,
-    READ_MEMORY,
-    READ_QUEUE,
-    READ_SLOT_CRC,
     TIME_LEAD_TICKS,
     WAVEFORM_WORDS,
     Control,
-    Fault,
     FrameType,
-    Kind,
     Register,
     Result,
     Start,
@@ -29,40 +22,13 @@ from controller.fpga.registers import (
 from controller.gateware_model.buffers import Buffers
 from controller.gateware_model.decoder import Frame
 from controller.gateware_model.gate import Gate, OutputGate
-from controller.gateware_model.gateware import Permit, Port
+from controller.gateware_model.gateware import Port
 from controller.gateware_model.player import Play, Player, Queue, word_tick
+from controller.gateware_model.readout import LinkState, Readout, Telemetry
 from controller.gateware_model.registers import RegisterFile
 
 FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
 LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
-
-
-def _zeros(kind: Kind) -> dict[Register, int]:
-    return {register: 0 for register in Register if register.kind is kind}
-
-
-@dataclass
-class LinkState:
-    """What a link is told of itself alone."""
-
-    result: Result = Result.OK
-    sequence: int = 0
-    data: int = 0
-    high: int = 0  # half of the time whose LOW was read last
-    counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.LINK_COUNTER))
-    unlocked: bool = False  # by the frame before
-
-
-@dataclass
-class Telemetry:
-    """Everything that is only counted or noted."""
-
-    links: tuple[LinkState, LinkState] = field(default_factory=lambda: (LinkState(), LinkState()))  # by Port
-    counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.COUNTER))
-    trigger_tick: int = 0
-    emission_tick: int = 0
-    input_tick: int = 0
-    trigger_pin: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # ticks in which it is seen high
 
 
 class Effect(NamedTuple):
@@ -84,6 +50,7 @@ class Commands:
         self.player = Player()
         self.queue = Queue()
         self.telemetry = Telemetry()
+        self._readout = Readout(self.registers, self.gate, self.buffers, self.player, self.queue, self.telemetry)
         self._fast = False  # the last LOAD came as fast as it would play
         self._free_tick = 0  # when the last scheduled play will be over
         self._armed_by = Port.SPI
@@ -122,7 +89,7 @@ class Commands:
         unlocked, telemetry.unlocked = telemetry.unlocked, False
         effect: Effect | None = None
         if frame.kind == FrameType.READ:
-            telemetry.result = self._read(tick, telemetry, frame.argument)
+            telemetry.result = self._readout.read(tick, telemetry, frame.argument)
         elif frame.kind == FrameType.WRITE and frame.argument == Register.CONTROL:
             telemetry.result, effect = self._control(telemetry, frame.words, unlocked)
         elif frame.kind == FrameType.WRITE:
@@ -155,67 +122,6 @@ class Commands:
         if result is Result.OK and address == Register.DUTY_SHARE:
             self.gate.limits.activity(tick + 2, active=False)  # clamped once more on its way
         return result
-
-    def _read(self, tick: int, link: LinkState, address: int) -> Result:
-        result, value = Result.OK, 0
-        if address >= READ_MEMORY:
-            slot, word = divmod(address - READ_MEMORY, 1024)
-            player = self.player
-            played_until = player.played_until
-            if player.playing and player.running is not None and player.start < tick:
-                played_until = played_until | {player.running.buffer: tick}
-            result, value = self.buffers.read_memory(tick, slot, word, played_until)
-        elif address >> 8 == READ_QUEUE >> 8:
-            result, value = self._read_queue(tick, *divmod(address - READ_QUEUE, 8))
-        elif address >> 8 == READ_SLOT_CRC >> 8:
-            result, value = self.buffers.read_crc(tick, address - READ_SLOT_CRC)
-        elif address not in set(Register):
-            result = Result.UNKNOWN_REGISTER
-        else:
-            value = self._register(tick, link, Register(address))
-        if result is Result.OK:
-            link.data = value & 0xFFFFFFFF
-        return result
-
-    def _read_queue(self, tick: int, number: int, word: int) -> tuple[Result, int]:
-        plays = self.queue.plays
-        if number >= len(plays) or word > 5:
-            return Result.BAD_RANGE, 0
-        if self.queue.fetching(tick):
-            return Result.BUSY, 0
-        return Result.OK, plays[number].raw[word]
-
-    def _register(self, tick: int, link: LinkState, register: Register) -> int:
-        value = self.registers.read(register)
-        if value is not None:
-            return value
-        telemetry, gate = self.telemetry, self.gate
-        if register.kind is Kind.COUNTER:
-            return telemetry.counts[register]
-        if register.kind is Kind.LINK_COUNTER:
-            return link.counts[register]
-        if register.kind is Kind.TIME_HIGH:
-            return link.high
-        if register.kind is Kind.TIME_LOW:
-            time = {
-                Register.FAULT_TIME_LOW: gate.fault_tick,
-                Register.INPUT_TIME_LOW: telemetry.input_tick,
-                Register.TRIGGER_TIME_LOW: telemetry.trigger_tick,
-                Register.EMISSION_TIME_LOW: telemetry.emission_tick,
-            }[register]
-            link.high = time >> 32
-            return time
-        at_fault = gate.faults & (Fault.SHORT_PULSE | Fault.CHANNEL_EDGES)
-        trigger = any(start <= tick < end for start, end in telemetry.trigger_pin)
-        return {
-            Register.CONTROL: 0,
-            Register.FAULT: int(gate.faults),
-            Register.FAULT_CHANNELS: gate.limits.channels(tick) if at_fault else 0,
-            Register.INPUTS: gate.permits[Permit.RUN] | gate.permits[Permit.TEMPERATURE] << 1 | trigger << 2,
-            Register.SLOTS_LOADED: self.buffers.loaded(tick),
-            Register.QUEUE: len(self.queue.plays),
-            Register.DUTY_LEVEL: gate.limits.duty_level(tick),
-        }[register]
 
     def _control(self, link: LinkState, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
         command, *key = words[:4]

@@ -1,4 +1,4 @@
-"""Judging a frame as `frame_decoder.v` does: what it asks for, or why it is refused."""
+"""Decoding of a frame as in `frame_decoder.v`: its fields, or why it is refused."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ _SYNC_BYTES = FRAME_SYNC.to_bytes(2, "little")
 
 
 class Frame(NamedTuple):
-    """One chip-select assertion as it ended; `refusal` is OK for an accepted frame."""
+    """A decoded frame; `refusal` is OK if it was accepted."""
 
     refusal: Result
     kind: int = 0
     sequence: int = 0
     argument: int = 0
     words: tuple[int, ...] = (0, 0, 0, 0, 0, 0)
-    loaded_words: int = 0  # that entered the landing buffer, at chunk `argument`
+    loaded_words: int = 0  # written to the landing buffer, at chunk `argument`
     payload_words: int = 0  # by its header
     payload: bytes = b""  # of a LOAD
 
 
 def decode(mosi: memoryview) -> Frame:
-    """Judge all bytes of one chip-select assertion."""
+    """Decode all bytes of one chip-select assertion."""
     size = len(mosi)
     sync_good = mosi[:2] == _SYNC_BYTES[:size]
     if size < HEADER.size:

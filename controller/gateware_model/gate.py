@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from controller.fpga.registers import Fault
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.limits import StageLimits
-from controller.gateware_model.pins import Pins, Stretch, ramp_bits, turned_ramp_bits
+from controller.gateware_model.pins import Pins, Segment, ramp_bits, turned_ramp_bits
 from controller.gateware_model.registers import RegisterFile
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, selection, gate
@@ -131,7 +131,7 @@ class OutputGate:
     def play(self, tick: int, words: NDArray[np.uint32], first: int = 0) -> None:
         """Words of an emission that began at state tick `tick`, of which they are those from the `first` on."""
         masked = words & np.uint32(self._registers.channel_mask)
-        self.pins.put(Stretch(tick + PIN_TICKS, masked, self._registers.bit_period, 1, first))
+        self.pins.put(Segment(tick + PIN_TICKS, masked, self._registers.bit_period, 1, first))
 
     def idle(self, tick: int) -> None:
         """The idle word, from state tick `tick` on."""
@@ -167,5 +167,5 @@ class OutputGate:
         self._ramp_start = tick
         self.ramp_end = tick + len(bits) * bit_ticks
         words = bits * np.uint32(self._registers.idle_word)
-        self.pins.put(Stretch(tick + PIN_TICKS, words, bit_ticks << 16, 1))
+        self.pins.put(Segment(tick + PIN_TICKS, words, bit_ticks << 16, 1))
         self.limits.activity(tick, active=True)

@@ -1,7 +1,4 @@
-"""The lines of the gateware model beside its channels, change by change: `waiting_o`, `fault_o`, MISO, the UART's answers.
-
-What the status says of a line holds for the line; here is since when.
-"""
+"""Changes of the gateware model's other outputs: `waiting_o`, `fault_o`, MISO and the UART's transmit line."""
 
 from __future__ import annotations
 
@@ -14,19 +11,19 @@ from numpy.typing import NDArray
 from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
 
-PAD_TICKS = 1  # from the state to `waiting_o` and `fault_o`, which have a register each
+PAD_TICKS = 1  # from the state to `waiting_o` and `fault_o`, which are registered
 ANSWER_TICKS = 4  # from the fall of chip select to the first bit of the answer on MISO
-RELEASE_TICKS = 3  # from its rise until MISO is low
+RELEASE_TICKS = 3  # from the rise of chip select until MISO is low
 SHIFT_TICKS = 1  # from the fall of SCK to the next bit
 
 
 class Lines:
-    """Changes since the last capture.
+    """Changes of these outputs since the last capture.
 
     Parameters
     ----------
     noting_frames : bool
-        MISO and the UART's line too, which take time and memory.
+        Also record MISO and the UART, which takes time and memory.
     """
 
     def __init__(self, *, noting_frames: bool) -> None:
@@ -38,13 +35,22 @@ class Lines:
         self._miso: list[NDArray[np.int64]] = []
 
     def settle(self, tick: int) -> None:
-        """Until this tick nothing happens but what was foreseen."""
+        """Record a change of `waiting_o` that was expected up to `tick`, before which nothing else happens."""
         if not self._waiting and self._waiting_from is not None and self._waiting_from <= tick:
             self._waits.append(self._waiting_from)
             self._waiting = True
 
     def note(self, tick: int, *, fault: bool, waiting_from: int | None) -> None:
-        """How things are from this tick on, and since when, or when, the head waits for a trigger if nothing happens."""
+        """Record the state from `tick` on.
+
+        Parameters
+        ----------
+        tick : int
+        fault : bool
+            Whether a fault is latched.
+        waiting_from : int or None
+            Tick from which on the head of the queue waits for a trigger, if nothing else happens.
+        """
         if fault != self._fault:
             self._faults.append(tick)
             self._fault = fault
@@ -54,12 +60,12 @@ class Lines:
         self._waiting_from = None if waiting_from is None else max(waiting_from, tick)
 
     def exchange(self, select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> None:
-        """A frame of the SPI and its answer, of which the first bit behind the last byte is shown too."""
+        """Record MISO during a frame; `answer` has one byte more than `size_bytes`, whose first bit is visible too."""
         if self._noting_frames:
             self._miso.append(miso_changes(select_tick, release_tick, answer, size_bytes))
 
     def take(self, capture: Capture, now: int, uart_ticks: Sequence[int]) -> Capture:
-        """A capture with these lines, up to now."""
+        """`capture` with these outputs, up to tick `now`; `uart_ticks` are the changes of the UART's transmit line."""
         miso = np.concatenate([np.zeros(0, np.int64), *self._miso])
         due = miso <= now
         self._miso = [miso[~due]]
@@ -73,7 +79,7 @@ class Lines:
 
 
 def _taken(changes: list[int], now: int) -> NDArray[np.uint64]:
-    """The changes that have come to their pin, which are taken off the list."""
+    """Remove and return the changes that have reached their pin."""
     due = sum(tick + PAD_TICKS <= now for tick in changes)
     taken = np.array(changes[:due], np.uint64) + np.uint64(PAD_TICKS)
     del changes[:due]
@@ -81,12 +87,19 @@ def _taken(changes: list[int], now: int) -> NDArray[np.uint64]:
 
 
 def miso_changes(select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> NDArray[np.int64]:
-    """(n,) ticks of the changes of MISO during one chip-select assertion, SCK spread evenly in it.
+    """Ticks of the changes of MISO during one frame, with SCK spread evenly.
 
     Parameters
     ----------
+    select_tick, release_tick : int
+        When chip select falls and rises.
     answer : bytearray
-        `size_bytes` and one more, whose first bit the last fall of SCK brings.
+        `size_bytes` bytes and one more, whose first bit appears with the last fall of SCK.
+    size_bytes : int
+
+    Returns
+    -------
+    (n,) int64 array
     """
     bits = 8 * size_bytes
     levels = np.unpackbits(np.frombuffer(answer, np.uint8))[: bits + 1].astype(np.int8)

@@ -1,8 +1,7 @@
-"""The output pins of the gateware model as a list of stretches, turned into ticks and words when asked for.
+"""The output pins of the gateware model as a list of segments, expanded to ticks and words when a capture is taken.
 
-A stretch is a row of words, each held for a bit period, the last one until the next stretch begins.
-What happens later but begins earlier (a fault cuts what is still in the pipeline) replaces what was
-foreseen, so nothing has to be computed before it is known.
+A segment is a row of words, each held for a bit period, the last one until the next segment begins. A later event that takes
+effect earlier (a fault cuts what is still in the pipeline) replaces the segments planned from there on.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ Words = NDArray[np.uint32]
 WHOLE = 1 << 16  # one tick, in parts of a tick
 
 
-class Stretch(NamedTuple):
+class Segment(NamedTuple):
     """`words[i]` on the pins from `start + floor((first + i) * period / 65536)`."""
 
     start: int
@@ -32,76 +31,84 @@ class Stretch(NamedTuple):
     first: int = 0
 
     def ticks(self) -> NDArray[np.int64]:
-        """When each word comes to the pins."""
+        """Ticks in which the words reach the pins, (n,) int64."""
         numbers = np.arange(self.first, self.first + len(self.words), dtype=np.int64)
         return self.start + (numbers * self.period >> 16)
 
     @property
     def begin(self) -> int:
-        """When the first word comes to the pins."""
+        """Tick in which the first word reaches the pins."""
         return self.start + (self.first * self.period >> 16)
 
 
 class Pins:
-    """Channel pins, high-voltage enable and focus pin since the last capture; the stage limits see them too."""
+    """Channel pins, high-voltage enable, alive and focus pin since the last capture.
+
+    Parameters
+    ----------
+    limits : StageLimits
+        Checks every segment.
+    alive_half_ticks : int
+        Half a period of `hv_alive_o`.
+    """
 
     def __init__(self, limits: StageLimits, alive_half_ticks: int) -> None:
         self._limits = limits
         self._alive_half_ticks = alive_half_ticks
         self._on_from: int | None = None  # a rise of `hv_alive_o`, the last before the end of the last capture; None: it is low
         self._taken_until = -1
-        self._stretches = [Stretch(0, np.zeros(1, np.uint32), WHOLE, 0)]
-        self._shown = 1  # words of the first stretch that earlier captures had
+        self._segments = [Segment(0, np.zeros(1, np.uint32), WHOLE, 0)]
+        self._shown = 1  # words of the first segment that earlier captures contained
         self._last = (0, 0)  # word and enable at the end of the last capture
         self._focus_ticks: list[int] = []
         self._focus_until = 0
 
-    def put(self, stretch: Stretch) -> None:
-        """Play a stretch, instead of what was to come from its beginning on."""
-        begin = stretch.begin
-        while self._stretches[-1].begin >= begin and len(self._stretches) > 1:
-            self._stretches.pop()
-        self._stretches.append(stretch)
-        self._limits.show(stretch.ticks(), stretch.words)
+    def put(self, segment: Segment) -> None:
+        """Plan a segment; it replaces what was planned from its beginning on."""
+        begin = segment.begin
+        while self._segments[-1].begin >= begin and len(self._segments) > 1:
+            self._segments.pop()
+        self._segments.append(segment)
+        self._limits.show(segment.ticks(), segment.words)
 
     def put_word(self, tick: int, word: int, *, hv: int) -> None:
-        """Hold one word from a tick on."""
-        self.put(Stretch(tick, np.array([word], np.uint32), WHOLE, hv))
+        """Plan that the pins hold one word from `tick` on, with the high-voltage enable `hv`."""
+        self.put(Segment(tick, np.array([word], np.uint32), WHOLE, hv))
 
     def hv_at(self, tick: int) -> int:
-        """The high-voltage enable at a tick not before the last capture."""
-        for stretch in reversed(self._stretches):
-            if stretch.begin <= tick:
-                return stretch.hv
+        """Level of the high-voltage enable at `tick`, which must not be before the last capture."""
+        for segment in reversed(self._segments):
+            if segment.begin <= tick:
+                return segment.hv
         return 0
 
     def focus(self, tick: int, hold_ticks: int) -> None:
-        """An emission ends at `tick`: the focus pin goes high, or stays so."""
+        """Set the focus pin high from `tick`, at which an emission ends, for `hold_ticks`."""
         if tick > self._focus_until:
             self._focus_ticks.append(tick)
         self._focus_until = tick + hold_ticks
 
     def cut_focus(self) -> None:
-        """The focus pin is low again."""
+        """Set the focus pin low."""
         self._focus_until = 0
 
     def take(self, now: int) -> Capture:
-        """Everything up to tick `now` that no earlier capture had."""
+        """Capture of everything up to tick `now` since the last capture."""
         ticks: list[NDArray[np.int64]] = []
         words: list[Words] = []
         levels: list[NDArray[np.uint8]] = []
         first = self._shown
-        known = [stretch for stretch in self._stretches if stretch.begin <= now]
-        for stretch, following in zip(known, [*known[1:], None], strict=True):
+        known = [segment for segment in self._segments if segment.begin <= now]
+        for segment, following in zip(known, [*known[1:], None], strict=True):
             until = following.begin if following else now + 1
-            all_ticks = stretch.ticks()
+            all_ticks = segment.ticks()
             end = int(np.searchsorted(all_ticks, until))
             ticks.append(all_ticks[first:end])
-            words.append(stretch.words[first:end])
-            levels.append(np.full(max(end - first, 0), stretch.hv, np.uint8))
+            words.append(segment.words[first:end])
+            levels.append(np.full(max(end - first, 0), segment.hv, np.uint8))
             self._shown = max(end, first)
             first = 0
-        self._stretches = self._stretches[len(known) - 1 :]
+        self._segments = self._segments[len(known) - 1 :]
         all_words = np.concatenate(words)
         all_levels = np.concatenate(levels)
         word_before, level_before = self._last
@@ -117,7 +124,7 @@ class Pins:
         return Capture(all_ticks.astype(np.uint64), all_words[changed], all_levels[changed], focus_ticks, alive_ticks=alive)
 
     def _alive(self, ticks: NDArray[np.int64], levels: NDArray[np.uint8], level_before: int, now: int) -> NDArray[np.uint64]:
-        """Changes of `hv_alive_o`: high as the enable goes on, then to and fro, low as it goes off."""
+        """Ticks of changes of `hv_alive_o`: a square wave while the high voltage is enabled, low otherwise."""
         changes = []
         switched = np.diff(levels, prepend=np.uint8(level_before)) != 0
         edges = [*zip(ticks[switched].tolist(), levels[switched].tolist(), strict=True), (now + 1, None)]
@@ -130,21 +137,29 @@ class Pins:
             if level is not None:
                 self._on_from = tick if level else None
         self._taken_until = now
-        if self._on_from is not None:  # what earlier captures had is not counted again
+        if self._on_from is not None:  # keeps the phase, without the periods that earlier captures contained
             self._on_from += max(now - self._on_from, 0) // (2 * self._alive_half_ticks) * 2 * self._alive_half_ticks
         return np.concatenate([np.zeros(0, np.int64), *changes]).astype(np.uint64)
 
 
 def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -> tuple[list[bool], tuple[int, int]]:
-    """Turn levels of 0 to `full_scale` into one bit each by second-order error feedback, as `idle_ramp.v`.
+    """Second-order sigma-delta modulation of levels to one bit each, as `idle_ramp.v`.
 
-    `v = level + 2 e1 - e2`, the bit is `2 v >= full_scale`, and the error `v - bit * full_scale` is kept
-    within 1.5 full scales: without a limit the loop rings near both ends, where one bit has no headroom.
+    `v = level + 2 e1 - e2`, the bit is `2 v >= full_scale`, and the error `v - bit * full_scale` is limited to 1.5 full scales:
+    without the limit the loop rings near both ends, where one bit has no headroom.
+
+    Parameters
+    ----------
+    levels : range
+        0 to `full_scale`.
+    full_scale : int
+    errors : (int, int)
+        Last two errors of the bits before, latest first.
 
     Returns
     -------
     (list of bool, (int, int))
-        The bits and the last two errors, latest first.
+        The bits, and the last two errors, latest first.
     """
     recent, older = errors
     limit = full_scale + (full_scale >> 1)
@@ -160,12 +175,12 @@ def modulate(levels: range, full_scale: int, errors: tuple[int, int] = (0, 0)) -
 
 @lru_cache(maxsize=8)
 def ramp_bits(samples: int, *, up: bool) -> NDArray[np.bool_]:
-    """(sample,) the whole ramp between 0 and full scale: 1, 2 ... samples, or back to 0."""
+    """Bits of a whole ramp up or down, (samples,) bool; `up`: levels 1, 2 ... samples, otherwise back to 0."""
     levels = range(1, samples + 1) if up else range(samples - 1, -1, -1)
     return np.array(modulate(levels, samples)[0], bool)
 
 
 def turned_ramp_bits(samples: int, reached: int) -> NDArray[np.bool_]:
-    """(sample,) the way down of a ramp that had come to level `reached` of `samples` when it was turned back."""
+    """Bits of the way down, (reached,) bool, of a ramp up that was reversed at level `reached` of `samples`."""
     _, errors = modulate(range(1, reached + 1), samples)
     return np.array(modulate(range(reached - 1, -1, -1), samples, errors)[0], bool)

@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 from controller.fpga.registers import QUEUE_PLAYS, Start
 from controller.gateware_model.gate import PIN_TICKS
 
-FETCH_TICKS = 9  # from the tick in which a play is accepted, or the one before it is taken, until it is at the head
-DECISION_TICKS = PIN_TICKS + 1  # from the tick in which a play is begun to its first word on the pins
+FETCH_TICKS = 9  # from the acceptance of a play, or the start of the one before, until it is at the head of the queue
+DECISION_TICKS = PIN_TICKS + 1  # from the tick in which a play is started to its first word on the pins
 
 
 def word_tick(number: int, bit_period: int) -> int:
-    """Ticks from the first word of an emission to word `number`."""
+    """Ticks from the first word of an emission to word `number`, at a bit period in 65536ths of a tick."""
     return number * bit_period >> 16
 
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """An accepted play command; it keeps the buffer it was accepted with."""
+    """An accepted PLAY, with the buffer that its slot had then."""
 
     buffer: int
     first: int
@@ -35,11 +35,11 @@ class Play:
     when: int  # delay or time
     mask: int
     inverted: bool
-    live: bool  # of the landing buffer, while that arrives
+    live: bool  # from the landing buffer, during its upload
     raw: tuple[int, ...]  # words of its frame
 
     def words(self, waveform: NDArray[np.uint32], idle_word: int, first: int, end: int) -> NDArray[np.uint32]:
-        """Words `first` to `end` as the channels play them."""
+        """Drive words `first` to `end`, (end - first,) uint32, after polarity and channel mask."""
         data = waveform[self.first + first : self.first + end]
         if self.inverted:
             data = ~data
@@ -48,7 +48,7 @@ class Play:
 
 
 class Queue:
-    """Accepted plays that have not begun."""
+    """The queue of accepted plays that have not started."""
 
     def __init__(self) -> None:
         self.plays: list[Play] = []
@@ -57,80 +57,80 @@ class Queue:
 
     @property
     def full(self) -> bool:
-        """There is no room for another play."""
+        """Whether the queue is full."""
         return len(self.plays) == QUEUE_PLAYS
 
     def push(self, tick: int, play: Play) -> None:
-        """Accept a play."""
+        """Append a play that is accepted in `tick`."""
         if not self.plays:
             self._head_from = max(self._head_from, tick + FETCH_TICKS)
         self.plays.append(play)
 
     def pop(self, tick: int) -> Play:
-        """Take the head."""
+        """Remove and return the head, which starts in `tick`."""
         self._popped = tick
         self._head_from = tick + FETCH_TICKS
         return self.plays.pop(0)
 
     def drop(self, tick: int) -> None:
-        """Forget all."""
+        """Remove all plays in `tick`."""
         self.plays.clear()
         self._head_from = tick
 
     def head(self, tick: int) -> Play | None:
-        """The play whose turn it is, once it has been fetched."""
+        """The play at the head, once it has been fetched from memory; else None."""
         return self.plays[0] if self.plays and tick >= self._head_from else None
 
     @property
     def head_from(self) -> int:
-        """The tick from which on the head is there, if there is a play."""
+        """First tick in which the head has been fetched, if there is a play."""
         return self._head_from
 
     def fetching(self, tick: int) -> bool:
-        """Whether the memory's address is taken by the next head."""
+        """Whether the next head is being fetched, so that a READ of the queue is BUSY."""
         return self._popped < tick < self._popped + FETCH_TICKS
 
 
 class Player:
-    """The running play: sounding, delayed, or in the pause before its next emission."""
+    """The current play: in an emission, delayed, or in the pause before its next emission."""
 
     def __init__(self) -> None:
         self.running: Play | None = None
         self.playing = False
         self.remaining = 0  # emissions after this one
-        self.release_tick: int | None = None  # in which a delayed play begins to sound
-        self.free_from = 0  # the tick from which on another play may begin, if nothing sounds
+        self.release_tick: int | None = None  # in which a delayed play starts its emission
+        self.free_from = 0  # first tick in which another play may start, if no emission plays
         self.played_until: dict[int, int] = {}  # of each buffer: the tick after its last emission
-        self.start = 0  # first tick of the emission that sounds, or sounded last
+        self.start = 0  # first tick of the current emission, or of the last one
         self.end = 0
         self.halting = False
-        self.known_words = 0  # of a live emission: those already given to the pins
+        self.known_words = 0  # of a live emission: words already passed to the pins
 
     @property
     def repeating(self) -> bool:
-        """More emissions of the running play are to come."""
+        """Whether the current play has more emissions to come."""
         return self.running is not None and (self.remaining > 0 or self.running.count == 0)
 
     @property
     def live(self) -> bool:
-        """What runs is still arriving."""
+        """Whether the current play comes from the landing buffer."""
         return self.running is not None and self.running.live
 
     @property
     def delayed(self) -> bool:
-        """A play has begun and waits for its delay."""
+        """Whether the current play waits for its delay."""
         return self.release_tick is not None
 
     def settled(self, tick: int) -> bool:
-        """Nothing sounds, and the idle word has been held for a bit period."""
+        """Whether no emission plays, and the idle word has been held for a bit period."""
         return not self.playing and tick >= self.free_from
 
     def quiet(self, tick: int) -> bool:
-        """Nothing sounds, waits or repeats."""
+        """Whether there is no current play."""
         return self.settled(tick) and self.running is None
 
     def next_change(self) -> int | None:
-        """Next tick after which an emission ends or begins by itself."""
+        """Next tick after which an emission ends or starts without further input; None if there is none."""
         ticks = [self.end - 1] if self.playing else []
         if self.repeating and not self.delayed:
             ticks.append(self.due_tick)
@@ -145,14 +145,14 @@ class Player:
         return self.start - 1 + self.running.period_ticks
 
     def begin(self, play: Play, tick: int) -> None:
-        """Take a play that begins in this tick, at once or after its delay."""
+        """Make a play the current one in `tick`; it may still wait for its delay."""
         self.running = play
         self.remaining = max(play.count - 1, 0)
         delay_ticks = 0 if play.start is Start.TIME else play.when & 0xFFFFFFFF
         self.release_tick = tick + delay_ticks if delay_ticks else None
 
     def sound(self, tick: int, bit_period: int) -> None:
-        """The running play sounds from the tick after this one."""
+        """Start an emission of the current play in the tick after `tick`."""
         assert self.running
         self.playing = True
         self.release_tick = None
@@ -161,7 +161,7 @@ class Player:
         self.known_words = 0
 
     def finish(self, tick: int, bit_ticks: int) -> None:
-        """The emission's last tick is this one."""
+        """End the emission, whose last tick is `tick`."""
         assert self.running
         self.playing = False
         self.halting = False
@@ -171,7 +171,7 @@ class Player:
             self.running = None
 
     def stop(self) -> None:
-        """End with the emission that sounds."""
+        """End the play after its current emission."""
         self.remaining = 0
         self.release_tick = None
         if not self.playing:
@@ -180,7 +180,7 @@ class Player:
             self.running = replace(self.running, count=1)
 
     def halt(self, tick: int, bit_period: int) -> None:
-        """End with the word that sounds."""
+        """End the play after its current drive word."""
         self.stop()
         if self.playing:
             number = ((tick + 1 - self.start) << 16) // bit_period
@@ -191,7 +191,7 @@ class Player:
             self.end = ends
 
     def drop(self, tick: int) -> None:
-        """Everything is off after this tick."""
+        """Switch everything off after `tick`."""
         if self.playing and self.running and self.start <= tick:
             self.played_until[self.running.buffer] = tick + 1
         self.running = None

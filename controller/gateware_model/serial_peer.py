@@ -1,6 +1,6 @@
-"""A simulated panel on a pseudo-terminal: the gateware model behind a UART, for trying out a serial link without a board.
+"""A simulated panel on a pseudo-terminal: the gateware model behind a UART, to try a serial link without a board.
 
-`python -m controller.gateware_model.serial_peer [board]` names its device and serves until it is interrupted.
+`python -m controller.gateware_model.serial_peer [board]` prints its device and serves until it is interrupted.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from controller.gateware_model.model import GatewareModel
 
 
 class UartPanel:
-    """Gateware behind `uart_peripheral.v`: bytes in, bytes out.
+    """The gateware model behind its UART: bytes in, bytes out.
 
     Parameters
     ----------
     gateware : GatewareModel
-        Just out of reset; it is given its permits.
+        Just reset; its permits are set here.
     clock_hz, baud : int
-        What they are in the gateware; a byte takes ten bits' time, whenever it comes out of the terminal.
+        Clock and baud rate of the gateware; a byte takes the time of ten bits, whenever the terminal delivers it.
     now_s : callable
-        Clock that the gateware's clock follows while nothing comes; tick 0 is its value now.
+        Clock that the gateware's clock follows; tick 0 is its present value.
     """
 
     def __init__(self, gateware: GatewareModel, clock_hz: int, baud: int, now_s: Callable[[], float]) -> None:
@@ -45,7 +45,7 @@ class UartPanel:
         self._now_s = now_s
         self._start_s = now_s()
         self._tick = 0.0  # when the last byte had come
-        self._answer_until = 0.0  # a frame that begins earlier gets no answer
+        self._answer_until = 0.0  # a frame that begins earlier is not answered
         self._line = bytearray()
         self._select_tick = 0
         self._synced = False
@@ -53,7 +53,7 @@ class UartPanel:
             gateware.permit(0, True, permit)
 
     def receive(self, data: bytes) -> bytes:
-        """Take bytes off the wire; what is answered meanwhile."""
+        """Receive bytes; returns the bytes of the answers."""
         self._tick = max(self._tick, (self._now_s() - self._start_s) * self._clock_hz)
         answers = bytearray()
         for byte in data:
@@ -70,7 +70,7 @@ class UartPanel:
         return bytes(answers)
 
     def _frame(self) -> bytes:
-        """Hand on the frame that has ended; its answer, unless the one before was still on its way."""
+        """Execute a complete frame; its answer, unless the previous one was still being sent."""
         sent = decoded(self._line)
         answer = bytearray(max(FRAME_BYTES, len(sent)))
         self.gateware.exchange(self._select_tick, int(self._tick), sent, memoryview(answer))
@@ -82,7 +82,7 @@ class UartPanel:
 
 
 def decoded(line: bytes | bytearray) -> bytes:
-    """Decode a frame; of one that ends within a block, what was there, and no length that a whole frame can have."""
+    """Decode a frame; one that ends within a COBS block is padded to a length that no frame has, so that it is refused."""
     whole = bytearray(line)
     code = end = 0
     while end < len(whole):
@@ -97,31 +97,31 @@ def decoded(line: bytes | bytearray) -> bytes:
 
 
 class PseudoTerminal:
-    """A pseudo-terminal with something that answers behind it, in a thread; a context manager.
+    """A pseudo-terminal that a thread answers; a context manager.
 
     Parameters
     ----------
     answer : callable
-        Takes the bytes that came, returns those to send.
+        Takes the bytes received, returns the bytes to send.
 
     Attributes
     ----------
     device : str
-        Path for whoever wants to talk to it.
+        Path of the terminal.
     """
 
     def __init__(self, answer: Callable[[bytes], bytes]) -> None:
         self._answer = answer
-        self._controller, self._terminal = os.openpty()  # the terminal stays open here, so that others may come and go
+        self._controller, self._terminal = os.openpty()  # the terminal stays open here, so that clients may come and go
         tty.setraw(self._terminal)
-        os.set_blocking(self._controller, False)  # a UART does not wait either: what nobody reads is lost
+        os.set_blocking(self._controller, False)  # like a UART: bytes that nobody reads are lost
         self.device = os.ttyname(self._terminal)
         self._stop, self._stopper = os.pipe()
         self._thread = threading.Thread(target=self._serve, name=f"panel at {self.device}", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
-        """End as a board does that is unplugged."""
+        """Close the terminal, as if the board were unplugged."""
         os.write(self._stopper, b"\0")
         self._thread.join()
         for descriptor in (self._controller, self._terminal, self._stop, self._stopper):
@@ -144,7 +144,7 @@ class PseudoTerminal:
 
 
 def main(name: str = "simulated") -> None:
-    """Serve the gateware of a board, in real time, until interrupted."""
+    """Serve the gateware of the board `name` in real time, until interrupted."""
     board = load_board(find_board(name))
     link = board.link
     model = GatewareModel(Parameters.of(board, build_hash(data_folder("fpga_rtl"))))

@@ -1,8 +1,8 @@
-"""A link to simulated gateware (its model, or its Verilog compiled), in place of SPI and GPIO.
+"""A link to simulated gateware (the model, or the compiled Verilog), in place of SPI and GPIO.
 
-Frames take the time they would on the board's wire: a frame begins when the wire is free, its
-chip select is low for its bits at SCK, and the next one follows after a pause. The gateware's clock is
-the loop's clock, so a replay in virtual time and one in real time go through the same ticks.
+Frames take as long as on the board's wire: a frame begins when the wire is free, chip select is low for its bits at SCK, and the
+next frame follows after a pause. The gateware's clock follows the loop's clock, so that a replay in virtual time and one in real
+time go through the same ticks.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import READY_TICKS, Gateware, Permit
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
-SELECT_PAUSE_TICKS = 10  # and at least so many clocks
-TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger pin: the frame must have been judged
+SELECT_PAUSE_TICKS = 10  # and at least this many FPGA clocks
+TRIGGER_AFTER_TICKS = 8  # from the end of the last frame to the trigger: the frame must have been executed
 
 
 class SimulatedLink:
-    """`Link` to a gateware that is computed.
+    """`Link` to simulated gateware.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class SimulatedLink:
     now_s : callable
         The loop's clock; tick 0 is its value now.
     gateware : Gateware
-        Just out of reset; it is given its permits.
+        Just reset; its permits are set here.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float], gateware: Gateware) -> None:
@@ -47,7 +47,7 @@ class SimulatedLink:
             gateware.permit(0, True, permit)
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
-        """Send frames, each at its time on the wire."""
+        """Send frames and store the answers, each at its time on the wire; parameters as in `Link.exchange`."""
         started_ns = time.perf_counter_ns()
         first = tick = max(self._tick_now(), self._free_tick)
         start = 0
@@ -62,7 +62,7 @@ class SimulatedLink:
         self.blocked_ns += time.perf_counter_ns() - started_ns
 
     def trigger(self) -> float:
-        """Pulse the trigger pin, now or when the frames before it have gone."""
+        """Pulse the trigger pin, now or after the frames sent before; returns the time of its edge in s, on the loop's clock."""
         started_ns = time.perf_counter_ns()
         tick = max(self._tick_now(), self._free_tick + TRIGGER_AFTER_TICKS)
         self.gateware.trigger(tick)
@@ -71,37 +71,37 @@ class SimulatedLink:
         return self.time_s(tick)
 
     def wire_free_s(self) -> float:
-        """When the frames sent so far have gone and been judged."""
+        """When the frames sent so far have left the wire and been executed, on the loop's clock."""
         return self.time_s(self._free_tick + TRIGGER_AFTER_TICKS)
 
     def tick(self, time_s: float) -> int:
-        """The gateware's tick at a time on the loop's clock."""
+        """Tick of the gateware at `time_s` on the loop's clock."""
         return round((time_s - self._start_s) * self.clock_hz)
 
     def time_s(self, tick: int) -> float:
-        """A tick of the gateware on the loop's clock."""
+        """Time in s on the loop's clock at a tick of the gateware."""
         return self._start_s + tick / self.clock_hz
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Send the next frames at another SCK; what it is then."""
+        """Set SCK for the next frames; returns it in Hz."""
         self.sck_hz = float(sck_hz)
         self._ticks_per_bit = self.clock_hz / sck_hz
         self._pause_ticks = max(round(SELECT_PAUSE_SCK * self._ticks_per_bit), SELECT_PAUSE_TICKS)
         return self.sck_hz
 
     def close(self) -> None:
-        """Let the gateware live on to what it would do by itself."""
+        """Advance the gateware to the present, so that captures are complete."""
         started_ns = time.perf_counter_ns()
         self.gateware.advance(max(self._tick_now(), self._free_tick))
         self.blocked_ns += time.perf_counter_ns() - started_ns
 
     @property
     def speed(self) -> float:
-        """Time the gateware has been through, over the time it took to compute."""
+        """Simulated time over the time it took to compute."""
         return self.gateware.now / self.clock_hz / (self.blocked_ns * 1e-9)
 
     def take_capture(self) -> Capture:
-        """What the pins did since the last call."""
+        """Changes of the output pins since the last call."""
         return self.gateware.take_capture()
 
     def _tick_now(self) -> int:

@@ -7,34 +7,35 @@ from controller.fpga.registers import Result
 from controller.gateware_model.decoder import Frame, decode
 from controller.gateware_model.gateware import UartTiming
 
-BYTE_TO_PULSE_TICKS = 1  # from a byte's tick to what the COBS decoder says of it
+BYTE_TO_PULSE_TICKS = 1  # from the tick of a byte to the output of the COBS decoder
 ANSWER_TICKS = 40  # from a frame's first byte to the start bit of its answer
-BEGIN_TICKS = 2  # from a frame's end to the first tick in which it may be handed on
-DELIVER_TICKS = 40  # from then on, beyond one for each word, until it is carried out
+BEGIN_TICKS = 2  # from the end of a frame to the first tick in which it may be delivered
+DELIVER_TICKS = 40  # from then until it is executed, in addition to one tick for each word
 
 
 def cobs_encoded(data: bytes) -> bytes:
-    """One message of up to 253 bytes with the zero that ends it."""
+    """COBS encoding of up to 253 bytes, with the terminating zero."""
     return b"".join(bytes([len(block) + 1]) + block for block in data.split(b"\0")) + b"\0"
 
 
 class UartSide:
-    """What the gateware knows of its UART.
+    """State of the UART peripheral.
+
+    Parameters
+    ----------
+    timing : UartTiming
 
     Attributes
     ----------
     pending : Frame or None
-        An accepted frame that waits for a pause of the SPI, or has it.
-    landing_busy, landing_live, queue_full : bool
-        As they were when it got its turn.
+        Accepted frame that waits for a pause of the SPI, or is being delivered in one.
     tx_ticks : list of int
-        Ticks of changes on the line of the answers.
+        Changes of the transmit line.
     """
 
     def __init__(self, timing: UartTiming) -> None:
         self.timing = timing
         self.pending: Frame | None = None
-        self.landing_busy = self.landing_live = self.queue_full = False
         self.tx_ticks: list[int] = []
         self._synced = self._open = self._taken = self._zero = False
         self._left = 0  # of the COBS block
@@ -42,15 +43,18 @@ class UartSide:
         self._answer_from = 0  # the first tick in which another answer may be begun
         self._fraction = 0  # of a tick, in 256ths, that the transmitter has left
 
-    def hear(self, byte: int) -> tuple[bool, Frame | None]:
-        """Take a byte; whether a frame begins with it, and the frame that ends with it, judged.
+    def receive(self, byte: int) -> tuple[bool, Frame | None]:
+        """Receive a byte.
 
-        A frame that began while another was pending is BUSY.
+        Returns
+        -------
+        (bool, Frame or None)
+            Whether a frame begins with this byte, and the frame that ends with it; it is BUSY if another was pending when it began.
         """
         in_block = self._open and self._left != 0
         if byte == 0:
             ended, self._open, self._synced = self._open, False, True
-            return False, self._judged(partial=in_block) if ended else None
+            return False, self._decoded(partial=in_block) if ended else None
         if not self._synced:
             return False, None
         begins = not self._open
@@ -68,7 +72,7 @@ class UartSide:
         return begins, None
 
     def answer(self, tick: int, status: bytes) -> None:
-        """A frame begins in this tick: send a status, unless the answer before is still on its way."""
+        """Send `status` for a frame that begins in `tick`, unless the previous answer is still being sent."""
         if tick < self._answer_from:
             return
         wire = cobs_encoded(status[:FRAME_BYTES])
@@ -81,12 +85,12 @@ class UartSide:
         self._fraction = self._fraction + len(bits) * bit_256 & 0xFF
 
     def take_tx(self, now: int) -> list[int]:
-        """Changes of the line up to now that were not taken yet."""
+        """Remove and return the changes of the transmit line up to `now`."""
         due = sum(tick <= now for tick in self.tx_ticks)
         taken, self.tx_ticks = self.tx_ticks[:due], self.tx_ticks[due:]
         return taken
 
-    def _judged(self, *, partial: bool) -> Frame:
+    def _decoded(self, *, partial: bool) -> Frame:
         if not self._taken:
             return Frame(Result.BUSY)
         if not self._frame:

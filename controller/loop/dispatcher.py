@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from controller.clocks import NEVER, Clock, FpgaTime
+from controller.clocks import FPGA_NEVER, NEVER, Clock, FpgaTime
 from controller.errors import ControllerError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
@@ -125,9 +125,9 @@ class Dispatcher:
                 scheduler.reset(turn.fpga_s)
             return False
         repeating = playback.repeating
-        if not repeating:
+        if not repeating and scheduler.scene.spots:
             scheduler.add_spots(turn.fpga_s, turn.fpga_s + self.lead_s)
-        due = scheduler.due
+        due = bool(scheduler.due)
         if due or repeating:
             self._listen(now_s, due, repeating)
         accepted = playback.accepted
@@ -154,7 +154,7 @@ class Dispatcher:
         next_s = self.quiet_until_s if self.quiet_until_s > now_s else NEVER
         if repeating and next_s != NEVER:
             next_s = min(next_s, self._occupancy.next_repetition_s(now_s))
-        if on and not repeating:
+        if on and not repeating and self._scheduler.scene.spots:
             next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self.lead_s)
         return next_s
 
@@ -180,6 +180,8 @@ class Dispatcher:
         """Whether what is due may be played: not if the panel listens, nor if plate or wire would not be free for the next beat."""
         if self.quiet_until_s > now_s:
             return False
+        if self._scheduler.next_s() == FPGA_NEVER:
+            return True
         free_s = self._occupancy.free_after_next_s(now_s, self._playback.upload_s)
         return not self._scheduler.must_defer(fpga_s, self._clock_estimate.fpga_s(free_s))
 
@@ -215,9 +217,8 @@ class Dispatcher:
         if attempt.outcome is Outcome.PLAYED:
             if turn.report_ns >= 0:
                 self._counters.report_latency.record(turn.report_ns)
-            sounds_s = self._clock_estimate.host_s(attempt.start_s)
-            self._source.emitted(sounds_s, sounds_s + self._occupancy.duration_s, batch.period_s)
-            self._scheduler.started(emissions, attempt.start_s)
+            self._source.emitted(attempt.start_s, attempt.start_s + self._occupancy.duration_s, batch.period_s)
+            self._scheduler.started(emissions, attempt.fpga_s)
             return attempt.started
         if repeating and not playback.repeating:
             now_s = self._clock.now_s()

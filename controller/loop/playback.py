@@ -73,14 +73,17 @@ class Attempt(NamedTuple):
     ----------
     outcome : Outcome
         PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
-    start_s : FpgaTime
-        When it starts: to the clock if the FPGA starts it, else as expected. NaN if it was not accepted.
+    start_s : float
+        Host time at which it starts, as expected; NaN if it was not accepted.
+    fpga_s : FpgaTime
+        The same moment, to the clock if the FPGA starts it.
     started : bool
         Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
     """
 
     outcome: Outcome
-    start_s: FpgaTime = FpgaTime(math.nan)
+    start_s: float = math.nan
+    fpga_s: FpgaTime = FpgaTime(math.nan)
     started: bool = False
 
 
@@ -139,6 +142,8 @@ class Playback:
     occupancy : Occupancy
     accepted : Accepted or None
         What `trigger` is to start.
+    repeating : bool
+        Whether the FPGA repeats an emission by itself, or will once it is started.
     """
 
     def __init__(
@@ -157,6 +162,7 @@ class Playback:
     ) -> None:
         self.occupancy = occupancy
         self.accepted: Accepted | None = None
+        self.repeating = False
         self.upload_s = upload_s
         self._session = session
         self._selection = selection
@@ -168,12 +174,6 @@ class Playback:
         self._slots = SlotCache(slots, selection.single_focus)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
-
-    @property
-    def repeating(self) -> bool:
-        """Whether the FPGA repeats an emission by itself, or is about to."""
-        accepted = self.accepted
-        return self.occupancy.repetition is not None or (accepted is not None and accepted.batch.repetitions == ENDLESS)
 
     def stop_repeating(self, now_s: float) -> float | None:
         """End the endless repetition; host time at which its last emission began, or None if its first one has yet to."""
@@ -201,17 +201,18 @@ class Playback:
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
-        emissions, count, period_s, at_s = batch
+        emissions, repetitions, period_s, at_s = batch
         plan = self._plan(batch, predicted)
-        self._prefetch.compare(emissions, plan.key, self._selection)
+        if self._prefetch.predicted is not None:
+            self._prefetch.compare(emissions, plan.key, self._selection)
         start, start_ticks = Start.TRIGGER, 0
         if at_s is not None:
             start, start_ticks = Start.TIME, self._clock_estimate.ticks(plan.start_s)
         try:
             if plan.resident is None:
-                self._upload(plan.key, count, period_s, start, start_ticks)
+                self._upload(plan.key, repetitions, period_s, start, start_ticks)
             else:
-                self._play(plan.resident, count, period_s, start, start_ticks)
+                self._play(plan.resident, repetitions, period_s, start, start_ticks)
                 self._counters.near += plan.resident != plan.key
         except BankError as error:
             if predicted and any(emission.finger is not None for emission in emissions):
@@ -239,15 +240,17 @@ class Playback:
             time.perf_counter_ns() - decided_ns - blocked_ns,
             session.wire_ns - wire_before_ns,
         )
+        self.repeating = repetitions == ENDLESS
         if at_s is not None:
             self._counters.scheduled += 1
             self._started(accepted, accepted.start_s, 0)
-            return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s_of(start_ticks), True)
+            return Attempt(Outcome.PLAYED, accepted.start_s, self._clock_estimate.fpga_s_of(start_ticks), True)
         self.accepted = accepted
         at_once = accepted.start_s <= ready_s
+        attempt = Attempt(Outcome.PLAYED, accepted.start_s, self._clock_estimate.fpga_s(accepted.start_s), at_once)
         if at_once:
             self.trigger()
-        return Attempt(Outcome.PLAYED, self._clock_estimate.fpga_s(accepted.start_s), at_once)
+        return attempt
 
     def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
         """Upload the waveform of a predicted emission without playing it, if predictions have come true of late.
@@ -290,7 +293,7 @@ class Playback:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.single_focus)
-        self._prefetch.clear()
+        self._prefetch.unplayed.clear()
 
     def stop(self) -> None:
         """End an endless repetition with the emission that sounds, or before its first one.
@@ -323,10 +326,11 @@ class Playback:
     def forget(self) -> None:
         """The FPGA holds and plays nothing: after a fault."""
         self._slots.forget()
-        self._prefetch.clear()
+        self._prefetch.unplayed.clear()
         if self.accepted is not None:
             self._counters.skipped.outputs_off += len(self.accepted.batch.emissions)
         self.accepted = None
+        self.repeating = False
         self.occupancy.reset()
 
     def _plan(self, batch: Batch, predicted: bool) -> Plan:
@@ -374,7 +378,8 @@ class Playback:
         finally:
             self._stopped()
         self._last_slot = slot
-        self._prefetch.played(slot)
+        if slot in self._prefetch.unplayed:
+            self._prefetch.played(slot)
 
     def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
@@ -397,13 +402,14 @@ class Playback:
     def _take(self) -> int:
         """A slot to upload to: not that of the newest play, which sounds, waits or is repeated, while there is another."""
         slot = self._slots.take(self._last_slot)
-        self._prefetch.overwritten(slot)
+        self._prefetch.unplayed.discard(slot)
         return slot
 
     def _stopped(self) -> None:
         """The FPGA was told to end its repetition, whatever became of the play behind."""
         if self.occupancy.repetition is not None:
             self.occupancy.stop_repetition(self._session.earliest_trigger_s())
+        self.repeating = False
 
     def _started(self, accepted: Accepted, start_s: float, trigger_ns: int) -> None:
         """Count a start, and what it took."""

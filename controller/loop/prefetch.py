@@ -18,54 +18,51 @@ class PrefetchRecord:
     ----------
     counters : Counters
         `prefetched` and `prefetch_wasted` are counted here.
+
+    Attributes
+    ----------
+    predicted : tuple of int and Key, or None
+        The newest prediction: finger, and the waveform that it will ask for.
+    unplayed : set of int
+        Slots whose waveform was sent ahead, and has not been played.
     """
 
     def __init__(self, counters: Counters) -> None:
         self._counters = counters
-        self._predicted: tuple[int, Key] | None = None  # finger, and the waveform it will ask for
+        self.predicted: tuple[int, Key] | None = None
         self._hits = 0  # in a row
-        self._unplayed: set[int] = set()  # slots
+        self.unplayed: set[int] = set()
 
     def predict(self, finger: int, key: Key, selection: Selection) -> bool:
         """Take note of a prediction; whether the record is good enough to send its waveform ahead."""
-        if self._predicted is not None and not self._is_hit(finger, key, selection):
+        if self.predicted is not None and not self._is_hit(finger, key, selection):
             self._hits = 0
-        self._predicted = finger, key
+        self.predicted = finger, key
         return self._hits >= PREFETCH_AFTER_HITS
 
     def compare(self, emissions: Sequence[Emission], key: Key, selection: Selection) -> None:
-        """Compare what is played now with the prediction, if that was for one of these fingers."""
-        if self._predicted is None:
-            return
-        predicted = self._predicted[0]
+        """Compare what is played now with the prediction that there is, if that was for one of these fingers."""
+        assert self.predicted is not None
+        predicted = self.predicted[0]
         for emission in emissions:
             if emission.finger == predicted:
                 self._hits = self._hits + 1 if self._is_hit(emissions[0].finger, key, selection) else 0
-                self._predicted = None
+                self.predicted = None
                 return
 
     def sent(self, slot: int) -> None:
         """A waveform was sent ahead into a slot; it counts as wasted until it is played."""
-        self._unplayed.add(slot)
+        self.unplayed.add(slot)
         self._counters.prefetched += 1
         self._counters.prefetch_wasted += 1
 
     def played(self, slot: int) -> None:
-        """The waveform of a slot is played."""
-        if slot in self._unplayed:
-            self._unplayed.remove(slot)
-            self._counters.prefetch_wasted -= 1
-
-    def overwritten(self, slot: int) -> None:
-        """Another waveform is sent to a slot."""
-        self._unplayed.discard(slot)
-
-    def clear(self) -> None:
-        """No slot holds anything any more."""
-        self._unplayed.clear()
+        """The waveform of an unplayed slot is played."""
+        self.unplayed.remove(slot)
+        self._counters.prefetch_wasted -= 1
 
     def _is_hit(self, finger: int | None, key: Key, selection: Selection) -> bool:
         """Whether the waveform predicted last serves for this."""
-        assert self._predicted is not None
-        predicted_finger, predicted = self._predicted
+        assert self.predicted is not None
+        predicted_finger, predicted = self.predicted
         return finger == predicted_finger and (key == predicted or selection.reusable(key, predicted))

@@ -47,6 +47,13 @@ class Scheduler:
         Emissions that a finger gets before it is.
     outcomes : callable
         Told what became of commands.
+
+    Attributes
+    ----------
+    scene : Scene
+    spots : Spots
+    due : dict of Emission
+        What waits to be played, of each owner the newest, in the order in which the owners began to wait.
     """
 
     def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
@@ -58,7 +65,7 @@ class Scheduler:
         self._outcomes = outcomes
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
-        self._due: dict[Owner, Emission] = {}  # the newest of each
+        self.due: dict[Owner, Emission] = {}
 
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
         """A finger began, moved or was released, at a time that is `sample.time_s` in FPGA time."""
@@ -121,11 +128,6 @@ class Scheduler:
         self._counters.due += len(played) - len(emissions)
         return played
 
-    @property
-    def due(self) -> bool:
-        """Whether anything waits to be played."""
-        return bool(self._due)
-
     def must_defer(self, now_s: FpgaTime, until_s: FpgaTime) -> bool:
         """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
 
@@ -134,21 +136,21 @@ class Scheduler:
         """
         if self.next_s() > until_s:
             return False
-        oldest = next(iter(self._due.values()))
-        return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self._due.values())
+        oldest = next(iter(self.due.values()))
+        return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self.due.values())
 
     def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
         """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
-        if len(self._due) == 1:
-            chosen = list(self._due.values())
-            self._due.clear()
+        if len(self.due) == 1:
+            chosen = list(self.due.values())
+            self.due.clear()
         else:
-            due = tuple(self._due.values())
+            due = tuple(self.due.values())
             if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S:
                 due = tuple(sorted(due, key=_has_no_beat))
             first, rest = select_batch(due, duration_s)
             chosen = list(first)
-            self._due = {emission.owner: emission for emission in rest}
+            self.due = {emission.owner: emission for emission in rest}
         return chosen
 
     def next_s(self) -> FpgaTime:
@@ -214,9 +216,9 @@ class Scheduler:
 
     def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
         """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
-        waiting = self._due.get(finger)
+        waiting = self.due.get(finger)
         if waiting is not None and waiting not in last:
-            del self._due[finger]
+            del self.due[finger]
             self._counters.skipped.lifted += 1
             self.discarded([waiting], Outcome.SKIPPED, now_s)
 
@@ -227,8 +229,8 @@ class Scheduler:
 
     def reset(self, now_s: FpgaTime) -> None:
         """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
-        waiting = list(self._due.values())
-        self._due.clear()
+        waiting = list(self.due.values())
+        self.due.clear()
         self._counters.skipped.outputs_off += len(waiting)
         self.discarded(waiting, Outcome.REFUSED, now_s)
         for active in self._active.values():
@@ -239,8 +241,8 @@ class Scheduler:
 
     def change_scene(self, scene: Scene, now_s: FpgaTime) -> None:
         """Go on with another scene: fingers that are down feel it from their next move on."""
-        waiting = list(self._due.values())
-        self._due.clear()
+        waiting = list(self.due.values())
+        self.due.clear()
         self._counters.skipped.scene_changed += len(waiting)
         self.discarded(waiting, Outcome.SKIPPED, now_s)
         self.scene = scene
@@ -259,26 +261,26 @@ class Scheduler:
                     self.discarded([emission], Outcome.SKIPPED, emission.time_s)
                     continue
                 self._emission_counts[finger] = given
-            before = self._due.get(emission.owner)
+            before = self.due.get(emission.owner)
             if before is not None:
                 self._counters.skipped.merged += 1
                 self.discarded([before], Outcome.MERGED, emission.time_s)
-            self._due[emission.owner] = emission
+            self.due[emission.owner] = emission
 
     def _make_room(self, emissions: tuple[Emission, ...]) -> None:
         """A command at a point replaces one for the same place; of too many that wait the oldest is skipped."""
         for new in emissions:
-            waiting = [e for owner, e in self._due.items() if isinstance(owner, str) and e.ticket]
+            waiting = [e for owner, e in self.due.items() if isinstance(owner, str) and e.ticket]
             for old in waiting:
                 if old.region == new.region and math.dist((old.x_m, old.y_m), (new.x_m, new.y_m)) < COMMAND_MERGE_RADIUS_M:
-                    del self._due[old.owner]
+                    del self.due[old.owner]
                     self._counters.skipped.merged += 1
                     self.discarded([old], Outcome.MERGED, new.time_s)
                     break
             else:
                 if len(waiting) >= MAX_WAITING_COMMANDS:
                     oldest = min(waiting, key=lambda e: e.time_s)
-                    del self._due[oldest.owner]
+                    del self.due[oldest.owner]
                     self._counters.skipped.no_room += 1
                     self.discarded([oldest], Outcome.SKIPPED, new.time_s)
 

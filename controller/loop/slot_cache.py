@@ -45,7 +45,7 @@ class SlotCache:
         """Key under which a waveform that serves is resident; None: it has to be uploaded."""
         if key in self._slot_of:
             return key
-        wanted = self._single_focus(key)
+        wanted = self._focus_of(key)
         if wanted is None:
             return None
         x_m, y_m, step = wanted
@@ -89,9 +89,9 @@ class SlotCache:
         self._held[slot] = key
         self._held.move_to_end(slot)
         self._slot_of[key] = slot
-        single_focus = self._single_focus(key)
-        if single_focus is not None:
-            self._single_focus_of[slot] = key, single_focus
+        focus = self._focus_of(key)
+        if focus is not None:
+            self._single_focus_of[slot] = key, focus
 
     def drop(self, slot: int) -> None:
         """A slot holds nothing that could be played; it is the next to be taken."""
@@ -116,3 +116,6 @@ class SlotCache:
     def residents(self) -> tuple[tuple[int, Key | None], ...]:
         """Every slot with the key of what it holds, the next to be taken first."""
         return tuple(self._held.items())
+
+    def _focus_of(self, key: Key) -> SingleFocus | None:
+        return None if isinstance(key, tuple) and len(key) > 1 else self._single_focus(key)

@@ -71,13 +71,13 @@ class Selection:
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
-            step = 0 if amplitude == 1 else amplitude_step(amplitude)
+            step = _step(amplitude)
             if step == 0:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
                     return cell
             return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
-        return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), amplitude_step(share)) for x_m, y_m, share in points))
+        return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), _step(amplitude)) for x_m, y_m, amplitude in points))
 
     def words(self, key: Key) -> memoryview:
         """Drive words of a key, valid until the next call.
@@ -136,3 +136,7 @@ class Selection:
             return None
         x, y, step = key[0]
         return x * LATTICE_M, y * LATTICE_M, step
+
+
+def _step(amplitude: float) -> int:
+    return 0 if amplitude == 1 else amplitude_step(amplitude)

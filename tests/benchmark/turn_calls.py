@@ -3,8 +3,9 @@
     python -m tests.benchmark.turn_calls [--list]
 
 Two fingers are put down in the same report; both feel it, the waveform is composed and uploaded. The link says yes
-(`null_link.py`), so that what is counted is the host's. Counted are calls of Python functions of this project by
-`sys.setprofile`, and changes of module: two for each call into another module, there and back. The same on every machine.
+(`null_link.py`), so that what is counted is the host's. Counted by `sys.setprofile` are calls of the controller's Python
+functions, and changes of module: calls, in the order in which they begin, of another module than the call before. The
+same on every machine.
 """
 
 from __future__ import annotations
@@ -30,7 +31,6 @@ from controller.touch.replay import RecordingSource
 from tests.benchmark.null_link import NullLink
 
 ROOT = Path(__file__).parents[2]
-TEST_MODULES = ("tests.",)
 SCENE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\n'
 AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0 0 0\n"  # tenths of a millimetre on the plate
 TAPS = 3  # the first ones fill caches

@@ -727,7 +727,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         loop._source = SimpleNamespace(next_time_s=lambda: None, fileno=lambda: 0)
         loop._dispatcher.quiet_until_s = 10.2
         assert loop._next_s(9.9985) == 10.2
-        occupancy = loop._playback.occupancy
+        occupancy, loop._playback.repeating = loop._playback.occupancy, True
         occupancy.last_start_s, occupancy.repetition = 10.1, Repetition(loop._clock_estimate.fpga_s(10.1), 0.025)
         assert loop._next_s(9.9985) == pytest.approx(10.1)
         link.close()

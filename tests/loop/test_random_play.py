@@ -341,7 +341,7 @@ class Judge:
                 self._felt.add(name)
 
     def waiting(self):
-        return len(self._scheduler._due) + (len(a.batch.emissions) if (a := self._playback.accepted) else 0)
+        return len(self._scheduler.due) + (len(a.batch.emissions) if (a := self._playback.accepted) else 0)
 
     def turn(self, _):
         """The slot cache is consistent in itself and with what the FPGA holds."""
