@@ -19,9 +19,10 @@ from controller.errors import ConfigError, ControllerError, FaultError, LinkErro
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
 from controller.loop.commands import CommandSource, Outcome
-from controller.loop.dispatcher import Dispatcher, Turn
+from controller.loop.dispatcher import Dispatcher
 from controller.loop.outputs import Outputs
 from controller.loop.playback import Playback
+from controller.loop.records import Turn
 from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
 from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler

@@ -16,7 +16,8 @@ from controller.loop.commands import CommandSource
 from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
 from controller.loop.occupancy import Occupancy
-from controller.loop.playback import Playback, Played
+from controller.loop.playback import Playback
+from controller.loop.records import Played
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
