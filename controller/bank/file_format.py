@@ -62,7 +62,23 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """All that a bank says about itself."""
+    """Header of a bank: what it was built for and by, its grid, and how many entries it has.
+
+    Attributes
+    ----------
+    creator : str
+        Program, version and CRC-32 of the model; at most 64 bytes in UTF-8.
+    board_digest : bytes
+        `Board.digest`, 32 bytes.
+    grid : Grid
+    bit_clock_hz : float
+    samples : int
+        Of an emission.
+    entries : int
+        Cells that were built.
+    parameters : dict
+        Build parameters, for JSON.
+    """
 
     creator: str
     board_digest: bytes
@@ -105,7 +121,13 @@ class Header:
         return up(last.offset + last.size, PAGE)
 
     def pack(self, sections: tuple[Section, ...]) -> bytes:
-        """Lay out the header, with the sections' checksums in the table."""
+        """Bytes of the header, with the sections' checksums in its table.
+
+        Raises
+        ------
+        ValueError
+            If the creator or the build parameters are too long.
+        """
         maker, parameters = self.creator.encode(), self._json()
         if len(maker) > 64:
             raise ValueError(f"creator {self.creator!r} is longer than 64 bytes")
@@ -136,17 +158,24 @@ def creator() -> str:
 
 
 def begins_as_bank(start: bytes) -> bool:
-    """Whether a file that begins like this may be replaced by a bank: it is one, sound or not, or what is left of one."""
+    """Whether a file that starts with the bytes `start` may be replaced by a bank: it is one, damaged or not, or a part of one."""
     return MAGIC.startswith(start[: len(MAGIC)])
 
 
 def up(value: int, step: int) -> int:
-    """Round up to a multiple."""
+    """Round `value` up to a multiple of `step`."""
     return -(-value // step) * step
 
 
 def header_length(start: bytes, file_bytes: int) -> int:
-    """Bytes of the header, from the file's first 16 bytes.
+    """Length of the header in bytes.
+
+    Parameters
+    ----------
+    start : bytes
+        First 16 bytes of the file, or as many as it has.
+    file_bytes : int
+        Size of the file.
 
     Raises
     ------

@@ -27,7 +27,13 @@ class Grid:
 
     @classmethod
     def of(cls, plate: Plate, pitch_m: float) -> Grid:
-        """Lay the most cells that are at least one pitch from every side of the plate, and centre them.
+        """Grid of the most cells that are at least one pitch from every side of the plate, centred.
+
+        Parameters
+        ----------
+        plate : Plate
+        pitch_m : float
+            Distance of neighbouring cells.
 
         Raises
         ------
@@ -55,7 +61,7 @@ class Grid:
         return self.x0_m + ix * self.pitch_m, self.y0_m + iy * self.pitch_m
 
     def nearest(self, x_m: float, y_m: float) -> tuple[int, float]:
-        """Cell nearest to a point, and its distance from it in m."""
+        """Cell nearest to the point (x_m, y_m), and their distance in m."""
         pitch_m, nx = self.pitch_m, self.nx
         x_m -= self.x0_m
         y_m -= self.y0_m
@@ -65,25 +71,25 @@ class Grid:
         return iy * nx + ix, math.hypot(x_m - ix * pitch_m, y_m - iy * pitch_m)
 
     def patch(self, x_m: float, y_m: float) -> tuple[int, int, int, float, float]:
-        """Give the cells around a point that count: the first, how many along x and along y, and the place between.
+        """Cells around the point (x_m, y_m) that have a weight, and where the point lies between them.
 
         Returns
         -------
         cell : int
-            The one with the lowest x and y; the others are `cell + 1`, `cell + nx`, `cell + nx + 1`.
+            The one of smallest x and y; the others are `cell + 1`, `cell + nx`, `cell + nx + 1`.
         columns, rows : int
-            1 or 2; 1 where the point lies on a column or row of cells, or beyond the outermost.
+            1 or 2; 1 if the point lies on a column or row of cells, or beyond the outermost.
         right, up : float
-            Where between the columns and the rows, in pitches: 0 where there is one.
+            Place between the columns and the rows, in pitches; 0 if there is only one.
         """
         ix, right = self._along(x_m - self.x0_m, self.nx - 1)
         iy, up = self._along(y_m - self.y0_m, self.ny - 1)
         return iy * self.nx + ix, 2 if right else 1, 2 if up else 1, right, up
 
     def _along(self, distance_m: float, last: int) -> tuple[int, float]:
-        """Index and what is beyond it, in pitches; nothing outside the grid.
+        """Index of a row and the distance beyond it, in pitches; 0 outside the grid.
 
-        It is rounded to a millionth of a pitch: on a cell, rounding must not ask for its neighbours.
+        The distance is rounded to a millionth of a pitch, so that a point on a cell needs no neighbours.
         """
         millionths = round(distance_m / self.pitch_m * 1e6)
         if millionths <= 0:
@@ -92,15 +98,15 @@ class Grid:
         return (last, 0.0) if index >= last else (index, beyond * 1e-6)
 
     def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
-        """Give the four cells around a point and their bilinear weights, which sum to one.
+        """Four cells around the point (x_m, y_m) and their bilinear weights, which sum to one.
 
-        A point beyond the outermost cells takes the nearest point of the rim instead: the
-        weights of the cells that do not count are zero.
+        A point beyond the outermost cells is replaced by the nearest point between them. A cell may be listed twice, with
+        weight zero.
         """
         fx = min(max((x_m - self.x0_m) / self.pitch_m, 0.0), self.nx - 1.0)
         fy = min(max((y_m - self.y0_m) / self.pitch_m, 0.0), self.ny - 1.0)
         ix, iy = min(int(fx), max(self.nx - 2, 0)), min(int(fy), max(self.ny - 2, 0))
-        # to a millionth of a pitch: on a cell, rounding must not ask for its neighbours
+        # to a millionth of a pitch, so that a point on a cell needs no neighbours
         fx, fy = round(fx - ix, 6), round(fy - iy, 6)
         right = 1 if self.nx > 1 else 0
         up = self.nx if self.ny > 1 else 0

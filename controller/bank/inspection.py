@@ -1,4 +1,4 @@
-"""Looks at whole banks: what one holds, whether every bit is as written, whether it is still the right one."""
+"""Inspects whole banks: what a bank holds, whether every bit is as written, whether it suits a board."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from controller.errors import BankError
 
 
 def bank_info(path: Path) -> dict[str, Any]:
-    """Tell what a bank says about itself, from its header and tables alone.
+    """Header and section table of the bank at `path`, as a dict for JSON.
 
     Raises
     ------
@@ -103,9 +103,17 @@ def _damage(bank: Bank, start: int, size: int, what: str) -> BankError:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """Whether a bank serves, and if not why not, and of which cells the one that does is to be built."""
+    """Whether a bank suits a board and a scene.
 
-    reason: str  # empty: it serves
+    Attributes
+    ----------
+    reason : str
+        Why it does not; empty: it does.
+    cells : (cells of the grid,) bool array
+        Cells of a bank that does.
+    """
+
+    reason: str
     cells: NDArray[np.bool_]
 
 
@@ -119,7 +127,7 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     board : Board
         What it must have been built for.
     cells : (cells of the board's grid,) bool array
-        Cells it must hold. More do no harm, and are kept where only cells are missing.
+        Cells that it must have; further cells are kept when it is built again because cells are missing.
 
     Raises
     ------
@@ -145,7 +153,7 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
 
 
 def wrong_pitch(bank: Bank, board: Board) -> str:
-    """What is wrong with the grid of a bank that is a board's own; empty: nothing."""
+    """How the grid of a bank differs from that of a board; empty: it does not."""
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):
         return ""
     return f"its cells are {bank.grid.pitch_m * 1e3:g} mm apart, bank.pitch_mm of the board is {board.bank.pitch_mm:g}"

@@ -28,8 +28,8 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
     ----------
     drive_order : (sample, channel) array
         Response of each channel at the focal point, the sample played first first, any unit.
-        Above zero plays high, below low; where it is exactly zero nothing can be gained and the
-        channel stays at its idle bit: no edge, no energy.
+        Above zero plays high, below zero low; exactly zero gains nothing, so the channel stays at its
+        idle bit: no edge, no energy.
     idle_word : int
         Drive word of the idle levels.
 
@@ -99,7 +99,7 @@ def channel_bits(words: NDArray[np.uint32]) -> NDArray[np.uint8]:
 
 
 def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
-    """Changes of level of each channel from the first word to the last: (32,)."""
+    """Edges (changes of level) of each channel, (32,), from the first to the last of drive words, (sample,)."""
     counts: NDArray[np.intp] = channel_bits(words[1:] ^ words[:-1]).sum(axis=0, dtype=np.intp)
     return counts
 

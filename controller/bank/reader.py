@@ -1,4 +1,4 @@
-"""Reads a bank: each section is mapped when it is first needed, each entry checked when first used."""
+"""Reads a bank: each section is mapped when it is first needed, each entry is checked when it is first used."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; C
 
 @dataclass(slots=True)
 class Counters:
-    """What a bank was asked for and what that cost."""
+    """What was read from a bank, and what was checked for that."""
 
     lookups: int = 0  # drive words handed out or refused
     drive_checked: int = 0  # entries whose drive words' CRC-32 was computed
@@ -118,7 +118,10 @@ class Bank:
 
     @property
     def worst_edges(self) -> tuple[int, int]:
-        """Edges in an emission, with those from and to the idle word: of the busiest channel, of all; of any if it does not say."""
+        """Most edges in an entry, with those from and to the idle word: of one channel, and of all channels together.
+
+        For a bank whose parameters do not say, the most that an emission can have.
+        """
         told = self.header.parameters.get("channel_edges"), self.header.parameters.get("all_edges")
         most = self.samples + 1
         channel, together = (edges if type(edges) is int and edges >= 0 else None for edges in told)
@@ -130,7 +133,7 @@ class Bank:
         return self._crc_of
 
     def read(self, offset: int, size: int) -> bytes:
-        """Copy bytes of the file; fewer at its end."""
+        """Copy `size` bytes of the file from `offset` on; fewer at its end."""
         return os.pread(self._fd, size, offset)
 
     def words(self, cell: int) -> memoryview:
@@ -157,26 +160,27 @@ class Bank:
         return view
 
     def drive_crc(self, cell: int) -> int:
-        """CRC-32 of a cell's drive words as the bank's table has it, whatever the file holds by now; `words` has given them."""
+        """CRC-32 of the drive words of a cell that has an entry, from the bank's table, whatever the file holds by now."""
         return self._crc_of[self._entry_of[cell]][0]
 
     def recheck(self, cell: int) -> None:
-        """Look again at drive words that somebody found wrong.
+        """Check the drive words of a cell again, after the FPGA has refused them for a wrong CRC.
 
         Raises
         ------
         BankError
-            If it is the file that does not hold what its table says, such as one that was written over in place.
+            If they differ from the CRC-32 in the bank's table, as in a file that was written over in place.
         """
         self._drive_good[self._entry_of[cell]] = 0
         self.words(cell)
 
     def require_unchanged(self) -> None:
-        """Refuse a file that was written to since it was opened: responses are checked when they are first used only.
+        """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.
 
         Raises
         ------
         BankError
+            If its size or its time of modification has changed.
         """
         now = os.fstat(self._fd)
         if now.st_mtime_ns != self._written_ns or now.st_size != self.file_bytes:
@@ -285,7 +289,16 @@ def _tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
 
 
 def map_bytes(fd: int, offset: int, size: int, granularity: int = mmap.ALLOCATIONGRANULARITY) -> memoryview:
-    """Map a part of a file, read only; pages of the machine may be larger than the file's 4 kB (16 kB on a Pi 5)."""
+    """Map a part of a file, read only.
+
+    Parameters
+    ----------
+    fd : int
+    offset, size : int
+        In bytes; any.
+    granularity : int
+        Of mappings on this machine: it may be larger than the 4 kB to which sections are aligned (16 kB on a Pi 5).
+    """
     if size == 0:
         return memoryview(b"")
     start = offset // granularity * granularity

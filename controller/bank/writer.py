@@ -1,8 +1,8 @@
-"""Writes a bank so that at any moment the old one or the new one is there, whole.
+"""Writes a bank so that at any moment either the old or the new bank is there, complete.
 
-Entries go to a temporary file beside the bank as they come; when all are there it is fsynced,
-renamed over the old bank, and the folder fsynced. Whatever interrupts this, even the loss of power,
-leaves the old bank; a file left behind by a writer that died is removed by the next one.
+Entries are written to a temporary file beside the bank as they come; when all are there, the file is fsynced and
+renamed over the old bank, and the folder is fsynced. Any interruption, loss of power included, leaves the old bank;
+the next writer removes the temporary file of one that died.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class BankWriter:
     cells : (grid.cells,) bool array
         Which cells have an entry. Entries lie in the order of their cells.
     ours : bool
-        Whether the path is this software's own choice: what lies there may be replaced, whatever it is.
+        The path is this software's own choice: a file there is replaced even if it is no bank.
 
     Raises
     ------
@@ -164,18 +164,18 @@ class BankWriter:
 
 
 def _refuse_foreign(path: Path) -> None:
-    """Whatever is no bank is somebody's work."""
+    """Refuse to replace a file that is no bank."""
     try:
         with path.open("rb") as file:
             start = file.read(len(MAGIC))
     except FileNotFoundError:
         return
     if not begins_as_bank(start):
-        raise BankError(f"{path}: is there and is no bank: it is left as it is, give another --out, or remove it first")
+        raise BankError(f"{path}: is no bank, so it is not replaced: give another --out, or remove it first")
 
 
 def _create_locked(path: Path) -> tuple[Path, int]:
-    """Create a temporary file beside `path` and lock it: the lock says that its writer lives."""
+    """Create a temporary file beside `path` and lock it; the lock shows other writers that this one is alive."""
     while True:
         temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.building")
         fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
@@ -186,7 +186,7 @@ def _create_locked(path: Path) -> tuple[Path, int]:
 
 
 def remove_leftovers(path: Path) -> int:
-    """Remove temporary files of this bank whose writer has died; say how many."""
+    """Remove temporary files of the bank at `path` whose writer has died; return their number."""
     removed = 0
     for leftover in path.parent.glob(f".{glob.escape(path.name)}.*.building"):
         with contextlib.suppress(OSError):  # another writer may remove it first, or own it
@@ -201,7 +201,7 @@ def remove_leftovers(path: Path) -> int:
 
 
 def _sync_folder(path: Path) -> None:
-    """Make the new name as durable as the file."""
+    """Fsync the folder, so that the new name is as durable as the file."""
     try:
         folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
         try:
@@ -214,7 +214,7 @@ def _sync_folder(path: Path) -> None:
 
 
 def _reserve(fd: int, size: int) -> None:
-    """Make the file its full size, zeros, so that a disk too small says so before the work."""
+    """Reserve the file's full size, so that a disk that is too small is found before the work."""
     try:
         os.posix_fallocate(fd, 0, size)
     except OSError as error:

@@ -31,11 +31,25 @@ SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000
 
 @dataclasses.dataclass(frozen=True)
 class BuildReport:
-    """What a build gave and what it cost.
+    """Result and cost of a build.
 
-    `gemm_fraction` is 2 cells modes samples channels / (best sgemm rate x response_seconds): how near the
-    response step, all of it, comes to what the machine's matrix multiplication can do; above 1 where the sum by rows
-    saves work. None if not measured. `worst_edge_rate_hz`: edges per second of the busiest channel of all entries.
+    Attributes
+    ----------
+    path : str
+    bytes : int
+        Size of the file.
+    cells, modes : int
+        Entries written; modes in every response.
+    seconds, model_seconds, response_seconds : float
+        Of the whole build, of it the plate model, of it the responses.
+    sgemm_gflops : float or None
+        Best rate of matrix multiplication of this machine; None: not measured.
+    gemm_fraction : float or None
+        2 cells modes samples channels / (best rate x response_seconds): above 1 where the sum by rows saves work.
+    peak_memory_mb : float
+        In MB of 10^6 bytes.
+    worst_edge_rate_hz : float
+        Edges per second of the busiest channel of all entries.
     """
 
     path: str
@@ -83,7 +97,7 @@ def build_bank(
     highest_hz : float
         Modes above are left out.
     ours : bool
-        Whether the path is this software's own choice: else a file there that is no bank is not replaced.
+        The path is this software's own choice: a file there is replaced even if it is no bank.
 
     Raises
     ------
@@ -172,7 +186,7 @@ def build_bank(
 
 
 def _edge_rate_hz(board: Board, words: NDArray[np.uint32], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry, within the board's limit."""
+    """Edges per second of the busiest channel of an entry; refused above the board's limit."""
     counts = edges(words)
     rate_hz = float(counts.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
@@ -184,7 +198,15 @@ def _edge_rate_hz(board: Board, words: NDArray[np.uint32], cell: int) -> float:
 
 
 def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:
-    """Best rate of float32 matrix multiplication over several shapes, in flop/s, on the threads in use."""
+    """Best rate of float32 matrix multiplication, in flop/s, on the threads in use.
+
+    Parameters
+    ----------
+    shapes : tuple of (int, int, int)
+        Rows, inner dimension and columns of the products.
+    repeats : int
+        Of each shape.
+    """
     best = 0.0
     for rows, inner, columns in shapes:
         a, b = np.ones((rows, inner), np.float32), np.ones((inner, columns), np.float32)

@@ -1,12 +1,12 @@
-"""What of an emission can be heard: energy below 16 kHz at the surface.
+"""Energy of an emission at the surface that can be heard: below 16 kHz.
 
-Defined as the mean over the plate of the squared velocity spectrum, integrated from 0 to 16 kHz and
+It is the mean over the plate of the squared velocity spectrum, integrated from 0 to 16 kHz and
 over all time, in (m/s)^2 s: steps into the emission and back to the idle word included, decay after
 T included. In closed form per mode; the mean over the plate of a squared mode shape is 1/4.
 
 A spectrum of what lasts a time t is known from samples closer than 1 / t (sampling theorem, time and
 frequency exchanged), so a long ramp is sampled more finely than an emission, and what begins above an
-overdamped mode's frequency less finely than what holds its slow return.
+overdamped mode's frequency less finely than what contains its slow return.
 """
 
 from __future__ import annotations
@@ -42,10 +42,14 @@ def surface_energy(
 
     Parameters
     ----------
+    board : Board
     words : (sample,) uint32 array
-        What is played, the plate at rest before; none is a step from `before_word` to `idle_word`.
+        Played with the plate at rest before; empty: a step from `before_word` to `idle_word`.
     idle_word : int
-        Held afterwards, and before unless `before_word` says otherwise.
+        Played afterwards, and before unless `before_word` is given.
+    low_hz, high_hz : float
+        Limits of frequency.
+    before_word : int, optional
     """
     _, density, step_hz = surface_spectrum(board, words, idle_word, low_hz, high_hz, before_word=before_word)
     return float(density.sum()) * step_hz
@@ -60,7 +64,7 @@ def surface_spectrum(
     *,
     before_word: int | None = None,
 ) -> tuple[Floats, Floats, float]:
-    """Density of `surface_energy` over frequency.
+    """Density of `surface_energy` over frequency; parameters as there: board, words, idle_word, low_hz, high_hz, before_word.
 
     Returns
     -------

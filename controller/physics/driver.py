@@ -49,13 +49,13 @@ class DriverResponse:
         return cls(poles=poles, residues=residues, gain=gain)
 
     def transfer(self, s: ArrayLike) -> Complex:
-        """H(s) = piezo voltage over stage voltage."""
+        """H(s): piezo voltage over stage voltage, at complex frequencies s in 1/s of any shape."""
         s = np.asarray(s, np.complex128)
         value: Complex = self.gain / ((s - self.poles[0]) * (s - self.poles[1]))
         return value
 
     def step_voltage(self, time_s: ArrayLike) -> NDArray[np.float64]:
-        """Piezo voltage after a unit step at 0; zero before."""
+        """Piezo voltage in V at times `time_s` after a unit step at 0, of any shape; zero before the step."""
         time = np.asarray(time_s, np.float64)
         after = np.exp(np.multiply.outer(np.maximum(time, 0), self.poles)) @ self.residues
         return np.where(time > 0, 1 + after.real, 0.0)

@@ -1,8 +1,8 @@
-"""The displacement of the whole plate at one focus time, and what a focus is judged by.
+"""Displacement of the whole plate at one focus time T, and the figures of merit of a focus.
 
-All of it comes from modal amplitudes, so a map is two small matrix products and the time around T
-is known without stepping. Displacements are relative to the position at rest at the idle word: the
-static bow of the idle levels is there all day and nothing that a finger or a vibrometer would see.
+Everything is computed from modal amplitudes, so a map is two small matrix products, and times around
+T need no stepping. Displacements are relative to the position at rest at the idle word: the static
+deflection by the idle levels never changes, so neither a finger nor a vibrometer detects it.
 """
 
 from __future__ import annotations
@@ -30,11 +30,20 @@ AROUND_S = np.arange(-50, 51) * 0.1e-6
 
 @dataclass(frozen=True)
 class FocusMetrics:
-    """One focus as DESIGN.md defines it.
+    """Figures of merit of one focus.
 
-    `amplitude_m` is u at the focus at T; `contrast` its size over the rms outside 10 mm of every
-    focus, `contrast_all` over all points of the map; `spot_m` the full width at half height, mean
-    over x, y and both diagonals; `peak_offset_s` the time of the largest displacement within 5 us, from T.
+    Attributes
+    ----------
+    amplitude_m : float
+        Displacement at the focus at T.
+    contrast : float
+        Its size over the rms displacement outside 10 mm of every focus.
+    contrast_all : float
+        The same over all points of the map.
+    spot_m : float
+        Full width at half height, mean over x, y and both diagonals.
+    peak_offset_s : float
+        Time of the largest displacement within 5 us of T, from T.
     """
 
     amplitude_m: float
@@ -84,7 +93,7 @@ class Field:
         return matrix
 
     def at(self, points_m: ArrayLike) -> Floats:
-        """Displacement at T in m at points (point, 2)."""
+        """Displacement at T in m, (point,), at `points_m`, (point, 2)."""
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         along_x = self.modes.x_sines(points[:, 0]) @ self._matrix
         values: Floats = np.einsum("pn,pn->p", along_x, self.modes.y_sines(points[:, 1]))
@@ -96,22 +105,22 @@ class Field:
         return x, y, self.modes.y_sines(y) @ (self._matrix.T @ self.modes.x_sines(x).T)
 
     def around(self, point_m: Point) -> Floats:
-        """Displacement in m of one point at the times `AROUND_S` from T: exact, steps of voltage in between included."""
+        """Displacement in m of `point_m` at the times `AROUND_S` from T: exact, steps of voltage in between included."""
         shape = self.modes.mode_shapes(point_m)[0]
         rows = shape[self.step.mode_of_pole]
         tables = _tables(self.step)
-        u = float(shape @ self.level) + _ring(tables, rows * self.pole_amplitudes, shape @ self.driver_amplitudes)
+        u = float(shape @ self.level) + _oscillation(tables, rows * self.pole_amplitudes, shape @ self.driver_amplitudes)
         for edge_s, force in zip(self.near_s, self.near_force.T, strict=True):
             # the state holds the steps before T: take each out again for times before it; add those after T
             here = np.greater(AROUND_S, edge_s) if edge_s >= 0 else np.less(AROUND_S, edge_s)
             poles = rows * force[self.step.mode_of_pole] * self.step.residues * np.exp(-self.step.poles * edge_s)
             drivers = (shape * force) @ self.step.driver_residues * np.exp(-self.step.driver_poles * edge_s)
-            pushed = float((shape * force) @ self.step.static) + _ring(tables, poles, drivers, here)
+            pushed = float((shape * force) @ self.step.static) + _oscillation(tables, poles, drivers, here)
             u[here] += pushed if edge_s >= 0 else -pushed
         return u
 
     def focus_metrics(self, x_m: float, y_m: float, foci: Sequence[Point] = ()) -> FocusMetrics:
-        """Judge the focus at (x, y).
+        """Figures of merit of the focus at (x_m, y_m).
 
         Parameters
         ----------
@@ -126,14 +135,14 @@ class Field:
         squared = u**2
         return FocusMetrics(
             amplitude_m=amplitude,
-            contrast=_over(amplitude, float(squared[outside].mean()) if outside.any() else 0.0),
-            contrast_all=_over(amplitude, float(squared.mean())),
+            contrast=_ratio_to_rms(amplitude, float(squared[outside].mean()) if outside.any() else 0.0),
+            contrast_all=_ratio_to_rms(amplitude, float(squared.mean())),
             spot_m=self._spot(self.crest(x_m, y_m), amplitude),
             peak_offset_s=self._peak_offset((x_m, y_m), amplitude),
         )
 
     def crest(self, x_m: float, y_m: float) -> Point:
-        """Where the spot that holds (x, y) is highest at T: within 4 mm along x and y, on the side of zero where (x, y) is."""
+        """Place in m of the spot's crest at T: the extremum of the sign of (x_m, y_m), within 4 mm of it along x and y."""
         x = x_m + CREST_M[(x_m + CREST_M >= 0) & (x_m + CREST_M <= self.modes.length_m)]
         y = y_m + CREST_M[(y_m + CREST_M >= 0) & (y_m + CREST_M <= self.modes.width_m)]
         u = self.modes.x_sines(x) @ self._matrix @ self.modes.y_sines(y).T
@@ -192,7 +201,7 @@ def _tables(step: StepResponse) -> tuple[Complex, Complex]:
     return np.exp(np.outer(AROUND_S, step.poles)), np.exp(np.outer(AROUND_S, step.driver_poles))
 
 
-def _ring(
+def _oscillation(
     tables: tuple[Complex, Complex], poles: Complex, drivers: Complex, here: slice | NDArray[np.bool_] = slice(None)
 ) -> Floats:
     """Re sum_p amplitude_p exp(pole_p t) at the times `AROUND_S[here]`."""
@@ -205,5 +214,5 @@ def _centres(extent_m: float, step_m: float) -> Floats:
     return np.linspace(0.5, count - 0.5, count) * (extent_m / count)
 
 
-def _over(amplitude: float, mean_square: float) -> float:
+def _ratio_to_rms(amplitude: float, mean_square: float) -> float:
     return abs(amplitude) / mean_square**0.5 if mean_square > 0 else float("inf")

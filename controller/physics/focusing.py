@@ -1,8 +1,8 @@
 """From responses to drive words, in floating point and for any number of points.
 
 The sign of a response reversed in time is the waveform of two levels with the largest displacement
-at T (paper, section III-A). For several points the responses are summed with their weights first:
-adding waveforms that already are signs would lose what the points have in common.
+at T (paper, section III-A). For several points the weighted responses are summed before the sign is
+taken: summing waveforms of signs would lose amplitude.
 """
 
 from __future__ import annotations

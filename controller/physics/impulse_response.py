@@ -110,21 +110,21 @@ class ResponseModel:
     def drive_order_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """Band-limited responses reversed in time: sample n meets drive word n, and sum(v * response) is u at T.
+        """Band-limited responses reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T.
 
-        Parameters, result and errors as in `responses`.
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`.
         """
         return self._responses(points_m, self._kernel(True, True, np.dtype(dtype)), out)
 
     def rest_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """What `drive_order_responses` leave out: responses outside the band, as means over 8 samples in drive order.
+        """Responses outside the band, which `drive_order_responses` leaves out, as means over 8 samples in drive order.
 
-        With these, what bits do at a point is known to 1 % of the displacement, not only in the band.
+        With them the displacement that bits give at a point is known to 1 %, not only in the band.
 
-        Parameters, result and errors as in `responses`, with a row for each 8 samples in place of each sample; what the
-        last row has beyond the last sample is zero.
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a row for each 8 samples in place
+        of each sample; what the last row has beyond the last sample is zero.
         """
         kind = np.dtype(dtype)
         key = ("rest", kind.str)
@@ -182,7 +182,19 @@ class ResponseModel:
 
 
 def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Floats:
-    """Displacement of each mode (j + 1) bit periods after the start of a unit pulse of one bit period: (mode, sample)."""
+    """Displacement of each mode after a pulse of 1 V of one bit period.
+
+    Parameters
+    ----------
+    step : StepResponse
+    bit_period_s : float
+    samples : int
+
+    Returns
+    -------
+    (mode, sample) array
+        In m per N; sample j is (j + 1) bit periods after the start of the pulse.
+    """
     times = np.arange(1, samples + 1) * bit_period_s
     weights = -step.residues * np.expm1(-step.poles * bit_period_s)  # two steps a bit period apart
     modal = step.by_mode((weights[:, None] * np.exp(np.outer(step.poles, times))).real)
@@ -194,8 +206,25 @@ def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Flo
 def band_limited_response(
     step: StepResponse, bit_period_s: float, samples: int, band_hz: tuple[float, float], decay_time_s: float
 ) -> Floats:
-    """`pulse_response` of all times through a zero-phase band-pass, cut to `samples`: (mode, sample).
+    """`pulse_response` of all times through a zero-phase band-pass, cut to the samples of an emission.
 
+    Parameters
+    ----------
+    step : StepResponse
+    bit_period_s : float
+    samples : int
+    band_hz : (float, float)
+        Lower and upper edge.
+    decay_time_s : float
+        Of the plate: how far beyond the last sample the response is taken.
+
+    Returns
+    -------
+    (mode, sample) array
+        In m per N.
+
+    Notes
+    -----
     The spectrum of a sampled exponential is a geometric series, so only the bins of the band are
     computed and nothing is cut off at T before filtering.
     """
@@ -227,7 +256,7 @@ def band_limited_response(
 
 
 def band_gain(frequency_hz: Floats, band_hz: tuple[float, float], edge_hz: float = EDGE_HZ) -> Floats:
-    """Real gain over frequency: 1 in the band, 0 outside, a raised cosine of `edge_hz` centred on each edge."""
+    """Real gain at `frequency_hz`, (n,): 1 in `band_hz`, 0 outside, a raised cosine of width `edge_hz` centred on each edge."""
     low, high = band_hz
     rise = np.clip((frequency_hz - low) / edge_hz + 0.5, 0, 1)
     fall = np.clip((high - frequency_hz) / edge_hz + 0.5, 0, 1)

@@ -20,7 +20,7 @@ from controller.errors import ConfigError
 
 Floats = NDArray[np.float64]
 
-MOST_MODES = 30_000  # 15 times the paper's plate
+MAX_MODES = 30_000  # 15 times the paper's plate
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +61,8 @@ class PlateModes:
         per_area = plate.density_kg_m3 * plate.thickness_m
         speed = np.sqrt(stiffness / per_area)  # omega = speed * wavenumber^2
         longest = np.sqrt(2 * np.pi * highest_hz / speed) / np.pi
-        if longest**2 * length * width * np.pi / 4 > MOST_MODES:  # orders within a quarter of an ellipse
-            raise ConfigError(f"the plate has more than {MOST_MODES} modes below {highest_hz:g} Hz: too large or too thin")
+        if longest**2 * length * width * np.pi / 4 > MAX_MODES:  # orders within a quarter of an ellipse
+            raise ConfigError(f"the plate has more than {MAX_MODES} modes below {highest_hz:g} Hz: too large or too thin")
         m, n = np.meshgrid(np.arange(1, int(longest * length) + 1), np.arange(1, int(longest * width) + 1), indexing="ij")
         omega = speed * np.pi**2 * ((m / length) ** 2 + (n / width) ** 2)
         chosen = omega <= 2 * np.pi * highest_hz

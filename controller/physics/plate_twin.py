@@ -1,12 +1,12 @@
-"""The plate twin: what the plate does when the pins of the FPGA do what they did.
+"""The plate twin: displacement of the plate, computed from the recorded pin changes of the FPGA.
 
-It knows nothing of banks, frames or waveforms: only pin changes with their ticks. Each change is a
-step of voltage on some channels, the answer to a step is a sum of exponentials (`step_response`), so
-the state at any tick is an exact superposition, from everything at 0 V and at rest at tick 0 on:
-the arming ramp is in it, and so is what is left of earlier emissions.
+Its only input is pin changes with their ticks, not banks, frames or waveforms. Each change is a step of
+voltage on some channels, and the response to a step is a sum of exponentials (`step_response`), so the
+state at any tick is an exact superposition, starting at 0 V and at rest at tick 0: it includes the arming
+ramp and the decay of earlier emissions.
 
-Pin changes are cut into groups at focus ticks and wherever nothing changes for 16 bit periods. What a
-group leaves behind depends only on its words and their spacing, so equal groups are computed once.
+Pin changes are divided into groups at focus ticks and wherever nothing changes for 16 bit periods. The
+state that a group adds depends only on its words and their spacing, so equal groups are computed once.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
 GAP_BITS = 16
-LONGEST_GROUP_BITS = 1024
+MAX_GROUP_BITS = 1024
 NEAR_S = float(AROUND_S[-1])
 
 
-class Wake(NamedTuple):
-    """What a group of steps leaves at the tick of its last step: amplitudes of plate poles (pole,) and driver poles (2, 32)."""
+class GroupState(NamedTuple):
+    """State that a group of steps adds by the tick of its last step: amplitudes of plate poles (pole,) and driver poles (2, 32)."""
 
     plate: Complex
     driver: Complex
@@ -79,7 +79,7 @@ class PlateTwin:
         self.work = Work()
         self._highest_hz = highest_hz
         self._remembered = remembered
-        self._wakes: OrderedDict[bytes, Wake] = OrderedDict()
+        self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
         self._table: NDArray[np.float64] | None = None
         self._exact: dict[tuple[Point, ...], Floats] = {}
         self._responses: ResponseModel | None = None
@@ -114,10 +114,10 @@ class PlateTwin:
             end = int(np.searchsorted(ticks, focus_tick, side="left"))
             while group + 1 < len(cuts) and cuts[group + 1] <= end:
                 first, after = cuts[group], cuts[group + 1]
-                wake = self._wake(ticks[first:after], words[first : after + 1], bit_ticks)
+                state = self._group_state(ticks[first:after], words[first : after + 1], bit_ticks)
                 passed = (int(ticks[after - 1]) - now) / clock_hz
-                plate = plate * np.exp(self.step.poles * passed) + wake.plate
-                driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + wake.driver
+                plate = plate * np.exp(self.step.poles * passed) + state.plate
+                driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + state.driver
                 now = int(ticks[after - 1])
                 group += 1
             passed = (focus_tick - now) / clock_hz
@@ -134,14 +134,14 @@ class PlateTwin:
             )
 
     def reference_amplitude(self, x_m: float, y_m: float) -> float:
-        """A_ref in m: all modes, float64, the sign of this very point's band-limited response, once, from the idle word."""
+        """A_ref in m: amplitude at (x_m, y_m) of one emission of the sign of that point's band-limited response, in float64."""
         return float(self.exact_amplitudes(((x_m, y_m),))[0])
 
     def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
-        """Amplitude of each point in m when all are composed exactly: (point,).
+        """Amplitude in m of each of `points_m` when all are composed exactly at full amplitude: (point,).
 
         As `reference_amplitude`, with the sign of the sum of all points' responses, each divided by the sum of its
-        absolute values: what each can have beside the others if all are played at full amplitude.
+        absolute values.
         """
         if points_m not in self._exact:
             if self._responses is None:
@@ -150,41 +150,41 @@ class PlateTwin:
             in_band = self._responses.drive_order_responses(places, dtype=np.float64)
             whole = self._responses.responses(places)[:, ::-1]
             sizes = np.abs(in_band).sum(axis=(1, 2))
-            weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # on the plate's very rim nothing can move
-            self._exact[points_m] = self._reached(in_band, weights, whole)
+            weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # at the plate's edge nothing can move
+            self._exact[points_m] = self._amplitudes_of(in_band, weights, whole)
             for index, point in enumerate(points_m):  # the responses are what takes time: each alone comes with them
                 alone = slice(index, index + 1)
-                self._exact.setdefault((point,), self._reached(in_band[alone], np.ones(1), whole[alone]))
+                self._exact.setdefault((point,), self._amplitudes_of(in_band[alone], np.ones(1), whole[alone]))
         return self._exact[points_m]
 
-    def _reached(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
+    def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
         """Displacement at each point by the words that weighted responses give, from rest at the idle word."""
         words = focus(in_band, weights.tolist(), self.board.idle_word)
         above_idle = self._volts(words) - self._volts(np.array([self.board.idle_word], np.uint32))
         reached = whole.reshape(len(whole), -1) @ above_idle.ravel()
         return reached.astype(np.float64, copy=False)
 
-    def _wake(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> Wake:
-        """What a group leaves; `words` has one more than `ticks`, the one before the first step."""
+    def _group_state(self, ticks: NDArray[np.int64], words: NDArray[np.uint32], bit_ticks: float) -> GroupState:
+        """State that a group adds; `words` has one more than `ticks`, the one before the first step."""
         key = (ticks - ticks[0]).tobytes() + words.tobytes()
-        known = self._wakes.get(key)
+        known = self._group_states.get(key)
         if known is not None:
-            self._wakes.move_to_end(key)
+            self._group_states.move_to_end(key)
             self.work.groups_reused += 1
             return known
         self.work.groups_computed += 1
-        wake = self._superpose((ticks[-1] - ticks) / bit_ticks, np.diff(self._volts(words), axis=0))
-        self._wakes[key] = wake
-        if len(self._wakes) > self._remembered:
-            self._wakes.popitem(last=False)
-        return wake
+        state = self._superpose((ticks[-1] - ticks) / bit_ticks, np.diff(self._volts(words), axis=0))
+        self._group_states[key] = state
+        if len(self._group_states) > self._remembered:
+            self._group_states.popitem(last=False)
+        return state
 
-    def _superpose(self, ago_bits: Floats, steps: Floats) -> Wake:
+    def _superpose(self, ago_bits: Floats, steps: Floats) -> GroupState:
         """Sum the steps of a group, each as old as `ago_bits` bit periods at the group's last step."""
         period = self.board.waveform.bit_period_s
         whole = np.rint(ago_bits).astype(np.int64)
         count = self.step.poles.size
-        if np.array_equal(whole, ago_bits) and whole[0] < LONGEST_GROUP_BITS:
+        if np.array_equal(whole, ago_bits) and whole[0] < MAX_GROUP_BITS:
             spread = np.zeros((int(whole[0]) + 1, CHANNELS))
             spread[whole] = steps
             rung = self._decay_table()[:, : len(spread)] @ spread
@@ -193,7 +193,7 @@ class PlateTwin:
             rung = np.concatenate([decay.real, decay.imag]) @ steps
         rung = np.einsum("pq,rpq->rp", self._pole_forces, rung.reshape(2, count, CHANNELS))
         plate = (rung[0] + 1j * rung[1]) * self.step.residues
-        return Wake(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
+        return GroupState(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
 
     def _volts(self, words: NDArray[np.uint32]) -> Floats:
         """Voltage of each channel's stage: (word, 32)."""
@@ -202,7 +202,7 @@ class PlateTwin:
     def _decay_table(self) -> Floats:
         """exp(pole * n bit periods), real parts above imaginary parts: (2 * pole, n)."""
         if self._table is None:
-            times = np.arange(LONGEST_GROUP_BITS) * self.board.waveform.bit_period_s
+            times = np.arange(MAX_GROUP_BITS) * self.board.waveform.bit_period_s
             decay = np.exp(np.outer(self.step.poles, times))
             self._table = np.concatenate([decay.real, decay.imag])
         return self._table
@@ -214,8 +214,8 @@ def _cuts(ticks: NDArray[np.int64], focus_ticks: NDArray[np.int64], bit_ticks: f
     wanted = {0, len(ticks), *quiet.tolist(), *np.searchsorted(ticks, focus_ticks, side="left").tolist()}
     cuts: list[int] = []
     for cut in sorted(wanted):
-        while cuts and ticks[cut - 1] - ticks[cuts[-1]] >= LONGEST_GROUP_BITS * bit_ticks:
-            cuts.append(int(np.searchsorted(ticks, ticks[cuts[-1]] + LONGEST_GROUP_BITS * bit_ticks, side="left")))
+        while cuts and ticks[cut - 1] - ticks[cuts[-1]] >= MAX_GROUP_BITS * bit_ticks:
+            cuts.append(int(np.searchsorted(ticks, ticks[cuts[-1]] + MAX_GROUP_BITS * bit_ticks, side="left")))
         cuts.append(int(cut))
     return cuts
 

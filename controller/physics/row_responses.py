@@ -22,7 +22,7 @@ POINTS_PER_ROW = 8  # fewer points a row than this on average, and the one large
 
 
 def in_rows(points_m: NDArray[np.float64]) -> bool:
-    """Whether enough points share their y for `responses_in_rows` to pay."""
+    """Whether enough of `points_m`, (point, 2), share their y for `responses_in_rows` to be faster."""
     return len(points_m) >= POINTS_PER_ROW * len(np.unique(points_m[:, 1]))
 
 

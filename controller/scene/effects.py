@@ -95,7 +95,7 @@ class EffectTable(Record, frozen=True):
         return 0.0 if self.rate_hz is None else (self.first_s + self.emissions / self.rate_hz) * 1e3
 
     def over(self, base: EffectTable) -> EffectTable:
-        """Another effect, with the keys that this one gives in place of its own."""
+        """The effect `base`, with the keys that this one gives in place of those of `base`."""
         given = {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
         given.pop("effect", None)
         if "count" in given or "duration_ms" in given:  # either key says how long the train is

@@ -83,6 +83,11 @@ class ActiveEffects:
     def press(self, time_s: FpgaTime) -> tuple[Emission, ...]:
         """The finger is put down at its place.
 
+        Parameters
+        ----------
+        time_s : float
+            Of the sample, as for every method: in FPGA time.
+
         Returns
         -------
         tuple of Emission
@@ -96,7 +101,7 @@ class ActiveEffects:
         return _at_most_one(self._begin(trains, index, time_s, ends_on_leave=True)) if trains else ()
 
     def move(self, x_m: float, y_m: float, time_s: FpgaTime) -> tuple[Emission, ...]:
-        """The finger that is down moves to another place."""
+        """The finger that is down moves to (x_m, y_m) at `time_s`; at most one emission is due, as in `press`."""
         scene = self._scene
         index = scene.region_at(x_m, y_m)
         self.x_m, self.y_m = x_m, y_m
@@ -116,7 +121,7 @@ class ActiveEffects:
         return _at_most_one(emission)
 
     def release(self, time_s: FpgaTime) -> tuple[Emission, ...]:
-        """The finger is lifted from its place; this object is not used any more."""
+        """The finger is lifted at `time_s`; at most one emission is due, as in `press`. This object is not used any more."""
         if self.region == OUTSIDE:
             return ()
         trains = self._scene.regions[self.region].release
@@ -130,6 +135,7 @@ class ActiveEffects:
         effect : str
         amplitude : float
             0.25 to 1, times the effect's own; a product below 0.25 is played at 0.25.
+        time_s : float
         ticket : int
             Returned on the first emission.
 
@@ -151,7 +157,7 @@ class ActiveEffects:
         return self.advance(time_s)
 
     def advance(self, until_s: FpgaTime) -> tuple[Emission, ...]:
-        """Take the beats of trains that are due up to a time.
+        """Take the beats of trains that are due up to `until_s`.
 
         Returns
         -------

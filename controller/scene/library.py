@@ -112,7 +112,7 @@ def resolved(key: str, given: str | EffectTable, known: Effects, board: Board) -
 
 
 def highest_rate_hz(board: Board) -> float:
-    """Highest rate of emissions that the duty limit allows."""
+    """Highest rate of emissions that the duty limit of a board allows."""
     return board.limits.max_duty / board.waveform.duration_s
 
 

@@ -145,7 +145,7 @@ class Scene:
         object.__setattr__(self, "index", SpatialIndex.of(self.regions) if known_index is None else known_index)
 
     def region_at(self, x_m: float, y_m: float) -> int:
-        """Index of the first region that contains a point, or OUTSIDE."""
+        """Index of the first region that contains the point (x_m, y_m), or OUTSIDE."""
         index = self.index
         column, row = int((x_m - index.low_x_m) * index.tiles_per_m_x), int((y_m - index.low_y_m) * index.tiles_per_m_y)
         if 0 <= column < TILES and 0 <= row < TILES:

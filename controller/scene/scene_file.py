@@ -120,7 +120,7 @@ class SceneTable(Record, frozen=True):
 
 
 class CheckedRegion(NamedTuple):
-    """A region with its shape in metres and its effects as they are meant."""
+    """A region that was checked: its table, its shape in metres, and its effects with all their keys filled in."""
 
     table: AnyRegionTable
     shape: Shape
@@ -128,14 +128,20 @@ class CheckedRegion(NamedTuple):
 
 
 class CheckedScene(NamedTuple):
-    """A scene as it was read and checked: regions in the file's order, and the effects that a command can play."""
+    """A scene that was checked: regions in the file's order, and the effects that a command can play, by name."""
 
     regions: tuple[CheckedRegion, ...]
     playable: Effects
 
 
 def find_scene(board: Board, name_or_path: str | None = None) -> Path:
-    """File of a scene: the board's own, or a path, else `<name>.toml` beside the board's file.
+    """File of a scene.
+
+    Parameters
+    ----------
+    board : Board
+    name_or_path : str, optional
+        A path, else `<name>.toml` beside the board's file; default: the scene that the board names.
 
     Raises
     ------
@@ -154,7 +160,7 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
 
 
 def read_scene(file: Path, board: Board) -> CheckedScene:
-    """Read and check a scene.toml.
+    """Read a scene.toml and check it against a board: its plate, its limits.
 
     Raises
     ------
@@ -190,7 +196,7 @@ def read_scene(file: Path, board: Board) -> CheckedScene:
 
 
 def spot_at(effect: EffectTable, shape: Shape) -> Point:
-    """Where an always-on spot is: as told, else at the centre of its region."""
+    """Place of a spot in m: where its effect says, else the centre of its region's shape."""
     x_m, y_m = shape.centre
     return x_m if effect.x_mm is None else effect.x_mm * 1e-3, y_m if effect.y_mm is None else effect.y_mm * 1e-3
 
@@ -209,7 +215,7 @@ def _shape(region: AnyRegionTable, plate: Rectangle) -> Shape:
 
 
 def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
-    """What the effects of one region say together."""
+    """Check that the effects of one region go together, and their amplitude with that of the region."""
     for number, effect in enumerate(effects):
         at = f"{key}.effects[{number}]"
         if effect in effects[:number]:
@@ -221,7 +227,7 @@ def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable
         if effect.strength * region.amplitude < MIN_AMPLITUDE * (1 - ROUNDING):
             raise ConfigError(
                 f"{at}: amplitude {effect.strength:g} in a region of amplitude {region.amplitude:g} is"
-                f" {effect.strength * region.amplitude:.3g}, below {MIN_AMPLITUDE:g}, the weakest that the plate plays"
+                f" {effect.strength * region.amplitude:.3g}, below {MIN_AMPLITUDE:g}, the lowest amplitude that can be played"
             )
         if silent(train_of(effect)):
             raise ConfigError(f"{at}.envelope is silent at every emission of the train")
@@ -238,9 +244,9 @@ def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable
 def _check_not_hidden(
     key: str, region: AnyRegionTable, shape: Shape, earlier: list[CheckedRegion], bounds: NDArray[np.float64]
 ) -> None:
-    """A finger belongs to the first region that contains it: one that lies within an earlier one is never felt.
+    """Refuse a region within an earlier one: a finger belongs to the first region that contains it.
 
-    Only regions whose bounds, (region, 4), contain the shape's are looked at: thousands of regions are compared at once.
+    Only regions whose bounds, (region, 4), contain those of the shape are compared in detail: a scene may have thousands.
     """
     low_x, low_y, high_x, high_y = shape.bounds
     low = (bounds[:, 0] <= low_x + ROUNDING_M) & (bounds[:, 1] <= low_y + ROUNDING_M)

@@ -1,6 +1,6 @@
-"""Shapes on the plate: which points they contain and which boxes they meet. Metres throughout.
+"""Shapes on the plate, in metres: which points they contain and which boxes they meet.
 
-Their types say what a shape that comes from another process may be.
+The types of their fields also say what is accepted in a shape that comes from another process.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ class Boxes:
     y_high: Array
 
     def contain(self, x_m: float, y_m: float) -> NDArray[np.bool_]:
-        """Which boxes contain a point, rim included: (box,)."""
+        """Which boxes contain the point (x_m, y_m), border included: (box,)."""
         return (self.x_low <= x_m) & (x_m <= self.x_high) & (self.y_low <= y_m) & (y_m <= self.y_high)
 
 
 class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
-    """A rectangle along the axes, its rim included."""
+    """A rectangle along the axes, its border included; sides in m."""
 
     x_low: Coordinate
     y_low: Coordinate
@@ -47,11 +47,11 @@ class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True
 
     @property
     def centre(self) -> Point:
-        """Its middle."""
+        """Its centre."""
         return (self.x_low + self.x_high) / 2, (self.y_low + self.y_high) / 2
 
     def contains(self, x_m: float, y_m: float) -> bool:
-        """Whether a point lies in it."""
+        """Whether the point (x_m, y_m) lies in it."""
         return self.x_low <= x_m <= self.x_high and self.y_low <= y_m <= self.y_high
 
     def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
@@ -65,7 +65,7 @@ class Rectangle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True
 
 
 class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
-    """A disc, its rim included."""
+    """A disc, its border included."""
 
     x_m: Coordinate
     y_m: Coordinate
@@ -79,11 +79,11 @@ class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, t
 
     @property
     def centre(self) -> Point:
-        """Its middle."""
+        """Its centre."""
         return self.x_m, self.y_m
 
     def contains(self, x_m: float, y_m: float) -> bool:
-        """Whether a point lies in it."""
+        """Whether the point (x_m, y_m) lies in it."""
         return math.hypot(x_m - self.x_m, y_m - self.y_m) <= self.radius_m
 
     def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
@@ -95,7 +95,7 @@ class Circle(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, t
 
 
 class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, tag=True):
-    """A polygon without crossings, given by its corners in either sense of turning."""
+    """A polygon whose edges do not cross, given by its corners in either orientation."""
 
     corners: Annotated[tuple[Point, ...], Meta(min_length=3, max_length=1000)]
 
@@ -117,11 +117,11 @@ class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, 
         return x / area, y / area
 
     def edges(self) -> list[tuple[Point, Point]]:
-        """From each corner to the next."""
+        """Edges from each corner to the next, the last one back to the first corner."""
         return list(zip(self.corners, (*self.corners[1:], self.corners[0]), strict=True))
 
     def contains(self, x_m: float, y_m: float) -> bool:
-        """Whether a point lies in it: a ray to +x crosses the outline an odd number of times."""
+        """Whether the point (x_m, y_m) lies in it: a ray to +x crosses the outline an odd number of times."""
         inside = False
         ax, ay = self.corners[-1]
         for bx, by in self.corners:
@@ -150,7 +150,7 @@ class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, 
         return inside
 
     def crossing(self) -> tuple[int, int] | None:
-        """Two edges that touch where they should not, by the number of their first corner; None if all is well."""
+        """First two edges that cross or touch other than at a shared corner, by the numbers of their first corners, or None."""
         edges = self.edges()
         ends = np.array(edges, float)
         low, high = ends.min(axis=1), ends.max(axis=1)  # (edge, 2): only edges whose boxes meet can touch

@@ -65,7 +65,7 @@ class DistanceProgress:
         self._anchor_x_m, self._anchor_y_m = x_m, y_m
 
     def crossed(self, x_m: float, y_m: float) -> bool:
-        """Whether the finger's next place completes a spacing; if it completes several, the rest of the distance is kept."""
+        """Whether the finger's move to (x_m, y_m) completes a spacing; if several, the rest of the distance is kept."""
         step_m = math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m)
         travelled_m = self._travelled_m + step_m
         if travelled_m >= self._spacing_m - ROUNDING_M:
@@ -78,7 +78,7 @@ class DistanceProgress:
         return False
 
     def remaining_m(self, x_m: float, y_m: float, _x: float, _y: float) -> float:
-        """Distance from a place to the next emission, whatever the direction."""
+        """Distance from (x_m, y_m) to the next emission, whatever the direction."""
         return max(self._spacing_m - self._travelled_m - math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m), 0.0)
 
 
@@ -105,7 +105,7 @@ class GridProgress:
         self._felt: int | None = None
 
     def crossed(self, x_m: float, y_m: float) -> bool:
-        """Whether the finger crosses a grid line on its way to its next place, other than one that it has just felt."""
+        """Whether the finger's move to (x_m, y_m) crosses a grid line other than one that it has just felt."""
         at = ((y_m if self._axis else x_m) - self._origin_m + ROUNDING_M) / self._spacing_m
         cell, before, felt = math.floor(at), self._cell, self._felt
         if cell == before:
@@ -118,7 +118,7 @@ class GridProgress:
         return first != last or first != felt
 
     def remaining_m(self, x_m: float, y_m: float, x: float, y: float) -> float:
-        """Distance from a place to the next grid line for a finger that moves along the unit vector (x, y)."""
+        """Distance from (x_m, y_m) to the next grid line along the unit vector (x, y); inf if it is parallel to the lines."""
         towards, at_m = (y, y_m) if self._axis else (x, x_m)
         if towards == 0.0:
             return math.inf

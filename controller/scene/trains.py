@@ -109,7 +109,7 @@ class ActiveTrain:
         return self.first_s + self.beat * self.train.period_s
 
     def take(self, until_s: FpgaTime) -> tuple[int, float]:
-        """Take all beats that are due up to a time.
+        """Take all beats that are due up to `until_s`.
 
         Returns
         -------

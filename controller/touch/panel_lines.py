@@ -60,12 +60,7 @@ class PanelLines:
         self._drive(self._interrupt, high)
 
     def listen(self, edge: Edge) -> None:
-        """Detect edges of the interrupt line from now on.
-
-        Parameters
-        ----------
-        edge : gpiod.line.Edge
-            Rising or falling.
+        """Detect rising or falling edges (`edge`) of the interrupt line from now on.
 
         Raises
         ------

@@ -76,5 +76,5 @@ class LocalStrength:
         np.copyto(self._factors_by_run, self._run_of_blocks)
 
     def normalise(self, response: Values, out: Values) -> None:
-        """Divide a response by the local strength of the one that was measured, both (padded_samples * 32,)."""
+        """Divide a response by the local strength of the one that was measured, into `out`, both (padded_samples * 32,)."""
         np.multiply(response, self._factors, out=out)

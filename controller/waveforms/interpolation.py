@@ -84,7 +84,7 @@ class Interpolation:
 
 
 def aligned(values: int) -> NDArray[np.int16]:
-    """Room that begins with a line of the cache: vectors that straddle two cost a tenth."""
+    """Array of a number of values that begins at a cache line: vectors that straddle two lines cost a tenth more time."""
     room = np.empty(2 * values + LINE_BYTES, np.uint8)
     begin = -room.ctypes.data % LINE_BYTES
     return room[begin : begin + 2 * values].view(np.int16)
