@@ -53,14 +53,7 @@ class StationaryTouches:
         return inf if self._ignored else self._since_s + HOLD_S
 
     def take(self, samples: Sequence[TouchSample], now_s: float) -> tuple[float, float] | None:
-        """Take the samples of one read.
-
-        Parameters
-        ----------
-        samples : sequence of TouchSample
-            Of one report; may be empty.
-        now_s : float
-            Time on the loop's clock.
+        """Take the `samples` of one read at `now_s` (loop's clock).
 
         Returns
         -------
@@ -128,19 +121,7 @@ class Calibration:
 
 
 def default_targets(plate: Plate, count: int) -> list[Point]:
-    """Targets near the corners of a plate; for five also its middle.
-
-    Parameters
-    ----------
-    plate : Plate
-        Gives the sides.
-    count : int
-        3 to 5; the fourth corner is left out for three.
-
-    Returns
-    -------
-    list of (x_mm, y_mm)
-    """
+    """Targets (x_mm, y_mm) near the corners of a `plate`; `count` 3: without the last corner, 5: with the middle."""
     near_x, near_y = INSET * plate.length_mm, INSET * plate.width_mm
     far_x, far_y = plate.length_mm - near_x, plate.width_mm - near_y
     corners = [(near_x, near_y), (far_x, near_y), (near_x, far_y), (far_x, far_y)]
@@ -148,14 +129,7 @@ def default_targets(plate: Plate, count: int) -> list[Point]:
 
 
 def check_targets(targets: Sequence[Point], plate: Plate) -> None:
-    """Refuse targets that determine no calibration, before they are touched.
-
-    Parameters
-    ----------
-    targets : sequence of (x_mm, y_mm)
-        On the plate.
-    plate : Plate
-        Gives the sides.
+    """Refuse `targets`, each (x_mm, y_mm) on the `plate`, that determine no calibration, before they are touched.
 
     Raises
     ------

@@ -27,10 +27,8 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
 
     Parameters
     ----------
-    name : str
-        Of the device.
-    version : int
-        Of its firmware.
+    name, version : str, int
+        Of the device; of its firmware.
     width, height : int
         Largest raw x and y; the smallest are 0.
     sized : bool
@@ -90,7 +88,7 @@ class ContactEvents:
         Returns
         -------
         list of Event
-            SYN_REPORT last; empty if nothing has changed.
+            SYN_REPORT last; empty without a change.
         """
         events: list[Event] = []
         self._report += 1

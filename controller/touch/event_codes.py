@@ -7,7 +7,7 @@ from enum import Enum
 
 EV_SYN, EV_KEY, EV_ABS = 0x00, 0x01, 0x03
 
-BUS_USB, BUS_RS232, BUS_I2C = 0x03, 0x13, 0x18
+BUS_RS232, BUS_I2C = 0x13, 0x18
 
 INPUT_PROP_DIRECT = 0x01
 

@@ -32,13 +32,7 @@ MAX_NAME_CHARACTERS: Final = 79  # of the buffer that evemu reads names into
 
 
 def head(description: DeviceDescription) -> str:
-    """Head of a recording: N: name, I: bus and numbers, P: properties, B: events it can send, A: axes.
-
-    Parameters
-    ----------
-    description : DeviceDescription
-        Of the device.
-    """
+    """Head of a recording from the device's `description`: N: name, I: bus and numbers, P: properties, B: events, A: axes."""
     name = "".join([character if character.isprintable() else "?" for character in description.name])[:MAX_NAME_CHARACTERS]
     numbers = (description.bus, description.vendor, description.product, description.version)
     lines = ["# EVEMU 1.3", f"N: {name}", "I: " + " ".join([f"{number & 0xFFFF:04x}" for number in numbers])]
@@ -51,15 +45,7 @@ def head(description: DeviceDescription) -> str:
 
 
 def event_line(kind: int, code: int, value: int, microseconds: int) -> str:
-    """Line of one event.
-
-    Parameters
-    ----------
-    kind, code, value : int
-        As in struct input_event.
-    microseconds : int
-        Time from the first event.
-    """
+    """Line of an event with `kind`, `code` and `value` of struct input_event, `microseconds` after the first event."""
     return f"E: {microseconds // 1_000_000}.{microseconds % 1_000_000:06d} {kind:04x} {code:04x} {value:04d}\n"
 
 

@@ -62,36 +62,15 @@ class Track:
 
     @classmethod
     def of(cls, finger: int, reports: Sequence[tuple[float, float, float]]) -> Track:
-        """Track from reports.
-
-        Parameters
-        ----------
-        finger : int
-            Number in the touch samples.
-        reports : sequence of (time_s, x_m, y_m)
-            In order of time.
-        """
+        """Track of `finger` from `reports`, each (time_s, x_m, y_m), in order of time."""
         time_s, x_m, y_m = np.array(reports, np.float64).T
         return cls(finger, time_s, x_m, y_m)
 
     @classmethod
     def joined(cls, finger: int, parts: Iterable[Track]) -> Track:
-        """Track of one finger that the panel lost and found again.
-
-        Parameters
-        ----------
-        finger : int
-            Number of the whole.
-        parts : iterable of Track
-            One for each contact, in order of time.
-        """
+        """Track of a `finger` that the panel lost and found again; `parts` are those of its contacts in order of time."""
         kept = list(parts)
         return cls(finger, *(np.concatenate([getattr(part, name) for part in kept]) for name in ("time_s", "x_m", "y_m")))
-
-    @property
-    def begin_s(self) -> float:
-        """Time of the first report."""
-        return float(self.time_s[0])
 
     @property
     def end_s(self) -> float:
@@ -141,12 +120,7 @@ class Recording:
 
     @classmethod
     def open(cls, path: Path) -> Recording:
-        """Read a recording.
-
-        Parameters
-        ----------
-        path : Path
-            A regular file of at most `MAX_BYTES`.
+        """Read the recording in the file `path`, at most `MAX_BYTES` long.
 
         Raises
         ------
@@ -195,17 +169,12 @@ class Recording:
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
     def tracks(self, axes: Axes) -> dict[int, Track]:
-        """Track of each finger, with a position at every report while it is down.
+        """Track of each finger by its number in a replay, with a position at every report while it is down.
 
         Parameters
         ----------
         axes : Axes
             From `self.axes`.
-
-        Returns
-        -------
-        dict of int to Track
-            By the finger numbers of a replay; times in s from the first event.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
@@ -269,11 +238,6 @@ def rebased(raw_s: Sequence[float], warnings: Counter[str]) -> list[float]:
         As recorded, in s; any values.
     warnings : Counter of str
         Counts `time_backwards` and `time_absurd`.
-
-    Returns
-    -------
-    list of float
-        In s, as long as `raw_s`.
     """
     times: list[float] = []
     offset_s = 0.0

@@ -45,13 +45,7 @@ BINS: Final = 256  # up to 64 ms; longer is a pause
 
 
 def describe_warnings(warnings: Mapping[str, int]) -> list[str]:
-    """Describe anomalies, one line for each kind that occurred.
-
-    Parameters
-    ----------
-    warnings : mapping of str to int
-        Counts by kind (`WARNINGS`).
-    """
+    """Lines that describe `warnings`, counts by kind (`WARNINGS`), one for each kind that occurred."""
     return [f"{count} × {WARNINGS[kind]}" for kind, count in warnings.items() if count]
 
 
@@ -69,15 +63,7 @@ class ReportClock:
         self._last_s = 0.0
 
     def corrected_s(self, time_s: float, now_s: float) -> float:
-        """Time to give a report, on the loop's clock.
-
-        Parameters
-        ----------
-        time_s : float
-            As the device stamped it.
-        now_s : float
-            When it is read.
-        """
+        """Corrected time of a report that the device stamped `time_s` and that is read at `now_s`, on the loop's clock."""
         if time_s > now_s:
             if time_s > now_s + MAX_AHEAD_S:
                 self.warnings["time_ahead"] += 1

@@ -19,25 +19,12 @@ AXIS_KEYS = ("x_mm_from_axes", "y_mm_from_axes")
 
 
 def board_lines(calibration: Calibration) -> tuple[str, str]:
-    """The two axis lines for [touch].
-
-    Parameters
-    ----------
-    calibration : Calibration
-        Gives their values.
-    """
+    """The two axis lines of a `calibration` for [touch]."""
     return _line(AXIS_KEYS[0], calibration.x_mm_from_axes), _line(AXIS_KEYS[1], calibration.y_mm_from_axes)
 
 
 def with_calibration(text: str, calibration: Calibration) -> str:
-    """Replace the two axis lines in the text of a board.toml; comments, order and line ends stay.
-
-    Parameters
-    ----------
-    text : str
-        Content of the board.toml.
-    calibration : Calibration
-        Gives the new values.
+    """Replace the two axis lines in the `text` of a board.toml by those of `calibration`; comments, order and line ends stay.
 
     Raises
     ------
@@ -55,12 +42,7 @@ def with_calibration(text: str, calibration: Calibration) -> str:
 
 
 def check_writable(file: Path) -> None:
-    """Refuse a board.toml that cannot be changed, before a measurement is made for it.
-
-    Parameters
-    ----------
-    file : Path
-        The board.toml.
+    """Refuse a board.toml (`file`) that cannot be changed, before a measurement is made for it.
 
     Raises
     ------
@@ -72,14 +54,7 @@ def check_writable(file: Path) -> None:
 
 
 def write_calibration(file: Path, calibration: Calibration) -> None:
-    """Change the two axis lines of a board.toml in place.
-
-    Parameters
-    ----------
-    file : Path
-        The board.toml.
-    calibration : Calibration
-        Gives the new values.
+    """Change the two axis lines of a board.toml (`file`) to those of `calibration`.
 
     Raises
     ------
@@ -95,16 +70,7 @@ def value_line(key: str, value: float) -> str:
 
 
 def with_value(text: str, key: str, value: float) -> str:
-    """Change one number of [touch] in the text of a board.toml, or insert it as its first line; all else stays.
-
-    Parameters
-    ----------
-    text : str
-        Content of the board.toml.
-    key : str
-        Key of [touch].
-    value : float
-        Written to 0.1.
+    """Set `key` of [touch] to `value` in the `text` of a board.toml, inserted as first line if absent; all else stays.
 
     Raises
     ------
@@ -130,16 +96,7 @@ def with_value(text: str, key: str, value: float) -> str:
 
 
 def write_value(file: Path, key: str, value: float) -> None:
-    """Change one number of [touch] in place.
-
-    Parameters
-    ----------
-    file : Path
-        The board.toml.
-    key : str
-        Key of [touch].
-    value : float
-        Written to 0.1.
+    """Set `key` of [touch] to `value` in a board.toml (`file`).
 
     Raises
     ------

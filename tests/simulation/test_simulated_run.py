@@ -26,7 +26,7 @@ def test_a_finger_that_the_panel_loses_twice_is_judged_by_all_its_contacts(perfo
 def test_a_joined_track_leads_from_one_contact_to_the_next():
     parts = [Track.of(3, [(0.0, 0.0, 0.1), (1.0, 0.1, 0.1)]), Track.of(5, [(2.0, 0.2, 0.1), (3.0, 0.5, 0.2)])]
     track = Track.joined(3, parts)
-    assert (track.finger, track.begin_s, track.end_s) == (3, 0.0, 3.0)
+    assert (track.finger, track.time_s[0], track.end_s) == (3, 0.0, 3.0)
     assert np.diff(track.time_s).min() > 0
     assert track.position(1.5) == pytest.approx((0.15, 0.1))
     assert track.position(2.5) == pytest.approx((0.35, 0.15))
