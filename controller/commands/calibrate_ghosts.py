@@ -15,7 +15,7 @@ from controller.commands.calibrate_value import calibrate_value
 from controller.commands.output import progress_bar
 from controller.errors import ConfigError
 from controller.fpga.link import Link
-from controller.loop.playback import Played
+from controller.loop.records import Played
 from controller.loop.wiring import assemble
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene

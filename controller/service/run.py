@@ -89,7 +89,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             scene_changed=housekeeping.scene_changed,
         )
         if commands is not None and commands.disarmed:
-            assembly.loop.switch(on=False)
+            assembly.loop.control.switch(on=False)
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
