@@ -51,13 +51,14 @@ module output_gate #(
     output wire        focus_o
 );
     localparam [2:0] OFF = 3'd0, RAMP_UP = 3'd1, ON = 3'd2, STOPPING = 3'd3, RAMP_DOWN = 3'd4, SETTLING = 3'd5;
+    localparam [15:0] OF_LIMITS = 16'b11111 << `FAULT_SHORT_PULSE;  // causes that come from limits_i
     localparam        SETTLE_BITS = $clog2(HV_SETTLE_TICKS + 32'd2);
     localparam [31:0] LAST_SETTLE = HV_SETTLE_TICKS == 32'd0 ? 32'd0 : HV_SETTLE_TICKS - 32'd1;
 
     reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
     reg        silent_q;                   // none
-    reg [8:0]  fault_q;
+    reg [`FAULT_CAUSES-1:0] fault_q;       // a new cause: a record in controller/fpga/registers.py, and its line below
     reg [31:0] rest_left_q;                // ticks for which a fault by a limit cannot be cleared
     reg        resting_q;
     reg [31:0] fault_count_q, underruns_q;
@@ -78,13 +79,13 @@ module output_gate #(
     wire       on          = settling || moves;
     wire       exists      = on || state_q == OFF;
     wire       live        = on || on_later_q != 3'd0 || hv_enable_q;
-    wire [8:0] cause;
+    wire [`FAULT_CAUSES-1:0] cause;
     assign cause[`FAULT_NO_PERMIT]        = live && !run_permit_i;
     assign cause[`FAULT_HOST_SILENT]      = live && host_silent;
     assign cause[`FAULT_OVER_TEMPERATURE] = live && !temperature_good_i;
     assign cause[`FAULT_UNDERRUN]         = live && underrun_i;
     assign cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i & {5{live}};
-    wire       shut = cause != 9'd0;
+    wire       shut = |cause;
     wire       stays = exists && !shut;
     wire       open  = on_later_q[2] && stays;
 
@@ -97,7 +98,7 @@ module output_gate #(
             silent_q  <= silence_q == 32'd1;
         end
 
-        fault_q <= (clear_i ? {fault_q[`FAULT_DUTY:`FAULT_SHORT_PULSE] & {5{resting_q}}, 4'd0} : fault_q) | cause;
+        fault_q <= (clear_i ? fault_q & OF_LIMITS[`FAULT_CAUSES-1:0] & {`FAULT_CAUSES{resting_q}} : fault_q) | cause;
         if (cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] != 5'd0) begin
             rest_left_q <= REST_TICKS;
             resting_q   <= 1'b1;
@@ -138,7 +139,7 @@ module output_gate #(
             state_q      <= OFF;
             silence_q    <= 32'd0;
             silent_q     <= 1'b1;
-            fault_q       <= 9'd0;
+            fault_q       <= {`FAULT_CAUSES{1'b0}};
             rest_left_q   <= 32'd0;
             resting_q     <= 1'b0;
             fault_count_q <= 32'd0;
@@ -176,7 +177,7 @@ module output_gate #(
     assign alive_o     = !host_silent;
     assign shut_o      = shut;
     assign stopping_o  = state_q == STOPPING;
-    assign fault_o     = {7'd0, fault_q};
+    assign fault_o     = {{16-`FAULT_CAUSES{1'b0}}, fault_q};
     assign fault_count_o = fault_count_q;
     assign fault_time_o  = fault_time_q;
     assign underruns_o   = underruns_q;

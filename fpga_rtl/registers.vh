@@ -162,6 +162,7 @@
 `define FAULT_TOTAL_EDGES 6
 `define FAULT_LONG_EMISSION 7
 `define FAULT_DUTY 8
+`define FAULT_CAUSES 9
 // end of codes
 
 `endif

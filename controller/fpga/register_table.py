@@ -114,6 +114,7 @@ def codes(registers: Iterable[Register]) -> list[str]:
     for prefix, flags in (("STATE", State), ("FAULT", Fault)):
         lines += [f"// {_title(flags)}: numbers of the bits"]
         lines += [f"`define {prefix}_{flag.name} {flag.bit_length() - 1}" for flag in flags]
+    lines.append(f"`define FAULT_CAUSES {len(Fault)}")
     return lines
 
 

@@ -19,12 +19,12 @@ from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, 
 from controller.gateware_model.lines import Lines
 from controller.gateware_model.uart import BYTE_TO_PULSE_TICKS
 
-INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
-TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough
-EXECUTE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
+INPUT_TICKS = 2  # two flip-flops: an edge of a pin at t is seen in the state of t + 2
+TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough by the glitch filter
+EXECUTE_TICKS = 4  # from the rise of chip select to the tick in which its frame is executed
 LANDED_TICKS = 4  # from the rise of SCK that ends a word of a LOAD to the tick in which it is written
-EMPTY_TICKS = 2  # from the rise of chip select to the last tick of a selection without any bit
-RATE_TICKS = 1  # beyond the time between the edges of chip select, for which a LOAD is found to have lasted
+EMPTY_TICKS = 2  # from the rise of chip select to the last busy tick of an assertion without any bit
+RATE_TICKS = 1  # that the measured length of a LOAD exceeds the time between the edges of chip select
 
 
 class GatewareModel:

@@ -18,7 +18,7 @@ def test_the_verilog_has_the_same_names_and_numbers():
     """Read on its own, without what wrote it."""
     text = (data_folder("fpga_rtl") / "registers.vh").read_text()
     verilog = {name: int(number, 16 if base == "h" else 10) for name, base, number in DEFINE.findall(text)}
-    expected = CONSTANTS | {"REGISTER_COUNT": len(Register)}
+    expected = CONSTANTS | {"REGISTER_COUNT": len(Register), "FAULT_CAUSES": len(Fault)}
     for prefix, codes in (("TYPE", FrameType), ("RESULT", Result), ("REGISTER", Register), ("CONTROL", Control), ("START", Start)):
         expected |= {f"{prefix}_{code.name}": int(code) for code in codes}
     for prefix, bits in (("STATE", State), ("FAULT", Fault)):

