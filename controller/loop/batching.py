@@ -14,37 +14,14 @@ at 7 mm), and both lose by it: such two take turns.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
-from controller.clocks import FpgaTime
 from controller.scene.emission import Emission
 from controller.waveforms.composition import MAX_FOCI
 
 MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place
 SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
-ENDLESS = 0  # repetitions: until they are replaced
 
 Emissions = tuple[Emission, ...]
-
-
-class Batch(NamedTuple):
-    """Emissions that are played as one waveform.
-
-    Attributes
-    ----------
-    emissions : sequence of Emission
-        One for each focus.
-    repetitions, period_s : int, float
-        By the FPGA, from start to start; repetitions may be ENDLESS.
-    at_s : FpgaTime or None
-        When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it
-        as soon as the plate is free.
-    """
-
-    emissions: Sequence[Emission]
-    repetitions: int = 1
-    period_s: float = 0.0
-    at_s: FpgaTime | None = None
 
 
 def select_batch(due: Sequence[Emission], duration_s: float, most: int = MAX_FOCI) -> tuple[Emissions, Emissions]:

@@ -12,11 +12,12 @@ from controller.clocks import Clock
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
-from controller.loop.commands import CommandSource
+from controller.loop.commands import CommandSource, Outcome
 from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
 from controller.loop.occupancy import Occupancy
-from controller.loop.playback import Playback, Played
+from controller.loop.playback import Playback
+from controller.loop.records import Played
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
@@ -84,11 +85,14 @@ def assemble(
     )
     playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots])
 
-    def outcomes(ticket: int, *what: Any) -> None:
-        running.outcome(ticket, *what)
-
-    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    scheduler = Scheduler(
+        scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, _nobody if commands is None else commands.outcome
+    )
     dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
     running = EventLoop(board, *parts, commands=commands, change=change, **loop)
     return Assembly(running, counters, selection)
+
+
+def _nobody(ticket: int, outcome: Outcome, age_s: float) -> None:
+    """In place of a source of commands."""

@@ -35,8 +35,9 @@ from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.service.housekeeping import Housekeeping
 from controller.service.prepare_scene import populate
+from controller.service.realtime import enter_realtime
 from controller.service.scene_reload import SceneChanger
-from controller.service.systemd import Notifier, Watchdog, enter_realtime
+from controller.service.systemd import Notifier, Watchdog
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
