@@ -22,7 +22,7 @@ from controller.scene.scene_file import find_scene
 from controller.scene.trains import Train
 from controller.service.drivers import open_link, open_panel, open_session
 from controller.service.ghost_survey import KNOCK, Knocks, Overheard
-from controller.service.systemd import enter_realtime
+from controller.service.realtime import enter_realtime
 from controller.touch.event_capture import EventCapture, emission_event, recording_text
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures

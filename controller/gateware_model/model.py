@@ -68,7 +68,7 @@ class GatewareModel:
         return self._core.next_change()
 
     def status(self, port: Port = Port.SPI) -> Status:
-        """The status with which a link is answered whose frame begins now."""
+        """The status with which the link `port` is answered if its frame begins now."""
         return self._core.status(port)
 
     def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
@@ -86,7 +86,13 @@ class GatewareModel:
             self._events.add(Event(tick + TRIGGER_TICKS, EventKind.TRIGGER))
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """Exchange one frame; parameters as in `Gateware.exchange`."""
+        """Exchange one frame; parameters as in `Gateware.exchange`.
+
+        Raises
+        ------
+        ValueError
+            If it begins in the past, or its timing is not what the pins allow.
+        """
         if select_tick + INPUT_TICKS < self._events.now:
             raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._events.now}")
         self._timing.frame(select_tick, release_tick, len(mosi))

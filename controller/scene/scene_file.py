@@ -188,7 +188,7 @@ def read_scene(file: Path, board: Board) -> CheckedScene:
             size = f"{board.plate.length_mm:g} × {board.plate.width_mm:g} mm"
             raise ConfigError(f"{key} ({region.name!r}) reaches {off * 1e3:.4g} mm beyond the plate of {size}")
         effects = tuple(resolved(f"{key}.effects[{number}]", effect, known, board) for number, effect in enumerate(region.effects))
-        _check_together(key, region, effects, board)
+        _check_effects(key, region, effects, board)
         if any("always" not in effect.occasions for effect in effects):
             _check_not_hidden(key, region, shape, found, bounds[:index])
         found.append(CheckedRegion(region, shape, effects))
@@ -214,7 +214,7 @@ def _shape(region: AnyRegionTable, plate: Rectangle) -> Shape:
             return plate
 
 
-def _check_together(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
+def _check_effects(key: str, region: AnyRegionTable, effects: tuple[EffectTable, ...], board: Board) -> None:
     """Check that the effects of one region go together, and their amplitude with that of the region."""
     for number, effect in enumerate(effects):
         at = f"{key}.effects[{number}]"

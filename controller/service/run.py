@@ -16,9 +16,10 @@ from controller.scene.scene import Scene
 from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
 from controller.service.housekeeping import Housekeeping
 from controller.service.prepare_scene import populate
+from controller.service.realtime import enter_realtime
 from controller.service.reloading import ReloadFile
 from controller.service.scene_reload import SceneChanger
-from controller.service.systemd import Notifier, Watchdog, enter_realtime
+from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.reports import describe_warnings
