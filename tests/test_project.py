@@ -10,7 +10,6 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from vulture import Vulture
 
 ROOT = Path(__file__).parent.parent
 TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "tests", "README.md", "LICENSE"}
@@ -34,6 +33,8 @@ def test_style_types_and_layers(command):
 
 def test_no_code_is_left_that_nothing_uses():
     """Tests do not count as use. Fields are left out: records go by name through TOML, JSON and `asdict`."""
+    from vulture import Vulture
+
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["vulture"]
     found = Vulture(ignore_names=settings["ignore_names"])
     found.scavenge([ROOT / path for path in settings["paths"]])
