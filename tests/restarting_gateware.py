@@ -1,4 +1,4 @@
-"""Gateware that loses its supply, or is reset, and begins anew: for trying out what a host does then."""
+"""Simulated gateware that loses its supply or is reset, to test how the host recovers."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import READY_TICKS, TRIGGER_HIGH_TICKS, Gateware, GatewareFactory, Permit
 
-OPEN_LINE = 0xFF  # what MISO reads as while nobody drives it
+OPEN_LINE = 0xFF  # MISO while nothing drives it
 
 
 class RestartingGateware:
-    """`Gateware` made anew at each `restart`; its ticks go on, its own clock begins at 0 again.
+    """`Gateware` that is replaced by a new one at each `restart`; its ticks continue, the new one's own clock begins at 0.
 
     Parameters
     ----------
     factory : GatewareFactory
-        What computes the gateware proper.
+        Makes each gateware.
     parameters : Parameters
-        Of each that is made.
+        Of each.
     """
 
     def __init__(self, factory: GatewareFactory, parameters: Parameters) -> None:
@@ -33,11 +33,11 @@ class RestartingGateware:
 
     @property
     def now(self) -> int:
-        """The tick it has come to."""
+        """The current tick."""
         return self._origin + self._gateware.now
 
     def restart(self, tick: int, dark_ticks: int) -> None:
-        """Take the supply away at `tick`, with everything low from there on; reset ends `dark_ticks` later."""
+        """Remove the supply at `tick`: all outputs are low from then on; reset ends `dark_ticks` later."""
         self.advance(tick)
         self._take()
         if self._last != (0, 0):
@@ -49,29 +49,29 @@ class RestartingGateware:
             self._gateware.permit(0, level, which)
 
     def advance(self, tick: int) -> None:
-        """Go to `tick`; a tick already passed changes nothing."""
+        """Advance to `tick`; does nothing if that has passed."""
         if tick > self._origin:
             self._gateware.advance(tick - self._origin)
 
     def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
-        """Drive a permit pin; while it is dark that is seen when reset ends."""
+        """Set a permit pin; without supply that takes effect when reset ends."""
         self._levels[which] = level
         self._gateware.permit(max(tick - self._origin, 0), level, which)
 
     def trigger(self, tick: int, high_ticks: int = TRIGGER_HIGH_TICKS) -> None:
-        """Raise the trigger pin; while it is dark nothing sees it."""
+        """Raise the trigger pin; without supply it has no effect."""
         if tick - self._origin >= READY_TICKS:
             self._gateware.trigger(tick - self._origin, high_ticks)
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """One chip-select assertion; while it is dark the line is open."""
+        """Exchange one frame; without supply MISO is open."""
         if select_tick - self._origin >= READY_TICKS:
             self._gateware.exchange(select_tick - self._origin, release_tick - self._origin, mosi, miso)
         else:
             miso[:] = bytes([OPEN_LINE]) * len(miso)
 
     def take_capture(self) -> Capture:
-        """Everything since the last capture, over all restarts."""
+        """Changes of the output pins since the last capture, over all restarts."""
         self._take()
         captures, self._captures = self._captures, []
         return Capture(

@@ -31,26 +31,26 @@ from controller.errors import ControllerError, LinkError
 T = TypeVar("T")
 DEFAULT_PATH = "/run/haptic-panel/panel.sock"
 RECEIVE_BYTES = 65536
-KEPT = 1000  # touches and states, while an answer is waited for; older ones are forgotten
+MAX_KEPT = 1000  # touches, and states, that arrive while an answer is awaited; older ones are dropped
 
 
 Reply = Answer | Greeting | Figures | State
 
 
 class PanelClient:
-    """A connection to a running panel. One thread at a time.
+    """A connection to a running panel, for use by one thread at a time.
 
     Parameters
     ----------
     path : str
-        The panel's socket.
+        Path of the panel's socket.
     timeout_s : float
-        For an answer.
+        Longest wait for an answer.
 
     Raises
     ------
     LinkError
-        By every method: if nobody listens, does not answer in time, or ends the connection.
+        By every method: if no panel listens at the path, it does not answer in time, or it ends the connection.
     ControllerError
         If this user may not connect, or not play.
     """
@@ -61,9 +61,9 @@ class PanelClient:
         self._encoder = msgspec.json.Encoder()
         self._decoder = messages.message_decoder()
         self._received = bytearray()
-        self._touches: deque[Touch] = deque(maxlen=KEPT)
-        self._states: deque[State] = deque(maxlen=KEPT)
-        self._answers: dict[int, Reply] = {}  # to requests that nobody has waited for yet
+        self._touches: deque[Touch] = deque(maxlen=MAX_KEPT)
+        self._states: deque[State] = deque(maxlen=MAX_KEPT)
+        self._answers: dict[int, Reply] = {}  # by request id: answers that no call has taken yet
         self._last_id = 0
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
@@ -88,45 +88,44 @@ class PanelClient:
     def play(
         self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
     ) -> Answer:
-        """Play an effect at a point of the plate, or for a finger; returns when it was decided what became of it.
+        """Play an effect at a point of the plate or at a finger, and wait for the outcome.
 
         Parameters
         ----------
+        effect : str
+            One of `hello().effects`.
         at_mm : (float, float), optional
-            x and y from the plate's corner, in mm.
+            Place on the plate from its corner, x and y in mm.
         finger : int, optional
-            As told by `touches`.
+            Instead of a place: a finger, as numbered by `touches`; the effect follows it.
         amplitude : float, optional
-            Share of the full one, 0.25 to 1; the most that the board allows if left out.
+            Share of the full amplitude, 0.25 to 1; default: the largest that the board allows.
 
         Returns
         -------
         Answer
-            `outcome` is "played", "merged" (a newer one came first), "skipped" or "refused", with its `reason`.
+            `outcome` is "played", "merged" (replaced by a newer command), "skipped" or "refused", with its `reason`.
         """
         return self._answer(self.start_play(effect, at_mm=at_mm, finger=finger, amplitude=amplitude))
 
     def start_play(
         self, effect: str, *, at_mm: tuple[float, float] | None = None, finger: int | None = None, amplitude: float | None = None
     ) -> int:
-        """As `play`, without waiting; returns the id for `wait`."""
+        """As `play`, but without waiting: returns the id to give to `wait`."""
         x_mm, y_mm = at_mm or (None, None)
         return self._ask(messages.Play(id=self._new_id(), effect=effect, x_mm=x_mm, y_mm=y_mm, finger=finger, amplitude=amplitude))
 
     def wait(self, number: int) -> Answer:
-        """Outcome of a command that was started."""
+        """Wait for the outcome of a command given with `start_play`."""
         return self._answer(number)
 
     def touches(self) -> Iterator[Touch]:
-        """Every finger that begins, moves or is released from this call on; until the iterator is closed."""
+        """Every touch from this call on, until the iterator is closed."""
         self._done(messages.Subscribe(id=self._new_id()))
         return self._subscribed(self._touches)
 
     def states(self) -> Iterator[State]:
-        """How the panel is, at once and whenever that changes: outputs, permit, faults, touch panel, temperature.
-
-        Until the iterator is closed, which ends `touches` too.
-        """
+        """State of the panel now and after each change, until the iterator is closed; that ends `touches` too."""
         self._done(messages.Subscribe(id=self._new_id(), to=("state",)))
         return self._subscribed(self._states)
 
@@ -143,7 +142,7 @@ class PanelClient:
                 self._states.clear()
 
     def arm(self) -> None:
-        """Have the outputs on, as far as the FPGA allows it; `states` tells when they are.
+        """Switch the outputs on as soon as the FPGA allows it; `states` reports when they are.
 
         Raises
         ------
@@ -153,7 +152,7 @@ class PanelClient:
         self._done(messages.Arm(id=self._new_id()))
 
     def disarm(self) -> None:
-        """Have the outputs glide to 0 V and stay off, until somebody arms.
+        """Ramp the outputs down to 0 V; they stay off until a client arms.
 
         Raises
         ------
@@ -163,31 +162,31 @@ class PanelClient:
         self._done(messages.Disarm(id=self._new_id()))
 
     def state(self) -> State:
-        """How the panel is."""
+        """State of the panel: outputs, cause of a fault, touch panel, temperature."""
         answer = self._wait(self._ask(messages.AskState(id=self._new_id())))
         if isinstance(answer, State):
             return answer
         raise _refused(answer)
 
     def load_scene(self, name: str) -> None:
-        """Take over another scene of the board; returns when it is in force.
+        """Load another scene of the board; returns when it is in force.
 
         Raises
         ------
         ControllerError
-            If it is refused: the scene before stays.
+            If it is refused; the panel keeps the scene before.
         """
         self._done(messages.LoadScene(id=self._new_id(), name=name))
 
     def figures(self) -> dict[str, Any]:
-        """What the panel counted so far."""
+        """Counters and latencies of the panel so far."""
         answer = self._wait(self._ask(messages.AskFigures(id=self._new_id())))
         if isinstance(answer, Figures):
             return answer.figures
         raise _refused(answer)
 
     def hello(self) -> Greeting:
-        """Version, board, extents, the effects that can be played, and this user's rights."""
+        """Version, board, extents in mm, the effects that a command can play, and this user's rights."""
         answer = self._wait(self._ask(messages.Hello(id=self._new_id())))
         if isinstance(answer, Greeting):
             return answer
@@ -205,7 +204,7 @@ class PanelClient:
             self._receive_all()  # its farewell may still be there
             raise LinkError(f"{self._path}: the panel has ended the connection") from None
         except OSError as error:
-            raise LinkError(f"{self._path}: the panel does not read ({error.strerror or error})") from error
+            raise LinkError(f"{self._path}: the panel does not read what it is sent ({error.strerror or error})") from error
         assert isinstance(request.id, int)
         return request.id
 
@@ -218,7 +217,7 @@ class PanelClient:
         answer = self._wait(number)
         if isinstance(answer, Answer):
             return answer
-        raise LinkError(f"{self._path}: the panel answers what was not asked: {answer}")
+        raise LinkError(f"{self._path}: the panel sent an answer of another kind than was asked for: {answer}")
 
     def _wait(self, number: int) -> Reply:
         while number not in self._answers:
@@ -246,7 +245,7 @@ class PanelClient:
                 try:
                     return self._decoder.decode(line)
                 except (msgspec.DecodeError, UnicodeDecodeError) as error:
-                    raise LinkError(f"{self._path}: what answers there is no panel, or another version ({error})") from error
+                    raise LinkError(f"{self._path}: the answer is not that of a panel of this version ({error})") from error
             try:
                 self._socket.settimeout(timeout_s)
                 more = self._socket.recv(RECEIVE_BYTES)
@@ -259,13 +258,13 @@ class PanelClient:
             self._received += more
 
     def _receive_all(self) -> None:
-        """Take what has come before the connection ended; raises when it comes to the end."""
+        """Handle what arrived before the connection ended; raises at its end."""
         while True:
             self._keep(self._receive(self._timeout_s))
 
 
 def _who_may_connect(path: str) -> str:
-    """Which right a user lacks whom the socket's file keeps out, and which group gives it."""
+    """Message for a user whom the mode of the socket's file keeps out: the group that may connect, and how to join it."""
     user = _name(lambda: pwd.getpwuid(os.geteuid()).pw_name, str(os.geteuid()))
     try:
         number = Path(path).stat().st_gid
@@ -342,15 +341,15 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument("effect")
     where = play.add_mutually_exclusive_group(required=True)
     where.add_argument("--at", nargs=2, type=float, metavar=("X_MM", "Y_MM"))
-    where.add_argument("--finger", type=int, metavar="N", help="as told by `touches`")
-    play.add_argument("--amplitude", type=float, metavar="A", help="0.25 to 1 (default: the most that is allowed)")
+    where.add_argument("--finger", type=int, metavar="N", help="as numbered by `touches`")
+    play.add_argument("--amplitude", type=float, metavar="A", help="0.25 to 1 (default: the largest that is allowed)")
     commands.add_parser("touches", help="print every touch until Ctrl-C")
-    commands.add_parser("load", help="take over another scene of the board").add_argument("name")
-    commands.add_parser("disarm", help="have the outputs off, until somebody arms")
-    commands.add_parser("arm", help="have the outputs on, as far as the FPGA allows it")
-    state = commands.add_parser("state", help="print how the panel is")
-    state.add_argument("--follow", action="store_true", help="and each change, until Ctrl-C")
-    commands.add_parser("figures", help="print what the panel counted")
+    commands.add_parser("load", help="load another scene of the board").add_argument("name")
+    commands.add_parser("disarm", help="switch the outputs off until a client arms")
+    commands.add_parser("arm", help="switch the outputs on as soon as the FPGA allows it")
+    state = commands.add_parser("state", help="print the panel's state")
+    state.add_argument("--follow", action="store_true", help="and after each change, until Ctrl-C")
+    commands.add_parser("figures", help="print counters and latencies")
     commands.add_parser("hello", help="print version, board, extents, effects and your rights")
     return parser
 

@@ -1,4 +1,4 @@
-"""One client: lines in, answers out, each through a buffer that is made once and never grows."""
+"""One client's connection: received lines and queued answers, in two buffers of fixed size."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import msgspec
 from controller.application_socket.messages import LINE_BYTES, AnyMessage, Farewell
 from controller.application_socket.peers import Peer, Right
 
-QUEUE_BYTES = 65536  # answers and touches that wait for a client to read them
-FAREWELL_BYTES = 512  # kept free behind them, to say why it has to go
+QUEUE_BYTES = 65536  # messages that the client has not read yet
+FAREWELL_BYTES = 512  # reserved behind them for the farewell
 CLOSED = -1
 UNWATCHED = -1
 NEWLINE = 10
@@ -19,36 +19,38 @@ NOBODY = Peer(-1, -1, frozenset())
 
 
 class LineTooLong(ValueError):
-    """A line that does not fit the buffer; what is left of it will be thrown away."""
+    """A line that does not fit the buffer; the rest of it is discarded."""
 
 
 class MessageTooLong(ValueError):
-    """An answer that no client could be given."""
+    """An answer that does not fit an empty queue."""
 
 
 class Connection:
-    """A place for one client at a time; the next one gets the same buffers.
+    """A place for one client at a time; the next client gets the same buffers.
 
     Parameters
     ----------
-    rate_hz, burst : float
-        Lines that are taken a second in the long run, and at once.
+    rate_hz : float
+        Lines a second that the client may send in the long run.
+    burst : int
+        Lines that it may send at once.
     """
 
     def __init__(self, rate_hz: float, burst: int) -> None:
         self.fd = CLOSED
         self.serial = -1
-        self.watched = UNWATCHED  # events asked of epoll, hanging up always among them
+        self.watched = UNWATCHED  # events that epoll watches for; it reports hanging up in any case
         self.peer = NOBODY
         self.rights: tuple[Right, ...] = ()
-        self.heard_s = -math.inf  # when it said something last
+        self.heard_s = -math.inf  # when its last line arrived, in s of the host's clock
         self.subscribed = False  # to touches
-        self.informed = False  # of the panel's state
+        self.informed = False  # subscribed to states
         self.ended = False  # the client sends no more
         self.deaf = False  # the client reads no more
         self.leaving_reason = ""
-        self.leave_s = math.inf  # when it is closed though it has not read its farewell
-        self.resume_s = -math.inf  # when it is read again, after a flood
+        self.leave_s = math.inf  # when it is disconnected even if it has not read its farewell
+        self.resume_s = -math.inf  # when it is read again, after exceeding its rate
         self.waiting = 0  # commands without an outcome yet
         self._rate_hz = rate_hz
         self._burst = float(burst)
@@ -65,7 +67,21 @@ class Connection:
         self._line = bytearray()
 
     def begin(self, client: socket.socket, serial: int, now_s: float, peer: Peer = NOBODY, rights: tuple[Right, ...] = ()) -> None:
-        """Take a client."""
+        """Serve a new client.
+
+        Parameters
+        ----------
+        client : socket.socket
+            Connected and non-blocking.
+        serial : int
+            Number that no other client of this socket has had.
+        now_s : float
+            Host time.
+        peer : Peer
+            The process at the other end.
+        rights : tuple of str
+            What it may do.
+        """
         self._socket = client
         self.peer, self.rights, self.heard_s = peer, rights, now_s
         self.fd = client.fileno()
@@ -78,7 +94,7 @@ class Connection:
         self._tokens, self._filled_s = self._burst, now_s
 
     def close(self) -> None:
-        """Let the client go."""
+        """Close the socket; the place is free."""
         if self._socket is not None:
             self._socket.close()
         self._socket = None
@@ -87,21 +103,21 @@ class Connection:
 
     @property
     def open(self) -> bool:
-        """Whether there is a client."""
+        """Whether a client is connected."""
         return self.fd != CLOSED
 
     @property
     def silent(self) -> bool:
-        """Whether it neither waits for anything nor has said anything that is not answered."""
+        """Whether it has no subscription, no pending command, no unanswered line and no farewell."""
         return not (self.subscribed or self.informed or self.waiting or self.has_line or self.leaving_reason)
 
     @property
     def unsent(self) -> bool:
-        """Whether the client has something to read that the kernel has not taken yet."""
+        """Whether queued bytes were not handed to the kernel yet."""
         return self._sent < self._queued
 
     def receive(self) -> None:
-        """Read what is there and fits; without blocking."""
+        """Read what has arrived, as far as it fits the buffer; does not block."""
         assert self._socket is not None
         if self._start:
             rest = self._end - self._start
@@ -120,7 +136,7 @@ class Connection:
         self.ended = count == 0
 
     def next_line(self) -> memoryview | None:
-        """One whole line without its end; None if there is none. The view holds until the next `receive`.
+        """The next complete line without its newline; None if there is none. The view is valid until the next `receive`.
 
         Raises
         ------
@@ -146,11 +162,11 @@ class Connection:
 
     @property
     def has_line(self) -> bool:
-        """Whether `next_line` has something to give."""
+        """Whether `next_line` would return a line or raise."""
         return self._end - self._start == LINE_BYTES or self._received.find(NEWLINE, self._start, self._end) >= 0
 
     def take_token(self, now_s: float) -> bool:
-        """Whether the client may have one more line at this time (token bucket)."""
+        """Take one token of the rate limit (token bucket); False if there is none."""
         self._tokens = min(self._tokens + (now_s - self._filled_s) * self._rate_hz, self._burst)
         self._filled_s = now_s
         if self._tokens < 1.0:
@@ -159,12 +175,12 @@ class Connection:
         return True
 
     def put(self, message: AnyMessage) -> None:
-        """Queue one message; where there is no room, the client is told to go and gets nothing more.
+        """Queue one message; if the queue is full, queue a farewell instead, after which the client gets nothing more.
 
         Raises
         ------
         MessageTooLong
-            If it would not fit an empty queue: the client is not to blame.
+            If it would not even fit an empty queue.
         """
         if self.deaf or self.leaving_reason:
             return
@@ -181,7 +197,7 @@ class Connection:
         self._append(line)
 
     def leave(self, reason: str) -> None:
-        """Queue a farewell behind what is queued, and nothing more."""
+        """Queue a farewell; nothing is queued after it."""
         if not self.leaving_reason:
             self.leaving_reason = reason
             self._compact()
@@ -190,14 +206,14 @@ class Connection:
             self._append(self._line)
 
     def flush(self) -> None:
-        """Hand to the kernel what it takes; without blocking."""
+        """Hand queued bytes to the kernel; does not block."""
         if self._socket is None or self._sent == self._queued:
             return
         try:
             self._sent += self._socket.send(self._queue[self._sent : self._queued])
         except BlockingIOError:
             return
-        except OSError:  # it has closed: its commands still count, its answers do not
+        except OSError:  # it has closed: its commands are still carried out, its answers discarded
             self.deaf = True
             self._sent = self._queued
         if self._sent == self._queued:

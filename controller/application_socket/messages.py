@@ -1,8 +1,8 @@
-"""What goes over the application socket: one JSON object a line, `kind` says which.
+"""Messages of the application socket: one JSON object per line; `kind` names the message.
 
-Every line of a client is answered exactly once, with its own `id` (null where it gave none, or one
-that cannot be read). Touches and states come unasked between answers, once subscribed. Lengths are mm and
-times ms here, at the edge; an unknown key is refused, so that a misspelt one is not overlooked.
+Every line of a client is answered exactly once, with the line's `id` (null if it has none that can be read). Touches and
+states are sent between answers to clients that subscribed to them. Lengths are in mm, ages in ms, `time_s` in s. Unknown keys
+are refused, so that a misspelt key is noticed.
 """
 
 from __future__ import annotations
@@ -12,25 +12,27 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-LINE_BYTES = 8192  # longest line of a client, its end included
+LINE_BYTES = 8192  # longest line of a client, with its newline
 LEAST_AMPLITUDE = 0.25  # below, the response of a waveform to its bits is no longer what was measured
 
 Id = Annotated[int, Meta(ge=-(2**53), le=2**53)] | Annotated[str, Meta(max_length=64)] | None
 Word = Annotated[str, Meta(min_length=1, max_length=64)]
-PlainName = Annotated[str, Meta(pattern="^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$")]  # never a path: clients choose among installed scenes
+PlainName = Annotated[
+    str, Meta(pattern="^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$")
+]  # never a path: a client chooses among the installed scenes
 Outcome = Literal["played", "merged", "skipped", "refused", "done"]
 
 
 class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="kind", gc=False):
-    """What all requests have."""
+    """A request; `id` is returned with its answer."""
 
     id: Id = None
 
 
 class Play(Request, frozen=True, kw_only=True, tag="play", gc=False):
-    """Play an effect at a point, or for a finger wherever it goes: either `x_mm` and `y_mm`, or `finger`.
+    """Play an effect at a point (`x_mm` and `y_mm`), or at a finger as it moves (`finger`, as in `Touch`).
 
-    `amplitude` is the share of the full one; left out, it is the largest the board allows to a client.
+    `amplitude` is a share of the full amplitude; null: the largest that the board allows to clients.
     """
 
     effect: Word
@@ -41,49 +43,49 @@ class Play(Request, frozen=True, kw_only=True, tag="play", gc=False):
 
 
 class Subscribe(Request, frozen=True, kw_only=True, tag="subscribe", gc=False):
-    """From now on tell of every touch, or of the panel's state, now and whenever it changes; or of both."""
+    """Send every touch from now on, or the panel's state, now and whenever it changes; or both."""
 
     to: Annotated[tuple[Literal["touches", "state"], ...], Meta(min_length=1, max_length=2)] = ("touches",)
 
 
 class Unsubscribe(Request, frozen=True, kw_only=True, tag="unsubscribe", gc=False):
-    """No touches and states any more."""
+    """Send no more touches and states."""
 
 
 class Arm(Request, frozen=True, kw_only=True, tag="arm", gc=False):
-    """Have the outputs on from now on, as far as the FPGA allows it; the state tells when they are."""
+    """Switch the outputs on as soon as the FPGA allows it; `State` reports when they are."""
 
 
 class Disarm(Request, frozen=True, kw_only=True, tag="disarm", gc=False):
-    """Have the outputs glide to 0 V, and stay off whatever happens, until somebody arms."""
+    """Ramp the outputs down to 0 V; they stay off until a client arms, whatever happens meanwhile."""
 
 
 class AskState(Request, frozen=True, kw_only=True, tag="state", gc=False):
-    """How is the panel?"""
+    """Request the panel's state, as `State`."""
 
 
 class LoadScene(Request, frozen=True, kw_only=True, tag="load_scene", gc=False):
-    """Take over another scene of the board, by its name; answered when it is in force, or refused."""
+    """Load another scene of the board by its name; answered when it is in force, or refused."""
 
     name: PlainName
 
 
 class AskFigures(Request, frozen=True, kw_only=True, tag="figures", gc=False):
-    """What the panel counted so far."""
+    """Request counters and latencies, as `Figures`."""
 
 
 class Hello(Request, frozen=True, kw_only=True, tag="hello", gc=False):
-    """Who is there?"""
+    """Request version, board and rights, as `Greeting`."""
 
 
 class Numbered(Struct, gc=False):
-    """All that is wanted of a line that is refused: whom to answer."""
+    """Decodes only the id of a line that is refused."""
 
     id: Id = None
 
 
 class Answer(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="answer", gc=False):
-    """What became of a request; `age_ms` tells how old a command to play was when it was decided."""
+    """Outcome of a request; `age_ms` is the time from a command to play to its outcome."""
 
     id: Id
     outcome: Outcome
@@ -105,14 +107,14 @@ class Greeting(Struct, frozen=True, kw_only=True, tag_field="kind", tag="hello",
 
 
 class Figures(Struct, frozen=True, kw_only=True, tag_field="kind", tag="figures", gc=False):
-    """Answer to `AskFigures`; they are at most a second old."""
+    """Answer to `AskFigures`; at most a second old."""
 
     id: Id
     figures: dict[str, Any]
 
 
 class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc=False):
-    """A finger began, moved or was released; those of one report have the same `time_s` (CLOCK_MONOTONIC)."""
+    """A finger was put down, moved or lifted; touches of one report have the same `time_s` (CLOCK_MONOTONIC)."""
 
     finger: int
     x_mm: float
@@ -123,10 +125,10 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
 
 
 class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
-    """How the panel is: answer to `AskState`, or, with an id of null, told to who subscribed.
+    """State of the panel: the answer to `AskState` or, with an id of null, a notification to subscribers.
 
-    `state` is one of `panel_state.PanelState`; `cause` says why not everything works; `temperature_c` is the plate's,
-    null where it is not known.
+    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `temperature_c` is the plate's
+    temperature, null if unknown.
     """
 
     id: Id = None
@@ -138,7 +140,7 @@ class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc
 
 
 class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field="kind", tag="farewell", gc=False):
-    """The panel ends the connection, and why; `lacks` names a right without which there is none."""
+    """The panel ends the connection for `reason`; `lacks` is the right that the user does not have."""
 
     reason: str
     lacks: Literal["play", "operate"] | None = None
@@ -149,10 +151,10 @@ AnyMessage = Answer | Greeting | Figures | State | Touch | Farewell
 
 
 def request_decoder() -> msgspec.json.Decoder[AnyRequest]:
-    """Decoder of a client's lines."""
+    """Decoder of the lines that clients send."""
     return msgspec.json.Decoder(AnyRequest)
 
 
 def message_decoder() -> msgspec.json.Decoder[AnyMessage]:
-    """Decoder of the panel's lines."""
+    """Decoder of the lines that the panel sends."""
     return msgspec.json.Decoder(AnyMessage)

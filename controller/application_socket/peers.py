@@ -1,7 +1,7 @@
-"""Who is at the other end of a connection, as the kernel tells it, and what that user may do.
+"""The process at the other end of a connection, and what its user may do.
 
-The groups are those of the process that connected (SO_PEERCRED, SO_PEERGROUPS: unix(7), socket(7)); no user database is
-asked for them, which could keep the loop waiting.
+User and groups are those of the process when it connected (SO_PEERCRED, SO_PEERGROUPS: unix(7), socket(7)). The user database
+is not asked for groups: it could block the loop.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Right = Literal["play", "operate"]
 SO_PEERGROUPS = 59  # asm-generic/socket.h: of every machine but alpha, mips, parisc and sparc
 CREDENTIALS = struct.Struct("iII")
 GROUP_BYTES = 4
-GROUPS = 64  # asked for at first; the kernel says if there are more
+GROUPS = 64  # room for the first attempt; the kernel reports if there are more
 ROOT = 0
 EVERYBODY = -1
 LIBC = ctypes.CDLL(None, use_errno=True)  # Python's own getsockopt takes at most 1,024 bytes: 256 groups
@@ -31,7 +31,7 @@ LIBC = ctypes.CDLL(None, use_errno=True)  # Python's own getsockopt takes at mos
 
 @dataclass(frozen=True, slots=True)
 class Peer:
-    """A process that has connected."""
+    """A process that has connected: its user id, process id and groups."""
 
     uid: int
     pid: int
@@ -39,37 +39,37 @@ class Peer:
 
 
 def peer_of(client: socket.socket) -> Peer:
-    """Who has connected, when it did."""
+    """The process at the other end of a connected Unix socket, as it was when it connected."""
     pid, uid, gid = CREDENTIALS.unpack(client.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, CREDENTIALS.size))
     return Peer(uid, pid, frozenset({gid, *_groups(client)}))
 
 
 def _groups(client: socket.socket) -> list[int]:
-    """Supplementary groups, however many there are; none from a kernel before 4.13."""
+    """Supplementary groups, any number of them; none before Linux 4.13."""
     size = ctypes.c_uint32(GROUPS * GROUP_BYTES)
     for _ in range(2):
         groups = (ctypes.c_uint32 * (size.value // GROUP_BYTES))()
         if LIBC.getsockopt(client.fileno(), socket.SOL_SOCKET, SO_PEERGROUPS, groups, ctypes.byref(size)) == 0:
             return groups[: size.value // GROUP_BYTES]
-        if ctypes.get_errno() != errno.ERANGE:  # else the kernel has said how many there are
+        if ctypes.get_errno() != errno.ERANGE:  # else the kernel has written the size that it needs
             break
     return []
 
 
 class Rights:
-    """What users may do: play (and read what the panel tells), operate (and play).
+    """Rights of users: to play (and to read touches, states and figures), and to operate (which includes to play).
 
-    Root and the service's own user may do everything. Names of users are those known at the start.
+    Root and the service's own user have both. User names are read once, at the start.
 
     Parameters
     ----------
     settings : ApplicationSocket
-        With the groups; without `play_group` whoever may connect may play, without `operate_group` nobody else operates.
+        Its groups; without `play_group` whoever may connect may play, without `operate_group` no other user may operate.
 
     Raises
     ------
     ConfigError
-        If there is no such group.
+        If a group does not exist.
     """
 
     def __init__(self, settings: ApplicationSocket) -> None:
@@ -80,18 +80,18 @@ class Rights:
         self._names = {user.pw_uid: user.pw_name for user in pwd.getpwall()}
 
     def of(self, peer: Peer) -> tuple[Right, ...]:
-        """What a peer may do."""
+        """Rights of a process."""
         if peer.uid in self._masters or self._operate in peer.groups:
             return ("play", "operate")
         return ("play",) if self._play == EVERYBODY or self._play in peer.groups else ()
 
     def called(self, peer: Peer) -> str:
-        """A peer, for people."""
+        """Name of the user with uid and pid, for messages."""
         name = self._names.get(peer.uid)
         return f"user {name!r} (uid {peer.uid}, pid {peer.pid})" if name else f"uid {peer.uid} (pid {peer.pid})"
 
     def why_not(self, peer: Peer, right: Right) -> str:
-        """What to tell a peer that lacks a right."""
+        """Message for a process without a right: which one, and which group has it."""
         group = self._groups[right]
         gives = f"group {group!r} gives it" if group else "the board's application_socket names no operate_group that could give it"
         return f"{self.called(peer)} does not have the right to {right}: {gives}"

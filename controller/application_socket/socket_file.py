@@ -1,4 +1,4 @@
-"""The socket's file: made with its owner, group and mode before anybody can see it, and never taken from a live service."""
+"""The socket's file: created with owner, group and mode before it is visible, never taken from a running service."""
 
 from __future__ import annotations
 
@@ -15,22 +15,32 @@ from pathlib import Path
 from controller.board.devices import ApplicationSocket
 from controller.errors import ConfigError, ControllerError
 
-BACKLOG = 16  # clients that the kernel keeps waiting between two turns of the loop
+BACKLOG = 16  # connections that the kernel queues between two turns of the loop
 UNCHANGED = -1  # owner or group, for chown
 
 
 class SocketFile:
     """A listening Unix socket with its file, until `close`.
 
-    The socket is bound under a name of its own that only its owner may connect to, gets owner, group and
-    mode, listens, and is only then renamed to where clients look. Two services that start at once are kept
-    apart by a lock on a file that only their user can open: a folder can be locked by whoever can read it.
-    A file of a service that has died (nobody listens) is replaced.
+    The socket is bound under a temporary name to which only its owner may connect, gets owner, group and mode, listens, and is
+    then renamed to its path. A lock keeps two services apart that start at the same time; it is on a file that only their user
+    can open, because a folder can be locked by whoever can read it. The file of a service that died (nobody listens) is
+    replaced.
+
+    Parameters
+    ----------
+    settings : ApplicationSocket
+        Path, owner, group and mode.
+
+    Attributes
+    ----------
+    listener : socket.socket
+        Listening and non-blocking.
 
     Raises
     ------
     ConfigError
-        If the settings cannot be met: no such folder, user or group, or not permitted.
+        If there is no such folder, user or group, or this user may not create the file.
     ControllerError
         If another service listens there.
     """
@@ -67,7 +77,7 @@ class SocketFile:
             ) from error
 
     def close(self) -> None:
-        """Close, and remove the file if it is still this service's."""
+        """Close the listener, and remove the file if it is still this service's."""
         self.listener.close()
         with contextlib.suppress(OSError):
             there = self._path.lstat()
@@ -91,7 +101,7 @@ def _number_of_group(name: str) -> int:
 
 @contextlib.contextmanager
 def _only_one(lock: Path) -> Iterator[None]:
-    """Hold a lock that no other user can take; nothing is left behind, whatever happens."""
+    """Hold a lock that no other user can take; its file is removed in any case."""
     number = _locked(lock)
     try:
         yield
@@ -101,7 +111,7 @@ def _only_one(lock: Path) -> Iterator[None]:
 
 
 def _locked(lock: Path) -> int:
-    """The lock's file, open and locked, of this user and for this user alone."""
+    """Open and lock the lock's file, which only this user can open."""
     while True:
         number = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
         try:
@@ -117,7 +127,7 @@ def _locked(lock: Path) -> int:
         except BaseException:
             os.close(number)
             raise
-        os.close(number)  # who held it has removed it meanwhile: there may be another one by now
+        os.close(number)  # its holder has removed it meanwhile, and there may be a new file of that name: try again
 
 
 def _same(path: Path, opened: os.stat_result) -> bool:
@@ -130,7 +140,7 @@ def _same(path: Path, opened: os.stat_result) -> bool:
 
 @contextlib.contextmanager
 def _hidden() -> Iterator[None]:
-    """What is made in here is for its owner alone."""
+    """Files created within are accessible to their owner only."""
     old = os.umask(0o177)
     try:
         yield
@@ -139,7 +149,7 @@ def _hidden() -> Iterator[None]:
 
 
 def _require_free(path: Path) -> None:
-    """Refuse to take a path from a service that listens there, or from a file of another kind."""
+    """Raise if a service listens at the path, or if it is no socket."""
     try:
         if not stat.S_ISSOCK(path.lstat().st_mode):
             raise ConfigError(

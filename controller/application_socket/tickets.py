@@ -1,15 +1,15 @@
-"""Commands that wait for their outcome: who is to be answered, in memory that never grows."""
+"""Tickets: numbers under which the event loop reports outcomes, and who is to be answered, in memory of fixed size."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-FULL = 0  # never a ticket: to the loop it means that nobody waits
+FULL = 0  # never a ticket: to the loop it means that nobody waits for the outcome
 NONE = -1
 
 
 class Waiting(NamedTuple):
-    """Where the answer to a ticket goes: the client, as its `serial`, and the id that it chose; and whose share it takes."""
+    """Holder of a ticket: serial number of the client, id of its request, and user whose share of commands it counts to."""
 
     serial: int
     id: int | str | None
@@ -20,16 +20,16 @@ NOBODY = Waiting(-1, None)
 
 
 class Tickets:
-    """A fixed number of tickets; each is taken, and given back once.
+    """A fixed number of tickets; each is taken, then given back once.
 
-    A ticket is its place plus a multiple of the capacity, from 1 on, another one each time it is taken: an outcome
-    that comes twice finds nobody. The free places are a list linked through an array, so that nothing is
-    ever moved or resized.
+    A ticket is the index of its place plus a multiple of the capacity that grows each time the place is taken: a second
+    outcome for the same ticket finds no holder. Free places form a list linked through an array, so that nothing is moved or
+    resized.
 
     Parameters
     ----------
     capacity : int
-        Commands that can wait at a time.
+        Tickets that can be taken at a time.
     """
 
     def __init__(self, capacity: int) -> None:
@@ -41,7 +41,7 @@ class Tickets:
         self._free = 0
 
     def take(self, holder: Waiting) -> int:
-        """A ticket for a command, or FULL."""
+        """Take a ticket; FULL if all are taken."""
         place = self._free
         if place == NONE:
             return FULL
@@ -51,7 +51,7 @@ class Tickets:
         return self._ticket[place]
 
     def give_back(self, ticket: int) -> Waiting | None:
-        """Who took a ticket; None if it is not out, such as one that was given back before."""
+        """Return a ticket; its holder, or None if it was not taken or was given back before."""
         place = ticket % self._capacity
         holder = self._holder[place]
         if holder is NOBODY or self._ticket[place] != ticket:

@@ -34,6 +34,7 @@ MODEL_CODE = (
     "physics/plate.py",
     "physics/driver.py",
     "physics/step_response.py",
+    "physics/modal_response.py",
     "physics/impulse_response.py",
     "physics/row_responses.py",
     "bank/packing.py",
@@ -91,7 +92,7 @@ class Header:
     @property
     def header_bytes(self) -> int:
         """Bytes of the header: whole pages."""
-        return up(FIXED.size + 5 * SECTION.size + len(self._json()) + CRC.size, PAGE)
+        return round_up(FIXED.size + 5 * SECTION.size + len(self._json()) + CRC.size, PAGE)
 
     @property
     def rest_rows(self) -> int:
@@ -107,18 +108,18 @@ class Header:
             ("index", self.grid.cells, 4, 4),
             ("checksums", self.entries, 8, 8),
             ("scale", self.entries, 4, 4),
-            ("drive", self.entries, drive_bytes, up(drive_bytes, PAGE)),
-            ("response", self.entries, response_bytes, up(response_bytes, LINE)),
+            ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
+            ("response", self.entries, response_bytes, round_up(response_bytes, LINE)),
         ):
             placed.append(Section(name, offset, rows, row_bytes, stride))
-            offset = up(offset + placed[-1].size, PAGE)
+            offset = round_up(offset + placed[-1].size, PAGE)
         return tuple(placed)
 
     @property
     def file_bytes(self) -> int:
         """Bytes of the whole file."""
         last = self.sections()[-1]
-        return up(last.offset + last.size, PAGE)
+        return round_up(last.offset + last.size, PAGE)
 
     def pack(self, sections: tuple[Section, ...]) -> bytes:
         """Bytes of the header, with the sections' checksums in its table.
@@ -162,7 +163,7 @@ def begins_as_bank(start: bytes) -> bool:
     return MAGIC.startswith(start[: len(MAGIC)])
 
 
-def up(value: int, step: int) -> int:
+def round_up(value: int, step: int) -> int:
     """Round `value` up to a multiple of `step`."""
     return -(-value // step) * step
 
@@ -251,12 +252,14 @@ def _sections(header: Header, rows: list[tuple[Any, ...]], header_bytes: int, fi
         name = name.rstrip(b"\0").decode(errors="replace")
         if name != should.name:
             raise BankError(f"has section {name!r} where {should.name!r} belongs")
-        if offset != up(end, PAGE):
-            raise BankError(f"has section {name!r} at byte {offset}, not at {up(end, PAGE)}: out of order, apart or overlapping")
+        if offset != round_up(end, PAGE):
+            raise BankError(
+                f"has section {name!r} at byte {offset}, not at {round_up(end, PAGE)}: out of order, apart or overlapping"
+            )
         if (size, count, row_bytes, stride) != (should.size, should.rows, should.row_bytes, should.stride):
             raise BankError(f"has a section {name!r} that does not fit its samples, cells and entries")
         end = offset + size
         found[name] = Section(name, offset, count, row_bytes, stride, crc)
-    if up(end, PAGE) != file_bytes:
+    if round_up(end, PAGE) != file_bytes:
         raise BankError(f"has sections that end at byte {end} of {file_bytes}")
     return found

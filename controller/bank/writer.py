@@ -40,8 +40,8 @@ class BankWriter:
         `header.entries` is the number of cells in `cells`.
     cells : (grid.cells,) bool array
         Which cells have an entry. Entries lie in the order of their cells.
-    ours : bool
-        The path is this software's own choice: a file there is replaced even if it is no bank.
+    overwrite : bool
+        Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
 
     Raises
     ------
@@ -49,12 +49,12 @@ class BankWriter:
         If the folder or the disk does not take the file, or a file is there that is no bank; it is untouched.
     """
 
-    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, ours: bool = False) -> None:
+    def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, overwrite: bool = False) -> None:
         if cells.shape != (header.grid.cells,) or np.count_nonzero(cells) != header.entries:
             raise ValueError(f"{np.count_nonzero(cells)} of {cells.shape} cells do not fit the header")
         header.pack(header.sections())  # what the format cannot hold is refused before the work
         self.path = path
-        self._ours = ours
+        self._overwrite = overwrite
         self._header = header
         self._sections = {s.name: s for s in header.sections()}
         self._index = np.where(cells, np.cumsum(cells) - 1, -1).astype("<i4")
@@ -73,7 +73,7 @@ class BankWriter:
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             if self.path.exists() and not self.path.is_file():
                 raise OSError(errno.EINVAL, "not a regular file")
-            if not self._ours:
+            if not self._overwrite:
                 _refuse_foreign(self.path)
             remove_leftovers(self.path)
             self._temporary, self._fd = _create_locked(self.path)

@@ -75,7 +75,7 @@ def build_bank(
     progress: bool = False,
     measure_sgemm: bool = True,
     highest_hz: float = HIGHEST_HZ,
-    ours: bool = False,
+    overwrite: bool = False,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -96,8 +96,8 @@ def build_bank(
         Measure the best rate of matrix multiplication for `gemm_fraction`: about a second.
     highest_hz : float
         Modes above are left out.
-    ours : bool
-        The path is this software's own choice: a file there is replaced even if it is no bank.
+    overwrite : bool
+        Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
 
     Raises
     ------
@@ -141,7 +141,9 @@ def build_bank(
     idle = np.array([board.idle_word], np.uint32)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread is mostly waited for
-        BankWriter(path, header, wanted, ours=ours) as writer,  # a folder or disk that cannot take it is refused before the work
+        BankWriter(
+            path, header, wanted, overwrite=overwrite
+        ) as writer,  # a folder or disk that cannot take it is refused before the work
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         model = ResponseModel(board, highest_hz)

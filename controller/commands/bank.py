@@ -155,8 +155,8 @@ def _build(
         if missing is None:
             raise
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
-    ours = path == bank_path(board, pitch_m)
-    return build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, ours=ours)
+    own_path = path == bank_path(board, pitch_m)
+    return build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
 
 
 def _build_table(figures: dict[str, Any]) -> str:

@@ -15,14 +15,14 @@ from controller.commands.calibrate_value import calibrate_value
 from controller.commands.output import progress_bar
 from controller.errors import ConfigError
 from controller.fpga.link import Link
-from controller.loop.playback import Played
+from controller.loop.records import Played
 from controller.loop.wiring import assemble
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 from controller.scene.trains import Train
 from controller.service.drivers import open_link, open_panel, open_session
 from controller.service.ghost_survey import KNOCK, Knocks, Overheard
-from controller.service.systemd import enter_realtime
+from controller.service.realtime import enter_realtime
 from controller.touch.event_capture import EventCapture, emission_event, recording_text
 from controller.touch.event_reader import Event, EventReader
 from controller.touch.ghost_figures import GhostFigures, ghost_figures

@@ -10,8 +10,9 @@ from controller.board.board import find_board, load_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
 from controller.errors import ControllerError
-from controller.service.doctor import Finding, LinkExamined, examine_link, look
+from controller.service.doctor import Finding, look
 from controller.service.drivers import open_link, open_session
+from controller.service.link_examination import LinkExamined, examine_link
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers

@@ -1,4 +1,4 @@
-"""What becomes of an accepted frame in the gateware model: results as `haptic_core.v` gives them, and their effects."""
+"""Execution of frames in the gateware model: results as in `haptic_core.v`, and their effects."""
 
 from __future__ import annotations
 
@@ -21,27 +21,33 @@ from controller.fpga.registers import (
 )
 from controller.gateware_model.buffers import Buffers
 from controller.gateware_model.decoder import Frame
-from controller.gateware_model.gate import Gate, OutputGate
+from controller.gateware_model.gate import GateState, OutputGate
 from controller.gateware_model.gateware import Port
 from controller.gateware_model.player import Play, Player, Queue, word_tick
 from controller.gateware_model.readout import LinkState, Readout, Telemetry
 from controller.gateware_model.registers import RegisterFile
 
-FETCH_GAP_TICKS = 2  # behind a scheduled play and its idle word, so that the shortest of all leaves time to fetch the next
-LEAD_TICKS = TIME_LEAD_TICKS - 2  # a scheduled play is compared with the time of two ticks ago
+FETCH_GAP_TICKS = 2  # after a scheduled play and its idle word, so that even the shortest leaves time to fetch the next
+LEAD_TICKS = TIME_LEAD_TICKS - 2  # the time of a scheduled play is compared with that of two ticks before
 
 
 class Effect(NamedTuple):
-    """What a frame does to the state after its tick."""
+    """What a frame changes at the end of its tick."""
 
     take: Callable[[int], None]
-    halts: bool = False  # nothing begins in its tick
+    halts: bool = False  # no play starts in its tick
     triggers: bool = False
     arms: bool = False
 
 
 class Commands:
-    """The parts of the model, and what frames ask of them."""
+    """The parts of the model, and the execution of frames on them.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the module.
+    """
 
     def __init__(self, parameters: Parameters) -> None:
         self.registers = RegisterFile(parameters)
@@ -51,36 +57,53 @@ class Commands:
         self.queue = Queue()
         self.telemetry = Telemetry()
         self._readout = Readout(self.registers, self.gate, self.buffers, self.player, self.queue, self.telemetry)
-        self._fast = False  # the last LOAD came as fast as it would play
-        self._free_tick = 0  # when the last scheduled play will be over
+        self._fast = False  # the last LOAD was at least as fast as its words play
+        self._free_tick = 0  # when the last scheduled play has ended
         self._armed_by = Port.SPI
 
     @property
     def landing_busy(self) -> bool:
-        """What was in a slot still plays, or waits to, from the landing buffer."""
+        """Whether a waveform that was in a slot still plays, or is queued, from what is now the landing buffer."""
         plays = [*self.queue.plays, self.player.running]
         return any(play is not None and play.buffer == self.buffers.landing and not play.live for play in plays)
 
     @property
     def landing_live(self) -> bool:
-        """What is arriving plays, or waits to."""
+        """Whether a play of the landing buffer (PLAY_LANDING) is current or queued."""
         return self.player.live or any(play.live for play in self.queue.plays)
 
     def drop(self, tick: int) -> None:
-        """Forget what waits."""
+        """Empty the queue in `tick`."""
         self.queue.drop(tick)
         self._free_tick = 0
 
     def refuse(self, port: Port, refusal: Result) -> None:
-        """Note that a frame was refused."""
+        """Record the `refusal` of a frame of `port`: for its sync word, length or CRC, or as BUSY."""
         link = self.telemetry.links[port]
         link.result, link.unlocked = refusal, False
         link.counts[Register.FRAME_ERRORS] += 1
 
-    def carry_out(
+    def execute(
         self, tick: int, port: Port, frame: Frame, ticks: int, *, landing_busy: bool, landing_live: bool, queue_full: bool
     ) -> Effect | None:
-        """Note the result of a frame from the state as it was; its effect comes after everything else of the tick."""
+        """Execute a frame: record its result, decided from the state before the tick.
+
+        Parameters
+        ----------
+        tick : int
+        port : Port
+            Link that the frame came by.
+        frame : Frame
+        ticks : int
+            For which it was on the wire.
+        landing_busy, landing_live, queue_full : bool
+            As they were when the frame began.
+
+        Returns
+        -------
+        Effect or None
+            To be taken after everything else of the tick.
+        """
         if frame.refusal is not Result.OK:
             self.refuse(port, frame.refusal)
             return None
@@ -105,22 +128,22 @@ class Commands:
             telemetry.result, effect = self._play(tick, frame, queue_full=queue_full)
         elif frame.kind not in (FrameType.NOP, FrameType.TEST):
             telemetry.result = Result.UNKNOWN_TYPE
-        # a READ of the gaps does not count its own
+        # a READ of SEQUENCE_GAPS does not count its own gap
         telemetry.counts[Register.SEQUENCE_GAPS] += frame.sequence != telemetry.sequence + 1 & 0xFF
         telemetry.sequence = frame.sequence
         if effect is not None and effect.arms:
             self._armed_by = port
-            self.gate.hear(tick)
-        elif self.gate.state is not Gate.OFF and port is self._armed_by:
-            self.gate.hear(tick)
+            self.gate.heartbeat(tick)
+        elif self.gate.state is not GateState.OFF and port is self._armed_by:
+            self.gate.heartbeat(tick)
         return effect
 
     def _write(self, tick: int, address: int, value: int) -> Result:
-        disarmed = self.gate.state is Gate.OFF
-        still = self.gate.state in (Gate.OFF, Gate.ON) and self.player.quiet(tick) and not self.queue.plays
+        disarmed = self.gate.state is GateState.OFF
+        still = self.gate.state in (GateState.OFF, GateState.ON) and self.player.quiet(tick) and not self.queue.plays
         result = self.registers.write(address, value, disarmed=disarmed, quiet=still)
         if result is Result.OK and address == Register.DUTY_SHARE:
-            self.gate.limits.activity(tick + 2, active=False)  # clamped once more on its way
+            self.gate.limits.activity(tick + 2, active=False)  # the bucket is updated once more with the new share
         return result
 
     def _control(self, link: LinkState, words: tuple[int, ...], unlocked: bool) -> tuple[Result, Effect | None]:
@@ -133,7 +156,7 @@ class Commands:
         if command == Control.ARM:
             if not unlocked:
                 return Result.LOCKED, None
-            if self.gate.state is not Gate.OFF:
+            if self.gate.state is not GateState.OFF:
                 return Result.ARMED, None
             if self.gate.faults:
                 return Result.FAULTED, None
@@ -170,11 +193,11 @@ class Commands:
             return Result.BAD_RANGE, None
         if kind > Start.TIME or inverted > 1:
             return Result.BAD_VALUE, None
-        sounding = word_tick(length, self.registers.bit_period)
+        length_ticks = word_tick(length, self.registers.bit_period)
         rest = self.registers.bit_ticks
-        if sounding > self.registers.limits.emission_ticks:
+        if length_ticks > self.registers.limits.emission_ticks:
             return Result.TOO_LONG, None
-        if count != 1 and period_ticks != sounding and period_ticks < sounding + rest:
+        if count != 1 and period_ticks != length_ticks and period_ticks < length_ticks + rest:
             return Result.BAD_PERIOD, None
         if queue_full:
             return Result.QUEUE_FULL, None
@@ -189,18 +212,20 @@ class Commands:
         def push(tick: int) -> None:
             self.queue.push(tick, play)
             if start is Start.TIME:
-                self._free_tick = when + max(count - 1, 0) * period_ticks + sounding + rest + FETCH_GAP_TICKS & 0xFFFFFFFFFFFFFFFF
+                self._free_tick = (
+                    when + max(count - 1, 0) * period_ticks + length_ticks + rest + FETCH_GAP_TICKS & 0xFFFFFFFFFFFFFFFF
+                )
 
         return Result.OK, Effect(push)
 
     def _playable(self, tick: int, slot: int, live: bool) -> Result:
-        """Whether there is something to play, and somebody may."""
+        """OK if there is a waveform to play and the outputs are armed; else why not."""
         buffers = self.buffers
         if not live and slot >= len(buffers.slot_buffer):
             return Result.BAD_SLOT
         if self.gate.faults:
             return Result.FAULTED
-        if self.gate.state is not Gate.ON:
+        if self.gate.state is not GateState.ON:
             return Result.NOT_ARMED
         if live:
             if not buffers.chunk_words[0]:
@@ -220,9 +245,9 @@ class Commands:
 
     def _disarm(self, tick: int) -> None:
         player = self.player
-        sounding = player.playing
+        playing = player.playing
         player.halt(tick, self.registers.bit_period)
-        if sounding and player.end == tick + 1:
+        if playing and player.end == tick + 1:
             player.finish(tick, self.registers.bit_ticks)
             self.gate.idle(tick + 1)
             self.gate.limits.emission(tick + 1, playing=False)

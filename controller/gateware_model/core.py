@@ -13,7 +13,7 @@ from controller.fpga.status import Status, pack_status
 from controller.gateware_model.commands import Commands
 from controller.gateware_model.decoder import Frame
 from controller.gateware_model.events import Event, EventKind, Events
-from controller.gateware_model.gate import Gate
+from controller.gateware_model.gate import GateState
 from controller.gateware_model.gateware import Permit, Port, UartTiming
 from controller.gateware_model.sequencer import Sequencer
 from controller.gateware_model.uart import BEGIN_TICKS, DELIVER_TICKS, UartSide
@@ -84,7 +84,7 @@ class Core:
         link = telemetry.links[port]
         waiting_from = self.waiting_from()
         bits = (
-            (State.ARMED, gate.state is Gate.ON),
+            (State.ARMED, gate.state is GateState.ON),
             (State.RAMPING, gate.ramping),
             (State.PLAYING, player.playing),
             (State.REPEATING, player.repeating),
@@ -145,7 +145,7 @@ class Core:
                 ended |= event.kind is EventKind.EMISSION_END
         effect = None
         if frame is not None:
-            effect = self.commands.carry_out(
+            effect = self.commands.execute(
                 tick,
                 frame.port,
                 frame.frame,

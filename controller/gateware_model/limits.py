@@ -85,11 +85,11 @@ class StageLimits:
         self._plans.append(self._check(before, ticks, words))
 
     def emission(self, tick: int, *, playing: bool) -> None:
-        """Note that an emission begins to play in `tick`, or that none plays from then on."""
+        """Note that an emission begins in `tick` (`playing`), or that none plays from then on."""
         self._activity.emission(tick, playing=playing)
 
     def activity(self, tick: int, *, active: bool) -> None:
-        """Note whether the duty bucket fills (playing or ramping) from `tick` on, or only drains."""
+        """Note whether the duty bucket fills from `tick` on (`active`: playing or ramping), or only drains."""
         self._activity.activity(tick, active=active)
 
     def next_change(self, now: int) -> int | None:

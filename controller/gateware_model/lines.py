@@ -60,7 +60,7 @@ class Lines:
         self._waiting_from = None if waiting_from is None else max(waiting_from, tick)
 
     def exchange(self, select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> None:
-        """Record MISO during a frame; `answer` has one byte more than `size_bytes`, whose first bit is visible too."""
+        """Record MISO during a frame; parameters as in `miso_changes`."""
         if self._noting_frames:
             self._miso.append(miso_changes(select_tick, release_tick, answer, size_bytes))
 

@@ -19,12 +19,12 @@ from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, 
 from controller.gateware_model.lines import Lines
 from controller.gateware_model.uart import BYTE_TO_PULSE_TICKS
 
-INPUT_TICKS = 2  # two flip-flops: a pin's edge at t is seen in the state of t + 2
-TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough
-EXECUTE_TICKS = 4  # from the rise of chip select to the tick in which its frame is carried out
+INPUT_TICKS = 2  # two flip-flops: an edge of a pin at t is seen in the state of t + 2
+TRIGGER_TICKS = INPUT_TICKS + FILTER_TICKS - 1  # until the pin has been seen high for long enough by the glitch filter
+EXECUTE_TICKS = 4  # from the rise of chip select to the tick in which its frame is executed
 LANDED_TICKS = 4  # from the rise of SCK that ends a word of a LOAD to the tick in which it is written
-EMPTY_TICKS = 2  # from the rise of chip select to the last tick of a selection without any bit
-RATE_TICKS = 1  # beyond the time between the edges of chip select, for which a LOAD is found to have lasted
+EMPTY_TICKS = 2  # from the rise of chip select to the last busy tick of an assertion without any bit
+RATE_TICKS = 1  # that the measured length of a LOAD exceeds the time between the edges of chip select
 
 
 class GatewareModel:
@@ -68,7 +68,7 @@ class GatewareModel:
         return self._core.next_change()
 
     def status(self, port: Port = Port.SPI) -> Status:
-        """The status with which a link is answered whose frame begins now."""
+        """The status with which the link `port` is answered if its frame begins now."""
         return self._core.status(port)
 
     def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
@@ -86,7 +86,13 @@ class GatewareModel:
             self._events.add(Event(tick + TRIGGER_TICKS, EventKind.TRIGGER))
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """Exchange one frame; parameters as in `Gateware.exchange`."""
+        """Exchange one frame; parameters as in `Gateware.exchange`.
+
+        Raises
+        ------
+        ValueError
+            If it begins in the past, or its timing is not what the pins allow.
+        """
         if select_tick + INPUT_TICKS < self._events.now:
             raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._events.now}")
         self._timing.frame(select_tick, release_tick, len(mosi))

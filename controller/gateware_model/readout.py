@@ -24,9 +24,9 @@ class LinkState:
     result: Result = Result.OK
     sequence: int = 0
     data: int = 0
-    high: int = 0  # half of the time whose LOW was read last
+    high: int = 0  # high half of the time whose LOW was read last
     counts: dict[Register, int] = field(default_factory=lambda: _zeros(Kind.LINK_COUNTER))
-    unlocked: bool = False  # by the frame before
+    unlocked: bool = False  # by the previous frame
 
 
 @dataclass
@@ -38,7 +38,7 @@ class Telemetry:
     trigger_tick: int = 0
     emission_tick: int = 0
     input_tick: int = 0
-    trigger_pin: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # ticks in which it is seen high
+    trigger_pin: deque[tuple[int, int]] = field(default_factory=lambda: deque(maxlen=64))  # intervals in which the pin is seen high
 
 
 class Readout:
@@ -60,7 +60,7 @@ class Readout:
         Parameters
         ----------
         tick : int
-            Tick in which the frame is carried out.
+            Tick in which the frame is executed.
         link : LinkState
             The link that the frame came by.
         address : int

@@ -8,7 +8,7 @@ from __future__ import annotations
 from controller.fpga.registers import CHUNK_WORDS, Register, Start
 from controller.gateware_model.commands import Commands
 from controller.gateware_model.events import Event, EventKind, Events
-from controller.gateware_model.gate import PIN_TICKS, Gate
+from controller.gateware_model.gate import PIN_TICKS, GateState
 from controller.gateware_model.player import DECISION_TICKS, Play
 
 
@@ -35,13 +35,19 @@ class Sequencer:
     def waiting_from(self) -> int | None:
         """Tick from which on the head of the queue waits for a trigger, if nothing else happens; None if it does not."""
         plays, player = self._queue.plays, self._player
-        if not plays or plays[0].start is not Start.TRIGGER or self._gate.state is not Gate.ON or player.playing or player.delayed:
+        if (
+            not plays
+            or plays[0].start is not Start.TRIGGER
+            or self._gate.state is not GateState.ON
+            or player.playing
+            or player.delayed
+        ):
             return None
         return max(self._queue.head_from, player.free_from)
 
     def _free(self, tick: int) -> bool:
         """Whether a play may start."""
-        return self._gate.state is Gate.ON and self._player.settled(tick) and not self._player.delayed
+        return self._gate.state is GateState.ON and self._player.settled(tick) and not self._player.delayed
 
     def head_tick(self) -> int | None:
         """Next tick in which the head of the queue may start or be missed without a trigger; None if there is none."""
@@ -51,7 +57,7 @@ class Sequencer:
         head = queue.plays[0]
         if head.start is Start.TIME:
             return max(queue.head_from + 1, head.when - DECISION_TICKS, self._events.now)
-        if player.playing or player.delayed or player.remaining or self._gate.state is not Gate.ON:
+        if player.playing or player.delayed or player.remaining or self._gate.state is not GateState.ON:
             return None
         return max(queue.head_from, player.free_from, self._events.now)
 

@@ -7,15 +7,13 @@ moving finger will ask for next is sent ahead.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from controller.clocks import FPGA_NEVER, NEVER, Clock, FpgaTime
 from controller.errors import ControllerError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
-from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.playback import Playback
+from controller.loop.records import ENDLESS, Batch, Turn
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.touch.source import TrackedTouch
@@ -23,30 +21,6 @@ from controller.touch.source import TrackedTouch
 BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_SLACK_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
 RESIDENT_START_S = 0.1e-3  # from a report to the start of a waveform that is resident
-
-
-class Turn(NamedTuple):
-    """One turn of the loop.
-
-    Attributes
-    ----------
-    started_ns : int
-        When it began (perf_counter_ns).
-    now_s : float
-        Host time.
-    fpga_s : FpgaTime
-        The same moment.
-    report_ns : int
-        From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report.
-    finger : int or None
-        Which finger moved, in that report.
-    """
-
-    started_ns: int
-    now_s: float
-    fpga_s: FpgaTime
-    report_ns: int
-    finger: int | None
 
 
 class Dispatcher:

@@ -1,37 +1,39 @@
-"""The device loop: touch reports and commands in, emissions out; one thread, and nothing but the selector blocks.
+"""The event loop: touch reports and commands in, emissions out, in one thread that blocks only in its selector.
 
-Each turn reads at most one touch report and a bounded number of commands, asks the scene what is due, and hands
-it to the playback. The longest call that blocks while all is well is one message on the wire (`Playback.upload_s`).
+Each turn reads at most one touch report and a bounded number of commands, lets the scheduler collect what is due, and has
+the dispatcher hand it to the FPGA. The longest blocking call without a fault is one message on the wire
+(`Playback.upload_s`).
 """
 
 from __future__ import annotations
 
-import contextlib
 import selectors
 import signal
 import time
 from collections.abc import Callable
-from typing import Any
 
 from controller.board.board import Board
 from controller.clocks import FPGA_NEVER, Clock, FpgaTime
-from controller.errors import ConfigError, ControllerError, FaultError, LinkError
+from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
-from controller.loop.commands import CommandSource, Outcome
-from controller.loop.dispatcher import Dispatcher, Turn
+from controller.loop.commands import CommandSource
+from controller.loop.control import LoopControl
+from controller.loop.dispatcher import Dispatcher
 from controller.loop.outputs import Outputs
 from controller.loop.playback import Playback
+from controller.loop.records import Turn
 from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
 from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.loop.spots import ROUNDING_S
+from controller.loop.watched_files import WatchedFiles
 from controller.metrics import Counters
 from controller.touch.source import TrackedTouch
 
 
 class EventLoop:
-    """Drives one panel until its source ends or a signal comes.
+    """Runs one panel until its source ends or a signal comes.
 
     Parameters
     ----------
@@ -39,17 +41,22 @@ class EventLoop:
     clock, session, source, scheduler, playback, dispatcher, clock_estimate
         The parts; each may be simulated.
     counters : Counters
-        Shared with scheduler and playback.
+        Of this run; scheduler, dispatcher and playback count there too.
     commands : CommandSource, optional
-        Gives commands, and is told what became of them.
+        Where commands come from.
     change : SceneChange, optional
-        For SIGHUP, and for commands that load a scene.
+        Prepares another scene, for SIGHUP and for commands; None: the scene cannot be changed.
     progress : callable, optional
-        Called in each turn with the time: feeds the watchdog.
+        Called in each turn with the host time.
     emission_started : callable, optional
         Called whenever an emission starts, or a repetition by the FPGA.
     scene_changed : callable, optional
         Called with each scene that was prepared, taken over or refused.
+
+    Attributes
+    ----------
+    control : LoopControl
+        What commands may ask of this loop.
     """
 
     def __init__(
@@ -84,19 +91,19 @@ class EventLoop:
         self._emission_started = emission_started
         self._scene_changed = scene_changed
         self._outputs = Outputs(session, board, clock, clock_estimate, counters)
-        self._registered: dict[str, int] = {}
+        self.control = LoopControl(self._outputs, scheduler, clock_estimate, counters, change)
         self._wakeup: Wakeup | None = None
         self._reload = False
         self._stopped = False
 
     @property
     def outputs(self) -> Outputs:
-        """Whether the outputs are on, and why not."""
+        """Outputs of the FPGA."""
         return self._outputs
 
     @property
     def repeating(self) -> bool:
-        """Whether the FPGA plays something again and again by itself."""
+        """Whether the FPGA repeats an emission by itself."""
         return self._playback.repeating
 
     @property
@@ -106,19 +113,19 @@ class EventLoop:
 
     @property
     def stretch(self) -> Callable[[float], None]:
-        """To be told by how much slower emissions are played than the bank says."""
+        """To be called with the factor by which emissions last longer than the bank says."""
         return self._playback.occupancy.set_time_scale
 
     def stop(self) -> None:
-        """End after this turn: outputs off, `run` returns."""
+        """Have `run` switch the outputs off and return after this turn."""
         self._stopped = True
 
     def reload(self) -> None:
-        """Read the scene again."""
+        """Have the scene read again in the next turn."""
         self._reload = True
 
     def run(self, ready: Callable[[], None] = lambda: None) -> None:
-        """Arm, play until the source ends or `stop`, disarm; outputs are off when this returns or raises.
+        """Arm, play until the source ends or `stop` is called, disarm; the outputs are off when this returns or raises.
 
         Parameters
         ----------
@@ -128,102 +135,62 @@ class EventLoop:
         Raises
         ------
         FaultError
-            When the FPGA has switched off for a reason that the host may not clear by itself.
+            If the FPGA has switched off for a reason that the host may not clear by itself.
+        IncompatibleFpga
+            If it is another FPGA, or does not take the board's settings.
         """
         handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop}
         if self._change is not None:
             handlers[signal.SIGHUP] = self.reload
         with selectors.DefaultSelector() as selector, handled_signals(handlers, selector) as self._wakeup, no_garbage_collection():
+            files = WatchedFiles(selector)
             try:
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
-                    self._watch(selector)
+                    self._watch(files)
                     if self._clock.now_s() < next_s:
                         self._clock.wait(selector, next_s)
                     try:
                         if self._outputs.on and not self._outputs.wanted:
-                            self._interrupted()
+                            self._abandon()
                             self._outputs.disarm()
                         if self._outputs.advance(self._clock.now_s()):
-                            self._scheduler.reset(self._fpga_now_s())  # what began while they were off, in another time
+                            self._scheduler.reset(self._fpga_now_s())  # FPGA time may have begun anew
                             ready()
                             ready = _nothing
                         next_s = self._turn()
                     except (LinkError, FaultError) as error:
-                        self._lost(error)
+                        self._recover(error)
                         next_s = self._clock.now_s()
-                self._rest(selector, self._outputs.disarm())
+                self._wait_for_ramp(selector, self._outputs.disarm())
             finally:
                 self._session.off()
-
-    def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
-        """Play an effect for a command; see `PanelControl`."""
-        if not self._outputs.wanted:
-            raise FaultError("the outputs are off: the panel is disarmed, until somebody with the right to operate it arms it")
-        if not self._outputs.on:
-            raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
-        self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
-
-    def switch(self, on: bool) -> None:
-        """Have the outputs armed or disarmed from now on; see `PanelControl`."""
-        self._outputs.wanted = on
-
-    def load_scene(self, ticket: int, name: str) -> None:
-        """Take over another scene for a command; see `PanelControl`."""
-        if self._change is None:
-            raise ConfigError("scenes cannot be changed here")
-        self._change.begin(name, ticket)
-
-    def figures(self) -> dict[str, Any]:
-        """Counters and latencies so far, ready for JSON; without histograms, which would keep the loop for too long."""
-        return self._counters.export(histograms=False) | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
-
-    def effects(self) -> tuple[str, ...]:
-        """Names of the effects that `play` knows."""
-        return tuple(self._scheduler.scene.effects)
-
-    def outcome(self, ticket: int, outcome: Outcome, age_s: float) -> None:
-        """Pass on what became of a command."""
-        if self._commands is not None:
-            self._commands.outcome(ticket, outcome, age_s)
 
     def _fpga_now_s(self) -> FpgaTime:
         return self._clock_estimate.fpga_s(self._clock.now_s())
 
-    def _lost(self, error: ControllerError) -> None:
-        """The outputs are off, unasked."""
-        self._interrupted()
+    def _recover(self, error: ControllerError) -> None:
+        """Recover from an error of the link or the FPGA: the outputs are off."""
+        self._abandon()
         self._outputs.failed(error, self._clock.now_s())
 
-    def _interrupted(self) -> None:
-        """Nothing that was under way is taken up again."""
+    def _abandon(self) -> None:
+        """Forget what was due, accepted or playing: none of it is resumed."""
         self._playback.forget()
         self._scheduler.reset(self._fpga_now_s())
         now_s = self._clock.now_s()
-        self._source.emitted(now_s, now_s)  # whatever sounded has ended
+        self._source.emitted(now_s, now_s)  # what sounded has ended
 
-    def _watch(self, selector: selectors.BaseSelector) -> None:
-        """Keep the selector on the files of today: a panel that was plugged in again has another one."""
-        self._watch_one(selector, "touch", self._source.fileno())
+    def _watch(self, files: WatchedFiles) -> None:
+        """Wake for the present files of the touch panel, of commands and of the scene that is prepared."""
+        files.watch("touch", self._source.fileno())
         if self._commands is not None:
-            self._watch_one(selector, "commands", self._commands.fileno())
+            files.watch("commands", self._commands.fileno())
         if self._change is not None:
-            self._watch_one(selector, "change", self._change.fileno())
+            files.watch("change", self._change.fileno())
 
-    def _watch_one(self, selector: selectors.BaseSelector, name: str, fileno: int | None) -> None:
-        before = self._registered.get(name)
-        if before == fileno:
-            return
-        if before is not None:
-            with contextlib.suppress(KeyError, ValueError, OSError):  # closed files leave by themselves
-                selector.unregister(before)
-            del self._registered[name]
-        if fileno is not None:
-            selector.register(fileno, selectors.EVENT_READ)
-            self._registered[name] = fileno
-
-    def _rest(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Let the ramp to 0 V pass, with heartbeats."""
+    def _wait_for_ramp(self, selector: selectors.BaseSelector, until_s: float) -> None:
+        """Wait for the end of the ramp to 0 V, with heartbeats."""
         while self._clock.now_s() < until_s:
             if self._clock.now_s() >= self._session.heartbeat_due_s:
                 self._session.heartbeat()
@@ -231,15 +198,15 @@ class EventLoop:
             self._clock.wait(selector, min(until_s, self._session.heartbeat_due_s))
 
     def _turn(self) -> float | None:
-        """Do what is due now; the time of the next turn, or None when all is played."""
+        """Do what is due now; host time of the next turn, or None when all of a replay is played."""
         started_ns = time.perf_counter_ns()
         now_s = self._clock.now_s()
         self._progress(now_s)
-        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp make ghosts as well
+        if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp cause ghost touches, too
             self._source.emitted(now_s, self._session.ramp_end_s)
         report_ns, finger = self._read(now_s)
         if self._commands is not None:
-            self._commands.serve(now_s, self)
+            self._commands.serve(now_s, self.control)
         if self._change is not None:
             self._change_scene(now_s)
         fpga_s = self._clock_estimate.fpga_s(now_s)
@@ -264,7 +231,7 @@ class EventLoop:
         return round((now_s - samples[0].time_s) * 1e9), finger
 
     def _change_scene(self, now_s: float) -> None:
-        """Begin to prepare a scene that was asked for, or take over one that is prepared."""
+        """Have a scene prepared if a signal asked for it; take over one that is prepared."""
         change = self._change
         assert change is not None
         if self._reload:
@@ -305,14 +272,14 @@ class EventLoop:
             times.append(playback.accepted.start_s)
         handover_s = dispatcher.handover_s(now_s) if outputs.on else None
         if handover_s is not None:
-            if handover_s <= max(now_s, self._session.wire_free_s()):  # nothing else is read before
+            if handover_s <= max(now_s, self._session.wire_free_s()):  # before anything else is read
                 return min(handover_s, outputs.next_s())
             times.append(handover_s)
         next_s = self._scheduler.next_s()
         if next_s != FPGA_NEVER:
             times.append(self._clock_estimate.host_s(next_s) - dispatcher.lead_s)
         if not times and self._source.fileno() is None and self._commands is None:
-            free_s = playback.occupancy.free_s  # a replay has ended: the last emission sounds to its end
+            free_s = playback.occupancy.free_s  # end of a replay: the last emission sounds to its end
             return free_s if now_s < free_s else None
         times += [dispatcher.next_s(now_s, outputs.on), outputs.next_s()]
         if self._commands is not None:
@@ -321,4 +288,4 @@ class EventLoop:
 
 
 def _nothing() -> None:
-    """What `ready` becomes after it was called."""
+    """In place of `ready`, once that was called."""

@@ -6,11 +6,8 @@ started by the trigger pin as soon as the plate is free, or by the FPGA itself a
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
 
 from controller.clocks import FpgaTime
 from controller.errors import BankError
@@ -18,10 +15,10 @@ from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
-from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 from controller.loop.prefetch import PrefetchRecord
+from controller.loop.records import ENDLESS, Accepted, Attempt, Batch, Plan, Played
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.emission import Emission
@@ -30,87 +27,6 @@ from controller.waveforms.selection import Key, Selection
 
 Locate = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host, (x_m, y_m); None if it is not down."""
-
-
-class Plan(NamedTuple):
-    """How a batch is played.
-
-    Attributes
-    ----------
-    points : list of Point
-        Where each emission meets its finger, and its amplitude.
-    key : Key
-        Waveform for these points.
-    resident : Key or None
-        Waveform in a slot of the FPGA that serves for it; None: it has to be uploaded.
-    start_s : FpgaTime
-        Earliest start.
-    """
-
-    points: list[Point]
-    key: Key
-    resident: Key | None
-    start_s: FpgaTime
-
-
-class Accepted(NamedTuple):
-    """A batch whose play command the FPGA has accepted, and what that took."""
-
-    batch: Batch
-    plan: Plan
-    ready_s: float  # host time at which the command had arrived
-    start_s: float  # host time
-    start_ticks: int | None  # of the FPGA's clock, if it starts the batch by itself
-    decide_ns: int
-    frame_ns: int
-    wire_ns: int
-
-
-class Attempt(NamedTuple):
-    """What became of a batch.
-
-    Attributes
-    ----------
-    outcome : Outcome
-        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
-    start_s : float
-        Host time at which it starts, as expected; NaN if it was not accepted.
-    fpga_s : FpgaTime
-        The same moment, to the clock if the FPGA starts it.
-    started : bool
-        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
-    """
-
-    outcome: Outcome
-    start_s: float = math.nan
-    fpga_s: FpgaTime = FpgaTime(math.nan)
-    started: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Played:
-    """One start, for those who watch.
-
-    Attributes
-    ----------
-    trigger_s : float
-        Host time at which it starts.
-    emissions : tuple of Emission
-        With the places at which they meet their fingers.
-    count, period_s : int, float
-        Repetition by the FPGA; count 0: until replaced.
-    resident : bool
-        Whether the waveform was in a slot already.
-    at_ticks : int or None
-        Tick of the FPGA's clock at which it was told to start; None: the trigger pin rose.
-    """
-
-    trigger_s: float
-    emissions: tuple[Emission, ...]
-    count: int
-    period_s: float
-    resident: bool
-    at_ticks: int | None = None
 
 
 class Playback:

@@ -1,4 +1,4 @@
-"""The event loop put together from its parts, the same for a simulated run and for the device."""
+"""Construction of the event loop from its parts, the same for a simulated run and for the device."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from controller.clocks import Clock
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.session import Session
-from controller.loop.commands import CommandSource
+from controller.loop.commands import CommandSource, Outcome
 from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
 from controller.loop.occupancy import Occupancy
-from controller.loop.playback import Playback, Played
+from controller.loop.playback import Playback
+from controller.loop.records import Played
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
@@ -30,7 +31,7 @@ PLAY_COMMANDS = 2
 
 @dataclass(frozen=True, slots=True)
 class Assembly:
-    """A loop that is ready to run, and the parts that others look at."""
+    """A loop that is ready to run, and those of its parts that callers need."""
 
     loop: EventLoop
     counters: Counters
@@ -52,20 +53,19 @@ def assemble(
     change: SceneChange | None = None,
     **loop: Any,
 ) -> Assembly:
-    """Put a loop together.
+    """Construct a loop.
 
     Parameters
     ----------
     session : Session
         Of an FPGA that has been brought up.
     source : TrackedTouch
-        Fingers.
-    slots, max_duty
-        Other than the board's.
+    slots, max_duty : int, float
+        In place of the board's `link.slots` and `limits.max_duty`.
     played : callable, optional
-        Told of every start.
+        Called with every start.
     commands, change, **loop
-        As `EventLoop` has them.
+        As `EventLoop` takes them.
     """
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
@@ -84,11 +84,14 @@ def assemble(
     )
     playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots])
 
-    def outcomes(ticket: int, *what: Any) -> None:
-        running.outcome(ticket, *what)
-
-    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes)
+    scheduler = Scheduler(
+        scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, _nobody if commands is None else commands.outcome
+    )
     dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
     running = EventLoop(board, *parts, commands=commands, change=change, **loop)
     return Assembly(running, counters, selection)
+
+
+def _nobody(ticket: int, outcome: Outcome, age_s: float) -> None:
+    """In place of a source of commands."""

@@ -53,9 +53,3 @@ class DriverResponse:
         s = np.asarray(s, np.complex128)
         value: Complex = self.gain / ((s - self.poles[0]) * (s - self.poles[1]))
         return value
-
-    def step_voltage(self, time_s: ArrayLike) -> NDArray[np.float64]:
-        """Piezo voltage in V at times `time_s` after a unit step at 0, of any shape; zero before the step."""
-        time = np.asarray(time_s, np.float64)
-        after = np.exp(np.multiply.outer(np.maximum(time, 0), self.poles)) @ self.residues
-        return np.where(time > 0, 1 + after.real, 0.0)

@@ -70,12 +70,6 @@ class StepResponse:
             driver_residues=driver.residues[None, :] * plate_at_d,
         )
 
-    def displacement(self, time_s: float) -> Floats:
-        """Each mode in m per N at one time after the step."""
-        of_poles = (self.residues * np.exp(self.poles * time_s)).real
-        of_driver = (self.driver_residues @ np.exp(self.driver_poles * time_s)).real
-        return self.static + self.by_mode(of_poles) + of_driver
-
     def by_mode(self, of_poles: Floats) -> Floats:
         """Add up the poles of each mode: (pole, ...) to (mode, ...)."""
         count = self.static.size

@@ -13,8 +13,8 @@ import sys
 import msgspec
 
 from controller.board.devices import Realtime, Temperature, Touch
-from controller.service.systemd import enter_realtime
-from controller.service.temperature import sensor_of, serve_sensor
+from controller.service.realtime import enter_realtime
+from controller.service.temperature_sensors import sensor_of, serve_sensor
 from controller.touch.panel_process import serve_panel
 from controller.touch.panels import open_panel
 

@@ -9,12 +9,10 @@ import pwd
 import resource
 import stat
 import subprocess
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import msgspec
-import numpy as np
 
 from controller.bank.file_format import MODELLED
 from controller.bank.inspection import wrong_pitch
@@ -22,15 +20,9 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.devices import LinkSettings, LinuxInputTouch, Realtime, RecordingTouch
 from controller.board.paths import SERVICE, bank_path, service_user
-from controller.clocks import Clock
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
-from controller.fpga import bring_up
-from controller.fpga.capture import Capture
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
-from controller.fpga.link_check import ClockedLink, bit_error_count, error_rate_bound, measured_sck_hz, proposed_sck_hz, sweep
-from controller.fpga.session import Session
-from controller.gateware_model.simulated_link import SimulatedLink
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_link, open_panel
@@ -38,7 +30,6 @@ from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
 from controller.touch.recording import Recording
 
-SWEEP_SHARE = 0.1  # of the bits, at each speed of the sweep
 MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and a scene's entries
 
 
@@ -90,92 +81,6 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
     with _rights_of(user):
         findings = [_tried(about, check) for about, check in checks]
     return [finding for finding in findings if finding.good or finding.about != "responses"]  # a bad bank is told once
-
-
-@dataclass(frozen=True, slots=True)
-class LinkExamined:
-    """What `doctor --link` found."""
-
-    findings: list[Finding]
-    figures: dict[str, Any]
-
-
-def examine_link(
-    board: Board,
-    link: Link,
-    open_session: Callable[[], Session],
-    clock: Clock,
-    bits: float,
-    channels: Sequence[int],
-    progress: Callable[[int, int], None] = lambda *_: None,
-) -> LinkExamined:
-    """Everything about the link: identity, bits there and back, memory, channels, and the SCK that its wires carry.
-
-    Parameters
-    ----------
-    open_session : callable
-        Brings up what is at the other end.
-    bits : float
-        Random bits to send at least.
-    channels : sequence of int
-        To chirp on; outputs are on meanwhile. Empty: they stay off.
-    """
-    findings: list[Finding] = []
-    figures: dict[str, Any] = {}
-    take_capture: Callable[[], Capture] | None = link.take_capture if isinstance(link, SimulatedLink) else None
-    clocked = link if isinstance(link, ClockedLink) else None
-    try:
-        session = open_session()
-        findings.append(Finding("identity and settings", True, "the gateware of this software; each setting was read back"))
-        if clocked is not None:
-            findings.append(_swept(board, session, clocked, max(bits * SWEEP_SHARE, 1), figures, progress))
-            if not findings[-1].good:
-                return LinkExamined(findings, figures)
-        done = bring_up.check(session, board, clock, bits, channels, progress=progress, take_capture=take_capture)
-    except ControllerError as error:
-        return LinkExamined([*findings, Finding("link", False, str(error))], figures)
-    sent, errors = bit_error_count(done.bit_errors)
-    bound = error_rate_bound(errors, sent)
-    figures["bit_errors"] = asdict(done.bit_errors) | {"error_rate_at_most": bound, "confidence": 0.95}
-    figures["registers"] = done.registers
-    findings.append(
-        Finding("bits", not errors, f"{errors} errors in {sent:,} bits: fewer than {bound:.1e} of them are wrong (95 %)")
-    )
-    if clocked is not None and not isinstance(link, SimulatedLink):
-        from controller.fpga.spi_link import SpiLink
-
-        assert isinstance(link, SpiLink)
-        figures["sck_measured_hz"] = _finite(measured_sck_hz(session, link))
-        figures["effective_hz"] = link.effective_hz
-    findings += [Finding("board", False, complaint) for complaint in done.complaints]
-    if not done.complaints:
-        seen = "" if take_capture is None else ", each moved its own pin"
-        chirped = f"{len(done.channels)} channels chirped{seen}" if channels else "no channel was asked for"
-        findings.append(Finding("board", True, f"{done.slots} slots keep what they are given; {chirped}"))
-    return LinkExamined(findings, figures)
-
-
-def _swept(
-    board: Board,
-    session: Session,
-    link: ClockedLink,
-    bits: float,
-    figures: dict[str, Any],
-    progress: Callable[[int, int], None],
-) -> Finding:
-    """Errors at each SCK; the link is left at the one that is proposed."""
-    speeds = sweep(session, link, board.link.sck_hz, bits, np.random.default_rng(bring_up.SEED), progress)
-    proposal_hz = proposed_sck_hz(speeds)
-    figures["sweep"] = [asdict(speed) for speed in speeds]
-    figures["proposed_sck_hz"] = proposal_hz
-    rule = "the fastest without an error, at most 0.8 of the slowest with one"
-    if proposal_hz is None:
-        worst = next((speed.trouble for speed in speeds if speed.trouble), "bits are damaged even at the slowest")
-        return Finding("SCK", False, f"no SCK carries every bit ({worst}): look at the wires")
-    sck_hz = link.set_sck_hz(proposal_hz)
-    if proposal_hz < board.link.sck_hz:
-        return Finding("SCK", False, f"set link.sck_hz = {proposal_hz} ({rule}), or shorten the wires and join the grounds")
-    return Finding("SCK", True, f"{sck_hz / 1e6:g} MHz as the board says; no error from {speeds[0].sck_hz / 1e6:g} MHz on")
 
 
 def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
@@ -360,7 +265,3 @@ def _memory(realtime: Realtime, allowed: _Allowed) -> str:
             " LimitMEMLOCK= in the unit"
         )
     return "permitted"
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -174,7 +174,8 @@ def await_thermometer(board: Board) -> Thermometer | None:
     """As `open_thermometer`, by a process of its own. Called before real time begins."""
     if board.temperature is None:
         return None
-    from controller.service.temperature import SensorProcess, Thermometer
+    from controller.service.temperature import Thermometer
+    from controller.service.temperature_sensors import SensorProcess
 
     return Thermometer(board.temperature, SensorProcess(_beside("thermometer", 0, board.temperature)))
 

@@ -16,9 +16,10 @@ from controller.scene.scene import Scene
 from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
 from controller.service.housekeeping import Housekeeping
 from controller.service.prepare_scene import populate
+from controller.service.realtime import enter_realtime
 from controller.service.reloading import ReloadFile
 from controller.service.scene_reload import SceneChanger
-from controller.service.systemd import Notifier, Watchdog, enter_realtime
+from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
 from controller.touch.recording import Recording
 from controller.touch.reports import describe_warnings
@@ -88,7 +89,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             scene_changed=housekeeping.scene_changed,
         )
         if commands is not None and commands.disarmed:
-            assembly.loop.switch(on=False)
+            assembly.loop.control.switch(on=False)
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):

@@ -6,189 +6,16 @@ time. The glass follows the room within minutes, so a sensor is asked every few 
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
 import errno
-import fcntl
 import math
-import os
-import socket
-import struct
-import time
-from pathlib import Path
-from typing import Final, Protocol
-
-from smbus2 import SMBus
+from typing import Final
 
 from controller.board.devices import Temperature
-from controller.board.worker import Worker, WorkerEnded
+from controller.service.temperature_sensors import Sensor, sensor_of
 
-HWMON: Final = Path("/sys/class/hwmon")
 HOLD_S: Final = 600.0  # the last good reading is kept so long, then the reference temperature is assumed
 JUMP_C: Final = 5.0  # between two readings; a larger one is believed when the next one says the same
 RETRY_S: Final = 10.0  # after a failure: a stuck bus may hold each attempt up for BUS_TIMEOUT_MS
-TEMPERATURE_REGISTER: Final = 0  # of the LM75 family
-STEP_C: Final = 1 / 256  # of its 16 bits, of which a chip leaves those that it does not resolve 0
-I2C_RETRIES: Final = 0x0701  # linux/i2c-dev.h
-I2C_TIMEOUT: Final = 0x0702
-BUS_TIMEOUT_MS: Final = 20
-HANGS_S: Final = 5.0  # without an answer, after which a sensor's process is taken to hang
-ANSWER: Final = struct.Struct("=id")  # errno and temperature; behind them what the error is called
-
-
-class Sensor(Protocol):
-    """What gives a temperature."""
-
-    def read_c(self) -> float | None:
-        """Temperature in °C; None from a `SensorProcess` that has not answered yet.
-
-        Raises
-        ------
-        OSError
-            If the sensor cannot be read; it is opened again at the next call.
-        """
-
-    def close(self) -> None:
-        """Let go of it."""
-
-
-class SensorProcess:
-    """A sensor that a process of its own asks: a bus that hangs, or takes 0.7 s as 1-Wire does, costs no heartbeat.
-
-    A reading is as old as the time since the one before was taken.
-
-    Parameters
-    ----------
-    worker : Worker
-        Runs `serve_sensor`.
-    """
-
-    def __init__(self, worker: Worker) -> None:
-        self._worker = worker
-        self._ask()
-
-    def read_c(self) -> float | None:
-        """What was asked for last, in °C; None while it is not there."""
-        try:
-            answer = self._worker.receive()
-        except WorkerEnded:
-            raise OSError(errno.EPIPE, "the process that reads it has ended") from None
-        if answer is None:
-            if time.monotonic() - self._asked_s > HANGS_S:
-                raise OSError(errno.ETIMEDOUT, "it does not answer, or its bus hangs")
-            return None
-        number, reading_c = ANSWER.unpack_from(answer)
-        said = bytes(answer[ANSWER.size :]).decode(errors="replace")
-        self._ask()
-        if number:
-            raise OSError(number, said)
-        return float(reading_c)
-
-    def close(self) -> None:
-        """End its process."""
-        self._worker.close()
-
-    def _ask(self) -> None:
-        self._asked_s = time.monotonic()
-        self._worker.send(b"?")
-
-
-def serve_sensor(sensor: Sensor, loop: socket.socket) -> None:
-    """Ask a sensor whenever the loop asks, for as long as there is one; it may block."""
-    while loop.recv(1):
-        try:
-            answer = ANSWER.pack(0, sensor.read_c())
-        except OSError as error:
-            answer = ANSWER.pack(error.errno or errno.EIO, 0.0) + (error.strerror or "").encode()[:1024]
-        loop.send(answer)
-
-
-class Hwmon:
-    """A sensor with a driver in the kernel: sysfs gives thousandths of a degree (Documentation/hwmon/sysfs-interface).
-
-    Parameters
-    ----------
-    device : str
-        Path of a temp*_input, or the name of a chip, whose temp1_input is meant.
-    """
-
-    def __init__(self, device: str) -> None:
-        self._device = device
-        self._fd = -1
-
-    def read_c(self) -> float:
-        """Temperature in °C."""
-        try:
-            if self._fd < 0:
-                self._fd = os.open(self._path(), os.O_RDONLY | os.O_CLOEXEC)
-            return int(os.pread(self._fd, 32, 0)) * 1e-3
-        except ValueError:
-            self.close()
-            raise OSError(errno.EIO, "what it says is no number") from None
-        except OSError:
-            self.close()
-            raise
-
-    def close(self) -> None:
-        """Let go of the file."""
-        if self._fd >= 0:
-            os.close(self._fd)
-            self._fd = -1
-
-    def _path(self) -> str:
-        if "/" in self._device:
-            return self._device
-        names = []
-        for chip in sorted(HWMON.glob("hwmon*")):
-            name = (chip / "name").read_text().strip()
-            if name == self._device:
-                return str(chip / "temp1_input")
-            names.append(name)
-        raise OSError(errno.ENODEV, f"no hwmon chip has this name; there are: {', '.join(names) or 'none'}")
-
-
-class Lm75:
-    """LM75, TMP75, TMP102 and their like: register 0 is the temperature, two's complement, most significant byte first.
-
-    9 to 16 bits, as the chip resolves them, the rest 0 (LM75B datasheet 7.4.3; TMP75 7.5.1.2; TMP102 normal mode).
-
-    Parameters
-    ----------
-    bus : str
-        Such as /dev/i2c-1.
-    address : int
-        0x48 to 0x4F, by the chip's pins.
-    """
-
-    def __init__(self, bus: str, address: int) -> None:
-        self._bus_name = bus
-        self._address = address
-        self._bus: SMBus | None = None
-
-    def read_c(self) -> float:
-        """Temperature in °C: one word, 0.4 ms at 100 kHz."""
-        try:
-            if self._bus is None:
-                self._bus = SMBus(self._bus_name)
-                if self._bus.fd is not None:
-                    fcntl.ioctl(self._bus.fd, I2C_TIMEOUT, BUS_TIMEOUT_MS // 10)
-                    fcntl.ioctl(self._bus.fd, I2C_RETRIES, 0)
-            return lm75_c(self._bus.read_word_data(self._address, TEMPERATURE_REGISTER))
-        except OSError:
-            self.close()
-            raise
-
-    def close(self) -> None:
-        """Let go of the bus."""
-        if self._bus is not None:
-            with contextlib.suppress(OSError):
-                self._bus.close()
-            self._bus = None
-
-
-def lm75_c(word: int) -> float:
-    """Temperature in °C of an SMBus word, whose low byte came first and is the chip's high one."""
-    return ctypes.c_int16((word & 0xFF) << 8 | word >> 8 & 0xFF).value * STEP_C
 
 
 def bit_clock_scale(settings: Temperature, temperature_c: float) -> float:
@@ -264,11 +91,6 @@ class Thermometer:
         self.temperature_c = reading_c
         self._good_s = now_s
         self.cause = ""
-
-
-def sensor_of(settings: Temperature) -> Sensor:
-    """The one that the settings name; it may be absent, and come later."""
-    return Hwmon(settings.device) if settings.kind == "hwmon" else Lm75(settings.device, settings.address)
 
 
 def _why_not(settings: Temperature, error: OSError) -> str:

@@ -24,7 +24,7 @@ from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import GatewareFactory
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
-from controller.loop.playback import Played
+from controller.loop.records import Played
 from controller.loop.wiring import assemble
 from controller.metrics import STAGES, Counters, LatencyHistogram
 from controller.physics.field import OUTSIDE_M, Field, FocusMetrics

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import errno
-from pathlib import Path
 from typing import Final
 
 import gpiod
 from gpiod.line import Direction, Edge, Value
 
+from controller.board.gpio_chip import find_chip
 from controller.errors import TouchError
 
 CONSUMER: Final = "haptic-panel touch"
@@ -41,7 +41,7 @@ class PanelLines:
         self.has_reset = bool(reset)
         self._interrupt = interrupt
         self._reset = reset
-        self._path = _chip_path(chip_label)
+        self._path = str(find_chip(chip_label, TouchError))
         self._listening: gpiod.LineRequest | None = None
         self._driven: dict[str, gpiod.LineRequest] = {}
         with gpiod.Chip(self._path) as chip:
@@ -119,21 +119,3 @@ class PanelLines:
             busy = error.errno == errno.EBUSY
             reason = "is in use by another program or driver" if busy else f"cannot be requested ({error.strerror})"
             raise TouchError(f"line {name!r} of {self._path} {reason}; gpioinfo shows its consumer") from error
-
-
-def _chip_path(label: str) -> str:
-    labels = []
-    denied = False
-    for path in sorted(Path("/dev").glob("gpiochip*")):
-        try:
-            with gpiod.Chip(str(path)) as chip:
-                found = chip.get_info().label
-        except OSError as error:
-            denied |= error.errno in (errno.EACCES, errno.EPERM)
-            continue
-        if found == label:
-            return str(path)
-        labels.append(found)
-    if denied:
-        raise TouchError("GPIO chips may not be opened by this user: add it to the group that owns them (on Debian: gpio)")
-    raise TouchError(f"there is no GPIO chip labelled {label!r}; labels present: {', '.join(labels) or 'none'}")

@@ -24,12 +24,12 @@ class Interpolation:
     ----------
     bank : Bank
         The open bank; its response section is mapped with the first interpolation.
-    taken : int
-        How many rows of a response: all samples, or the rest outside the band too.
+    response_rows : int
+        How many rows of a response: its samples, or those and the rest outside the band.
     """
 
-    def __init__(self, bank: Bank, taken: int) -> None:
-        values = taken * CHANNELS
+    def __init__(self, bank: Bank, response_rows: int) -> None:
+        values = response_rows * CHANNELS
         self._values = values
         self._bank = bank
         self._grid = bank.grid
@@ -37,13 +37,13 @@ class Interpolation:
         self._weights = [np.empty((), np.int16) for _ in range(4)]
 
     def at(self, x_m: float, y_m: float, out: NDArray[np.int16]) -> None:
-        """Response at a point, in a unit of its own.
+        """Response at a point, in a unit that differs from point to point.
 
         Parameters
         ----------
         x_m, y_m : float
             Points beyond the outermost cells take the nearest place among the cells.
-        out : (taken * 32,) int16 array
+        out : (response_rows * 32,) int16 array
             Filled, in drive order.
 
         Raises

@@ -96,8 +96,8 @@ def test_a_panel_that_says_nothing_is_not_waited_for_without_end(folder):
     [
         (b'{"kind":"farewell","reason":"the service ends"}\n', "has ended the connection: the service ends"),
         (b"", "has ended the connection"),
-        (b"HTTP/1.1 400 Bad Request\r\n", "what answers there is no panel, or another version"),
-        (b'{"kind":"hello","id":1,"version":"9"}\n', "what answers there is no panel, or another version"),
+        (b"HTTP/1.1 400 Bad Request\r\n", "the answer is not that of a panel of this version"),
+        (b'{"kind":"hello","id":1,"version":"9"}\n', "the answer is not that of a panel of this version"),
     ],
 )
 def test_an_end_and_a_stranger_are_told_apart(folder, said, words):

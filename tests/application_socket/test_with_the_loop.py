@@ -123,7 +123,7 @@ def test_a_panel_that_is_disarmed_plays_nothing_through_a_stall_until_it_is_arme
         5: "done",
         6: "played",
     }
-    assert "the panel is disarmed, until somebody with the right to operate it arms it" in told[3]["reason"]
+    assert "the panel is disarmed; a client that may operate it has to arm it" in told[3]["reason"]
     assert told[4]["reason"] == told[3]["reason"]
     assert not [one for one in played if 0.25 < one.trigger_s < 1.0], "nor the spot"
     assert any(one.trigger_s > 1.0 for one in played)

@@ -20,8 +20,8 @@ from pathlib import Path
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.board.board import Board, find_board, load_board
+from controller.service.realtime import enter_realtime
 from controller.service.scene_reload import SceneChanger
-from controller.service.systemd import enter_realtime
 
 DEATHS = 5
 TURN_S = 5e-3

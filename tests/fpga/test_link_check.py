@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
-from controller.fpga.bring_up import BitErrors, bit_errors
+from controller.fpga.bit_errors import BitErrors, bit_errors
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.link_check import (

@@ -15,10 +15,10 @@ from controller.clocks import VirtualClock
 from controller.fpga import frames, session, upload_image
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.upload_image import UploadImage, upload_slices
-from controller.loop.batching import Batch
 from controller.loop.commands import Outcome
 from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
+from controller.loop.records import Batch
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.service.drivers import open_session, open_simulated

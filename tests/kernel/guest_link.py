@@ -25,7 +25,8 @@ from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
 from controller.loop.outputs import Outputs
 from controller.metrics import Counters
-from controller.service.doctor import examine_link, look
+from controller.service.doctor import look
+from controller.service.link_examination import examine_link
 from controller.service.temperature import RETRY_S, Thermometer
 
 LABEL = "panel"

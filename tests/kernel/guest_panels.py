@@ -209,7 +209,7 @@ def test_two_panels_of_one_name_are_listed():
 
 def test_what_is_no_touch_panel_is_refused_by_name_and_reason():
     flat = {e.EV_KEY: [e.BTN_TOUCH], e.EV_ABS: [(e.ABS_X, AbsInfo(0, 0, 0, 0, 0, 0)), (e.ABS_Y, AbsInfo(0, 0, 9, 0, 0, 0))]}
-    for capabilities, words in (({e.EV_KEY: [e.KEY_A]}, "no axes"), (flat, "range from 0 to 0")):
+    for capabilities, words in (({e.EV_KEY: [e.KEY_A]}, "no position axes"), (flat, "range from 0 to 0")):
         device = uinput(capabilities, "odd")
         refusal = raised(lambda path=device.device.path: LinuxInput(path))
         assert words in refusal
@@ -362,7 +362,7 @@ def test_a_mouse_tells_its_steps_with_times_of_the_monotonic_clock():
     assert [step[:3] for step in steps] == [(e.EV_REL, e.REL_X, 3), (e.EV_REL, e.REL_Y, -2), (e.EV_REL, e.REL_X, 1)]
     assert all(before_s - 1e-5 <= step[3] <= after_s for step in steps)
     device.close()
-    assert "the mouse has gone" in raised(mouse.read)
+    assert "the mouse was disconnected" in raised(mouse.read)
     mouse.close()
     panel = uinput(PANEL_B, "no mouse")
     assert "is no mouse" in raised(lambda: Mouse(panel.device.path))
@@ -619,7 +619,7 @@ def test_an_ft5x06_that_loses_its_power_is_set_to_work_again():
 
 
 def test_lines_and_buses_that_are_not_there_are_named():
-    assert "no GPIO chip labelled 'panel'" in raised(gt911)
+    assert "no GPIO chip has the label 'panel'" in raised(gt911)
     with bench(Gt911Chip()) as far_end:
         assert "has no line 'NO_SUCH'" in raised(lambda: gt911(interrupt_line="NO_SUCH"))
         assert "no I2C bus /dev/i2c-99" in raised(lambda: gt911(bus="/dev/i2c-99"))

@@ -11,7 +11,7 @@ import traceback
 from pathlib import Path
 
 from controller.board.devices import Realtime
-from controller.service.systemd import enter_realtime
+from controller.service.realtime import enter_realtime
 
 BANK_BYTES = 300 << 20
 

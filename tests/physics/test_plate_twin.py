@@ -1,6 +1,7 @@
 import msgspec
 import numpy as np
 import pytest
+from physics.steps import step_displacement
 from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits
@@ -118,7 +119,7 @@ def test_the_ring_of_earlier_emissions_and_of_the_arming_is_carried_over(twin, m
             bits = channel_bits(np.array([before, after], "<u4")).astype(float)
             ages[tick] = ages.get(tick, 0) + (bits[1] - bits[0]) * BOARD.driver.supply_v
     for tick, volts in ages.items():
-        modal += step.displacement((end - tick) / CLOCK_HZ) * (twin.forces @ volts)
+        modal += step_displacement(step, (end - tick) / CLOCK_HZ) * (twin.forces @ volts)
     expected = shapes @ (modal - step.static * (twin.forces @ rest))
     assert relative_error(third.at(POINTS), expected) < 1e-9
     assert relative_error(superposed(model, words), expected) > 1e-2  # what a single emission would give

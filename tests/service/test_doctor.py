@@ -25,7 +25,8 @@ from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.service import doctor
-from controller.service.doctor import examine_link, look
+from controller.service.doctor import look
+from controller.service.link_examination import examine_link
 
 AXES = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
 SPI = LinkSettings(

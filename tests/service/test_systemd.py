@@ -1,10 +1,8 @@
-"""What the service manager hears, and what the kernel is asked for where it is refused (tests/kernel: where it is permitted)."""
+"""What the service manager is sent."""
 
 import os
 import re
 import socket
-import subprocess
-import sys
 from collections import deque
 
 import pytest
@@ -124,54 +122,3 @@ def test_only_a_service_that_is_watched_sends_pings(manager, environment, watche
         for now_s in (0.0, 0.9, 1.1, 2.05):
             watchdog.progress(now_s)
     assert heard(listening) == ([["WATCHDOG=1"]] * 2 if watched else [])
-
-
-def in_a_process_without_rights(code):
-    """Printed by code run as nobody, with no limit left to raise."""
-    prelude = """
-import os, resource
-from math import inf
-import numpy
-from controller.board.devices import Realtime
-from controller.service.systemd import enter_realtime, one_blas_thread
-resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
-resource.setrlimit(resource.RLIMIT_MEMLOCK, (65536, 65536))
-if os.getuid() == 0:
-    os.setgroups([]); os.setgid(65534); os.setuid(65534)
-"""
-    done = subprocess.run([sys.executable, "-c", prelude + code], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
-def test_where_it_is_not_permitted_one_line_says_what_and_what_to_do():
-    printed = in_a_process_without_rights("""
-print(*enter_realtime(Realtime(priority=40, cpu=1023)), sep="\\n")
-assert os.sched_getscheduler(0) == os.SCHED_OTHER
-numpy.zeros(40_000_000 // 8)  # more than the limit: it must not have become unobtainable
-""")
-    assert printed.count("\n") == 1
-    assert "SCHED_FIFO at priority 40: Operation not permitted (ulimit -r is 0; LimitRTPRIO=40 in the unit)" in printed
-    assert "core 1023: Invalid argument" in printed
-    assert "memory is not locked (ulimit -l is 64 KiB; LimitMEMLOCK=infinity in the unit)" in printed
-
-
-def test_what_is_not_asked_for_is_not_warned_of():
-    assert in_a_process_without_rights("print(enter_realtime(Realtime(priority=0, lock_memory=False)))") == "[]\n"
-
-
-def test_blas_is_left_one_thread():
-    """Asked from the library itself; two threads beforehand, whatever the machine has."""
-    printed = in_a_process_without_rights("""
-import ctypes
-told = one_blas_thread()
-library = ctypes.CDLL(told[0])
-asked = next(name for name in ("scipy_openblas_get_num_threads64_", "scipy_openblas_get_num_threads",
-                               "openblas_get_num_threads64_", "openblas_get_num_threads") if hasattr(library, name))
-get, set = getattr(library, asked), getattr(library, asked.replace("get", "set"))
-set(2)
-assert get() == 2
-enter_realtime(Realtime(priority=0, lock_memory=False))
-print(get(), os.environ["OPENBLAS_NUM_THREADS"])
-""")
-    assert printed == "1 1\n"

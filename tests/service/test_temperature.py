@@ -11,20 +11,9 @@ from hypothesis import strategies as st
 
 from controller.board.devices import Temperature
 from controller.board.worker import WorkerEnded
-from controller.service import temperature
-from controller.service.temperature import (
-    ANSWER,
-    HANGS_S,
-    HOLD_S,
-    JUMP_C,
-    RETRY_S,
-    Hwmon,
-    SensorProcess,
-    Thermometer,
-    bit_clock_scale,
-    lm75_c,
-    serve_sensor,
-)
+from controller.service import temperature_sensors
+from controller.service.temperature import HOLD_S, JUMP_C, RETRY_S, Thermometer, bit_clock_scale
+from controller.service.temperature_sensors import ANSWER, HANGS_S, Hwmon, SensorProcess, lm75_c, serve_sensor
 
 SETTINGS = Temperature(kind="hwmon", device="plate", coefficient_per_k=-100e-6)
 
@@ -138,7 +127,7 @@ def test_why_a_sensor_cannot_be_read_is_said_with_what_to_do(number, said):
 
 
 def test_hwmon_is_found_by_name_and_by_path_and_again_after_it_was_away(tmp_path, monkeypatch):
-    monkeypatch.setattr(temperature, "HWMON", tmp_path)
+    monkeypatch.setattr(temperature_sensors, "HWMON", tmp_path)
     by_name, by_path = Hwmon("plate"), Hwmon(str(tmp_path / "hwmon1" / "temp1_input"))
     with pytest.raises(OSError, match="there are: none"):
         by_name.read_c()
@@ -193,7 +182,7 @@ class Answers:
 
 def test_a_sensor_that_has_not_answered_is_waited_for_and_one_that_never_does_is_told(monkeypatch):
     now_s = [100.0]
-    monkeypatch.setattr(temperature, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+    monkeypatch.setattr(temperature_sensors, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
     worker = Answers()
     thermometer = Thermometer(SETTINGS, SensorProcess(worker))
     assert (thermometer.scale(0.0), thermometer.cause, worker.asked) == (1, "", 1)

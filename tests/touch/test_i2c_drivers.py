@@ -36,7 +36,7 @@ class Bench:
         self._monkeypatch = monkeypatch
         self._opened = []
         monkeypatch.setattr(i2c_reader, "time", SimpleNamespace(sleep=self.wait))
-        monkeypatch.setattr(panel_lines, "_chip_path", lambda _: "/dev/gpiochip0")
+        monkeypatch.setattr(panel_lines, "find_chip", lambda *_: "/dev/gpiochip0")
 
     def put(self, chip, **adapter):
         self.chip = chip

@@ -84,7 +84,7 @@ def main():
     adapter._Input = Input
     smbus2.smbus2.ioctl = i2c_bus.fcntl.ioctl = ioctl
     panel_lines.gpiod = lines
-    panel_lines._chip_path = lambda _: "/dev/gpiochip0"
+    panel_lines.find_chip = lambda *_: "/dev/gpiochip0"
     axes_mm = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
     settings = Gt911Touch(bus=sys.argv[1] + ".bus", interrupt_chip="panel", interrupt_line="INT", **axes_mm)
     with socket.socket(fileno=sys.stdin.fileno()) as loop:

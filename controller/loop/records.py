@@ -1,0 +1,145 @@
+"""The data of one turn, in the order in which it arises; each record is frozen.
+
+Touch samples and time give emissions (`scene`), emissions that are due give a `Batch`, a batch a `Plan`; the FPGA accepts it
+(`Accepted`) or not, which an `Attempt` tells, and once it starts it is `Played`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from controller.clocks import FpgaTime
+from controller.loop.commands import Outcome
+from controller.scene.emission import Emission
+from controller.waveforms.composition import Point
+from controller.waveforms.selection import Key
+
+ENDLESS = 0  # repetitions: until they are replaced
+
+
+class Turn(NamedTuple):
+    """One turn of the loop.
+
+    Attributes
+    ----------
+    started_ns : int
+        When it began (perf_counter_ns).
+    now_s : float
+        Host time.
+    fpga_s : FpgaTime
+        The same moment.
+    report_ns : int
+        From the kernel's timestamp of the touch report read in this turn to its read; -1 without a report.
+    finger : int or None
+        Which finger moved, in that report.
+    """
+
+    started_ns: int
+    now_s: float
+    fpga_s: FpgaTime
+    report_ns: int
+    finger: int | None
+
+
+class Batch(NamedTuple):
+    """Emissions that are played as one waveform.
+
+    Attributes
+    ----------
+    emissions : sequence of Emission
+        One for each focus.
+    repetitions, period_s : int, float
+        By the FPGA, from start to start; repetitions may be ENDLESS.
+    at_s : FpgaTime or None
+        When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it
+        as soon as the plate is free.
+    """
+
+    emissions: Sequence[Emission]
+    repetitions: int = 1
+    period_s: float = 0.0
+    at_s: FpgaTime | None = None
+
+
+class Plan(NamedTuple):
+    """How a batch is played.
+
+    Attributes
+    ----------
+    points : list of Point
+        Where each emission meets its finger, and its amplitude.
+    key : Key
+        Waveform for these points.
+    resident : Key or None
+        Waveform in a slot of the FPGA that serves for it; None: it has to be uploaded.
+    start_s : FpgaTime
+        Earliest start.
+    """
+
+    points: list[Point]
+    key: Key
+    resident: Key | None
+    start_s: FpgaTime
+
+
+class Accepted(NamedTuple):
+    """A batch whose play command the FPGA has accepted, and what that took."""
+
+    batch: Batch
+    plan: Plan
+    ready_s: float  # host time at which the command had arrived
+    start_s: float  # host time
+    start_ticks: int | None  # of the FPGA's clock, if it starts the batch by itself
+    decide_ns: int
+    frame_ns: int
+    wire_ns: int
+
+
+class Attempt(NamedTuple):
+    """What became of a batch.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        PLAYED: the FPGA has accepted it. SKIPPED: the bank lacks what it needs. REFUSED: by the FPGA.
+    start_s : float
+        Host time at which it starts, as expected; NaN if it was not accepted.
+    fpga_s : FpgaTime
+        The same moment, to the clock if the FPGA starts it.
+    started : bool
+        Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
+    """
+
+    outcome: Outcome
+    start_s: float = math.nan
+    fpga_s: FpgaTime = FpgaTime(math.nan)
+    started: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """One start, for those who watch.
+
+    Attributes
+    ----------
+    trigger_s : float
+        Host time at which it starts.
+    emissions : tuple of Emission
+        With the places at which they meet their fingers.
+    count, period_s : int, float
+        Repetition by the FPGA; count 0: until replaced.
+    resident : bool
+        Whether the waveform was in a slot already.
+    at_ticks : int or None
+        Tick of the FPGA's clock at which it was told to start; None: the trigger pin rose.
+    """
+
+    trigger_s: float
+    emissions: tuple[Emission, ...]
+    count: int
+    period_s: float
+    resident: bool
+    at_ticks: int | None = None
