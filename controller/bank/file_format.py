@@ -34,6 +34,7 @@ MODEL_CODE = (
     "physics/plate.py",
     "physics/driver.py",
     "physics/step_response.py",
+    "physics/modal_response.py",
     "physics/impulse_response.py",
     "physics/row_responses.py",
     "bank/packing.py",
