@@ -1,1 +1,1 @@
-"""What a panel is made of: board.toml as checked records, where boards and state lie, and how devices are reached."""
+"""The description of a panel: board.toml as checked records, folders of boards and state, and access to devices."""

@@ -78,7 +78,7 @@ class Plate(Record, frozen=True):
 
     @property
     def decay_time_s(self) -> float:
-        """Time in which a free displacement falls to 1/e, in s."""
+        """Time in which a free vibration falls to 1/e, in s."""
         return self.decay_time_ms * 1e-3
 
 
@@ -163,7 +163,7 @@ class Waveform(Record, frozen=True):
 
     @property
     def bit_period_s(self) -> float:
-        """Time one drive word is held, in s."""
+        """Time for which one drive word is output, in s."""
         return 1 / self.bit_clock_hz
 
     @property
@@ -303,24 +303,25 @@ class Board(Record, frozen=True):
 
     @property
     def called(self) -> str:
-        """What to give as --board: the name of its folder where that finds it, else the folder."""
+        """Value for --board that finds this board: the name of its folder where boards are looked up, else the folder's path."""
         found = next((place / self.key for place in board_places() if (place / self.key / "board.toml").is_file()), None)
         return self.key if found is not None and found.resolve() == self.folder.resolve() else str(self.folder)
 
     @property
     def key(self) -> str:
-        """Name of its folder: what it is looked up by, and its bank with it, when it is the copy of another board."""
-        return Path(os.path.abspath(self.folder)).name or self.name  # noqa: PTH100 - a link keeps its name
+        """Name of its folder, which also names its bank: a copy of a board keeps the board's `name` but not its key."""
+        return Path(os.path.abspath(self.folder)).name or self.name  # noqa: PTH100 - a symbolic link keeps its name
 
     @property
     def is_the_systems(self) -> bool:
-        """Whether it lies where the service looks for its board."""
+        """Whether its folder is in /etc, where the service looks for its board."""
         return Path(os.path.abspath(self.folder)).parent.resolve() == SYSTEM_BOARDS.resolve()  # noqa: PTH100
 
     def beside(self, name: str) -> Path:
-        """File that this board names: in its folder, or that of another board, wherever boards are looked up.
+        """Path of a file that this board names, relative to its folder.
 
-        A copied board finds `../simulated/scene.toml` where it was copied from.
+        A name such as `../simulated/scene.toml` is also looked up beside the boards of the other places, so that a copy of a
+        board still finds the files of the board beside which the original was. The file need not exist.
         """
         file = self.folder / name
         if file.exists() or Path(name).parts[:1] != ("..",):
@@ -340,26 +341,26 @@ class Board(Record, frozen=True):
 
     @property
     def bit_period(self) -> int:
-        """Time for which one drive word is held, in 65536ths of a clock of the FPGA."""
+        """Time for which one drive word is output, in 65536ths of a tick of the FPGA."""
         return round(self.link.clock_hz / self.waveform.bit_clock_hz * 65536)
 
     @property
     def bit_ticks(self) -> int:
-        """The same in whole clocks."""
+        """Time for which one drive word is output, in whole ticks of the FPGA."""
         return round(self.link.clock_hz / self.waveform.bit_clock_hz)
 
     @property
     def emission_ticks(self) -> int:
-        """Clocks of the FPGA from the first drive word of an emission to the end of its last."""
+        """Length of an emission in ticks of the FPGA."""
         return self.waveform.samples * self.bit_period >> 16
 
     def period_ticks(self, period_s: float) -> int:
-        """Clocks from the start of one emission to the next; a period that rounding sets a clock off the emission's is that."""
+        """Period of repeated emissions in ticks; one that differs from the emission's length by a tick of rounding equals it."""
         ticks = round(period_s * self.link.clock_hz)
         return self.emission_ticks if abs(ticks - self.emission_ticks) <= 1 else ticks
 
     def digest(self) -> bytes:
-        """SHA-256 of the plate, actuator, driver and waveform tables: what a bank is computed from."""
+        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform."""
         tables = (self.plate, self.actuators, self.driver, self.waveform)
         return hashlib.sha256(msgspec.json.encode(tables, order="deterministic")).digest()
 
@@ -404,17 +405,22 @@ def load_board(path: Path) -> Board:
 
 
 def simulated(board: Board) -> Board:
-    """The same board with its gateware computed in place of its FPGA."""
+    """The same board with simulated gateware instead of its FPGA."""
     return msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, kind="simulated"))
 
 
 def find_board(name_or_path: str) -> Path:
-    """Folder of a board: a path, else a name looked up in /etc, the source tree and the installed data.
+    """Folder of a board.
+
+    Parameters
+    ----------
+    name_or_path : str
+        Path of a folder or of its board.toml; else a name, looked up in /etc, the source tree and the installed data.
 
     Raises
     ------
     ConfigError
-        If there is none, listing the boards that exist.
+        If there is no such board; the message lists those that exist.
     """
     given = Path(name_or_path)
     if given.is_file() and given.suffix == ".toml":
@@ -435,7 +441,7 @@ def board_places() -> list[Path]:
 
 
 def data_folder(room: str) -> Path:
-    """Where `boards`, `fpga_rtl` or `systemd` lie: in the source tree, else under the installation's prefix."""
+    """Folder of `boards`, `fpga_rtl` or `systemd`: in the source tree, else below share/ of the installation."""
     beside = Path(__file__).resolve().parent.parent.parent / room
     if beside.is_dir() and (beside.parent / "pyproject.toml").is_file():
         return beside

@@ -54,24 +54,24 @@ class TouchPanel(Record, frozen=True, kw_only=True):
 
     @property
     def lag_s(self) -> float:
-        """Time from where the finger was to its report, in s."""
+        """Age of a position when it is reported, in s."""
         return self.lag_ms * 1e-3
 
     @property
     def max_size_m(self) -> float:
-        """Widest contact that is a finger, in m."""
+        """Largest size of a contact that counts as a finger, in m."""
         return self.max_size_mm * 1e-3
 
     @property
     def ghost_s(self) -> float:
-        """Time after an emission within which its ghosts have gone, in s."""
+        """Time after an emission until its ghosts have gone, in s."""
         return self.ghost_ms * 1e-3
 
 
 class RecordingTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="recording"):
-    """No panel: a recording is replayed."""
+    """No touch panel: a recording is replayed."""
 
-    ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 0.0  # what was recorded does not hear what is played now
+    ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 0.0  # emissions cannot cause contacts in a recording
 
 
 class LinuxInputTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="linux_input"):
@@ -213,7 +213,7 @@ class LinkSettings(Record, frozen=True, kw_only=True):
                     raise ValueError(f"{key} is missing: a link of kind 'spi' needs it, such as {example!r}")
 
     def wire_s(self, size_bytes: int) -> float:
-        """Time that bytes take on the wire, without the pauses between frames."""
+        """Time that bytes take on the wire, in s, without the pauses between frames."""
         return size_bytes * (SERIAL_BITS_PER_BYTE / self.baud if self.kind == "serial" else 8 / self.sck_hz)
 
 

@@ -1,4 +1,4 @@
-"""GPIO lines by what stays the same over kernels and boards: the chip's label and the line's name."""
+"""GPIO lines by the chip's label and the line's name, which do not change between kernels and boots as numbers do."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ import gpiod
 from controller.errors import ControllerError
 
 DEVICES = Path("/dev")
-NEAR_NAMES = 4  # lines told to somebody who misspelt one
+NEAR_NAMES = 4  # similar names listed in an error message
 
 
 def find_chip(label: str, failure: type[ControllerError]) -> Path:
-    """The GPIO chip with this label.
+    """Path of the GPIO chip with this label.
 
     Parameters
     ----------
+    label : str
+        As `gpiodetect` lists it.
     failure : type of ControllerError
         What to raise: LinkError, TouchError.
 
     Raises
     ------
     ControllerError
-        If there is none, naming those there are; or if this user may not open them.
+        If there is none, or this user may not open it; the message lists the chips that exist.
     """
     labels = []
     refused = []
@@ -49,23 +51,23 @@ def find_chip(label: str, failure: type[ControllerError]) -> Path:
 def request_lines(
     label: str, lines: dict[str, gpiod.LineSettings], consumer: str, failure: type[ControllerError]
 ) -> gpiod.LineRequest:
-    """Take lines of one chip for this process alone.
+    """Request lines of one chip for exclusive use.
 
     Parameters
     ----------
     label : str
-        Of the chip.
+        Label of the chip.
     lines : dict
-        Settings of each line by its name.
+        Settings by line name.
     consumer : str
-        What others who ask for them are told, such as by gpioinfo.
+        Name of the user of the lines, as gpioinfo shows it.
     failure : type of ControllerError
         What to raise.
 
     Raises
     ------
     ControllerError
-        If the chip or a line is absent, or somebody else holds a line.
+        If the chip or a line does not exist, or a line is in use.
     """
     path = find_chip(label, failure)
     try:
@@ -75,13 +77,13 @@ def request_lines(
             config: dict[Iterable[int | str] | int | str, gpiod.LineSettings | None] = dict(lines.items())
             return chip.request_lines(config, consumer=consumer)
     except OSError as error:
-        if error.errno == errno.EBUSY:  # taken between the look and the request
+        if error.errno == errno.EBUSY:  # taken since it was checked
             raise failure(f"a line of GPIO chip {label!r} is in use by another program: end it first") from error
         raise failure(f"GPIO chip {label!r} ({path}) failed: {error.strerror}") from error
 
 
 def _require_free(chip: gpiod.Chip, label: str, name: str, failure: type[ControllerError]) -> None:
-    """Raise unless a line is there and nobody holds it."""
+    """Raise unless a line exists and is not in use."""
     try:
         info = chip.get_line_info(name)
     except OSError as error:

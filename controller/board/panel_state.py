@@ -1,4 +1,4 @@
-"""How the panel is: the words that status, log, socket and exit share."""
+"""State of the panel, in the words that `systemctl status`, log, socket and exit share."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ from enum import Enum
 
 
 class PanelState(Enum):
-    """One word for all of it; of several that hold, the first of these."""
+    """State of the panel; if several apply, the first."""
 
-    WAITING_FOR_FPGA = "waiting for FPGA"  # its device is not there, or it does not answer
-    NO_PERMIT = "no permit"  # the run permit is missing: outputs stay off until it is given
-    FAULTED = "faulted"  # the FPGA has switched off, or may not be armed, for another reason
+    WAITING_FOR_FPGA = "waiting for FPGA"  # its device is missing, or it does not answer
+    NO_PERMIT = "no permit"  # the run permit is missing; outputs stay off until it is given
+    FAULTED = "faulted"  # the FPGA has switched off, or cannot be armed, for another reason
     DISARMED = "disarmed"  # a client has switched the panel off
-    WAITING_FOR_PANEL = "waiting for panel"  # no touch panel; commands and spots are played
-    PLAYING = "playing"  # something was felt within the last second
-    ARMED = "armed"  # outputs are on; what is touched is felt
+    WAITING_FOR_PANEL = "waiting for panel"  # no touch panel; commands and spots are still played
+    PLAYING = "playing"  # something was played within the last second
+    ARMED = "armed"  # outputs are on
 
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """The state with what explains it.
+    """State of the panel, with its cause and what clients show beside it.
 
     Attributes
     ----------
     state : PanelState
     cause : str
-        Why not everything works, in words; empty while it does, or while it is being switched on.
+        Why not everything works; empty if everything does, or while the outputs are being switched on.
     outputs_on : bool
-        Whether plays are taken.
+        Whether the FPGA accepts plays.
     panel_present : bool
-        Whether the touch panel is there.
+        Whether the touch panel is connected.
     temperature_c : float or None
-        Of the plate; None where it is not known.
+        Temperature of the plate; None if unknown.
     """
 
     state: PanelState = PanelState.WAITING_FOR_FPGA

@@ -1,6 +1,7 @@
-"""Where what this software makes lies: one bank for each board, found by whoever builds, plays, looks at or judges it.
+"""Paths of generated files: one bank for each board, at the same path for every command.
 
-A board of /etc is the service's, and so is its bank, whoever asks; what belongs to no service lies in the user's cache.
+The bank of a board in /etc is in the state folder of the service, whichever user asks; that of any other board is in the user's
+cache.
 """
 
 from __future__ import annotations
@@ -15,15 +16,15 @@ import platformdirs
 from controller.board.board import Board
 from controller.errors import BankError
 
-SERVICE = "haptic-panel"  # the service's user, and its group
+SERVICE = "haptic-panel"  # name of the service's user and group
 SERVICE_STATE = Path("/var/lib/haptic-panel")  # StateDirectory= of the unit
 SERVICE_STATE_MODE = 0o750  # StateDirectoryMode=
 
 
 def state_folder(board: Board | None = None) -> Path:
-    """Folder for what is made: as systemd says, else of a board of /etc the service's, else the user's own cache.
+    """Folder for generated files: $STATE_DIRECTORY, else for a board in /etc that of the service, else the user's cache.
 
-    It need not exist yet.
+    It need not exist.
     """
     state = os.environ.get("STATE_DIRECTORY")  # set by systemd's StateDirectory=
     if state:
@@ -32,12 +33,12 @@ def state_folder(board: Board | None = None) -> Path:
 
 
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:
-    """File of a board's bank, which serves all scenes whose cells it has.
+    """Path of a board's bank. It serves every scene whose cells it has.
 
     Parameters
     ----------
     pitch_m : float, optional
-        Of the grid. Another than the board's own has a file of its own, which is played only where it is asked for.
+        Pitch of the grid in m. A bank with another pitch than the board's has a file of its own, played only with --bank.
     """
     own_m = board.bank.pitch_mm * 1e-3
     name = board.key if pitch_m is None or pitch_m == own_m else f"{board.key}-{pitch_m * 1e3:g}mm"
@@ -45,7 +46,7 @@ def bank_path(board: Board, pitch_m: float | None = None) -> Path:
 
 
 def is_there(path: Path) -> bool:
-    """Whether a file is there, or its folder is closed to this user, as opening it then says."""
+    """Whether a file exists. True also if this user may not look: opening the file then raises an error that says so."""
     try:
         return path.exists()
     except PermissionError:
@@ -53,19 +54,19 @@ def is_there(path: Path) -> bool:
 
 
 def build_line(path: Path, board: Board | str | None) -> str:
-    """Line for a shell that builds a bank at a path; of a board only its name may be known, or nothing."""
+    """Command line that builds a bank at a path. The board may be given as its name only, or as None."""
     called = board.called if isinstance(board, Board) else board or "NAME"
     out = [] if isinstance(board, Board) and path == bank_path(board) else ["--out", str(path)]
     return shlex.join(["haptic-panel", "bank", "build", "--board", called, *out])
 
 
 def make_folder(folder: Path) -> None:
-    """Make the folder of a bank; where root makes the service's, it is the service's then.
+    """Create the folder of a bank; if root creates that of the service, its owner is the service's user.
 
     Raises
     ------
     BankError
-        If it cannot be made.
+        If it cannot be created.
     """
     try:
         owner = service_user() if os.geteuid() == 0 else None
@@ -73,7 +74,7 @@ def make_folder(folder: Path) -> None:
             if owner is not None and SERVICE_STATE in (place, *place.parents):
                 if not place.exists():
                     place.mkdir(SERVICE_STATE_MODE)
-                if place.stat().st_uid == 0:  # just made, or before there was such a user
+                if place.stat().st_uid == 0:  # just created, or created before that user existed
                     os.chown(place, owner.pw_uid, owner.pw_gid, follow_symlinks=False)
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -82,7 +83,7 @@ def make_folder(folder: Path) -> None:
 
 
 def service_user() -> pwd.struct_passwd | None:
-    """The user that the service runs as; None where it was never installed."""
+    """User that the service runs as; None if the service is not installed."""
     try:
         return pwd.getpwnam(SERVICE)
     except KeyError:

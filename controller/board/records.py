@@ -28,12 +28,18 @@ class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tr
 
 
 def load_toml(file: Path, kind: type[T]) -> T:
-    """Read a TOML file into a Record, refusing what the Record does not describe.
+    """Read a TOML file into a Record.
+
+    Parameters
+    ----------
+    file : Path
+    kind : type of Record
+        The whole file.
 
     Raises
     ------
     ConfigError
-        Naming file, key and value; also for a file that is absent, unreadable or not TOML.
+        If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     try:
         tables = tomllib.loads(file.read_text(encoding="utf-8"))
@@ -45,9 +51,17 @@ def load_toml(file: Path, kind: type[T]) -> T:
 
 
 def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
-    """A table as a Record; `before` is what a message begins with: the file, and where in it the table is.
+    """Convert a table to a Record.
 
-    Tables by names of the user's choice are converted one by one: msgspec does not tell which of them is wrong.
+    Convert tables with names of the user's choice one by one: msgspec does not report which of them is invalid.
+
+    Parameters
+    ----------
+    before : str
+        Start of an error message: the file, and the place of the table in it.
+    tables : dict
+        The table as read from TOML.
+    kind : type of Record
 
     Raises
     ------
@@ -64,7 +78,7 @@ def as_record(before: str, tables: dict[str, Any], kind: type[T]) -> T:
 
 
 def _leaves(value: Any, path: tuple[str | int, ...]) -> Iterator[tuple[tuple[str | int, ...], Any]]:
-    """Every value below a TOML table with its path."""
+    """Every value in a TOML table, with its path."""
     if isinstance(value, dict):
         for key, inner in value.items():
             yield from _leaves(inner, (*path, key))

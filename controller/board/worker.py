@@ -1,4 +1,4 @@
-"""A process of its own for what may block, such as a bus that hangs: the loop never waits for its messages."""
+"""A helper process for reads that may block, such as on an I2C bus that hangs; the event loop never waits for it."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from collections.abc import Sequence
 
 from controller.errors import ControllerError
 
-MESSAGE_BYTES = 16384  # the longest: a report of ten contacts is 1 kB
-END_S = 0.5  # a process whose bus hangs cannot be ended before; systemd does it, or it ends by itself
+MAX_MESSAGE_BYTES = 16384  # a report of ten contacts has 1 kB
+END_S = 0.5  # wait for its end; a process whose bus hangs ends later, by itself or by systemd
 
 
 class WorkerEnded(ControllerError):
-    """A process that the loop needs has ended by itself: the service ends too, and is started again as a whole."""
+    """A helper process that the loop needs has ended; the service ends too, and systemd restarts it as a whole."""
 
 
 class Worker:
-    """The loop's end of such a process; messages keep their bounds.
+    """The event loop's end of a helper process. Messages keep their boundaries (SOCK_SEQPACKET).
 
-    Started before real time begins: an ordinary process, which takes its own priority. It finds the other end at its
-    standard input, and ends when that does.
+    Create it before the loop gets real-time priority: the process starts with ordinary priority and sets its own. Its standard
+    input is the other end of the socket; it ends when that is closed.
 
     Parameters
     ----------
     arguments : sequence of str
-        For the interpreter; code from the working directory is not among what it can import.
+        Of the Python interpreter, which does not import modules from the working directory (-P).
     """
 
     def __init__(self, arguments: Sequence[str]) -> None:
@@ -35,19 +35,19 @@ class Worker:
         with theirs:
             self._process = subprocess.Popen([sys.executable, "-P", *arguments], stdin=theirs.fileno())
         self._socket.setblocking(False)
-        self._buffer = memoryview(bytearray(MESSAGE_BYTES))
+        self._buffer = memoryview(bytearray(MAX_MESSAGE_BYTES))
 
     def fileno(self) -> int:
-        """Readable when there is a message, or the process has ended."""
+        """File that is readable when there is a message, or when the process has ended."""
         return self._socket.fileno()
 
     def receive(self) -> memoryview | None:
-        """The next message, which holds until the next call; None if there is none.
+        """The next message, valid until the next call; None if there is none.
 
         Raises
         ------
         WorkerEnded
-            If none will come any more.
+            If the process has ended.
         """
         try:
             size = self._socket.recv_into(self._buffer)
@@ -60,7 +60,7 @@ class Worker:
         return self._buffer[:size]
 
     def send(self, message: bytes) -> None:
-        """Send a message; one that finds no room, or nobody, is lost."""
+        """Send a message; it is dropped if the socket is full or closed."""
         with contextlib.suppress(OSError):
             self._socket.send(message)
 

@@ -5,7 +5,6 @@ Each test is a function of an open session, so that it runs the same on the mode
 
 from __future__ import annotations
 
-import math
 import selectors
 import zlib
 from collections.abc import Callable, Iterator, Sequence
@@ -17,12 +16,11 @@ from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.errors import LinkError
-from controller.fpga import frames
+from controller.fpga.bit_errors import BitErrors, bit_errors
 from controller.fpga.capture import Capture
-from controller.fpga.frames import ALL_CHANNELS, CRC, ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
+from controller.fpga.frames import ALL_CHANNELS
 from controller.fpga.registers import (
     CHANNELS,
-    LOAD_PAYLOAD_MAX_BYTES,
     READ_MEMORY,
     Register,
     Start,
@@ -30,7 +28,6 @@ from controller.fpga.registers import (
 from controller.fpga.session import Session
 
 SEED = 1
-TEST_FRAMES = 8  # in one message: as many bytes as an upload
 CHIRP_LOW_HZ, CHIRP_HIGH_HZ = 1e3, 20e3  # audible, and 1 to 2 edges where an emission has 10
 CHIRP_REPETITIONS = 20
 CHIRP_DUTY = 0.1
@@ -43,18 +40,7 @@ class Clock(Protocol):
         """Time in s."""
 
     def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Return at `until_s` or earlier."""
-
-
-@dataclass(frozen=True, slots=True)
-class BitErrors:
-    """Result of sending random bits in TEST frames."""
-
-    frames: int
-    frames_refused: int  # by the FPGA, for sync word, length or CRC
-    answers_damaged: int
-    bits: int  # echoed: they passed the link in both directions
-    wrong_bits: int
+        """Wait until `until_s`, or until `selector` has an event; may return earlier."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,52 +121,8 @@ def _moved(capture: Capture) -> list[int]:
 
 
 def identify(session: Session) -> dict[str, int]:
-    """Values of all readable registers, by name in lower case."""
+    """Values of all readable registers of the FPGA of `session`, by name in lower case."""
     return {register.name.lower(): session.exchange.read(register) for register in Register if register.access != "WO"}
-
-
-def bit_errors(
-    session: Session, bits: float, rng: np.random.Generator, progress: Callable[[int, int], None] = lambda *_: None
-) -> BitErrors:
-    """Send random bits in TEST frames, compare them with the echo, and count errors.
-
-    A UART has no echo: only refused frames and damaged answers are counted.
-
-    Parameters
-    ----------
-    session : Session
-    bits : float
-        Least number of bits to send.
-    rng : numpy.random.Generator
-    progress : callable
-        Called with the number of messages sent, and of all.
-
-    Returns
-    -------
-    BitErrors
-    """
-    exchange = session.exchange
-    frame_bytes = HEADER.size + LOAD_PAYLOAD_MAX_BYTES + CRC.size
-    lengths = [frame_bytes] * TEST_FRAMES
-    refused_before = exchange.read(Register.FRAME_ERRORS)
-    sent = damaged = back = wrong = 0
-    messages = max(math.ceil(bits / (8 * frame_bytes * TEST_FRAMES)), 1)
-    for message in range(messages):
-        end = 0
-        for number in range(TEST_FRAMES):
-            payload = rng.bytes(LOAD_PAYLOAD_MAX_BYTES)
-            end = frames.pack_test(exchange.sent, end, exchange.sequence + number, payload)
-        damaged += exchange.send_unchecked(lengths)
-        there = np.frombuffer(exchange.sent[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
-        here = np.frombuffer(exchange.received[:end], np.uint8).reshape(TEST_FRAMES, frame_bytes)
-        echo = here[:, FRAME_BYTES:]
-        if echo.any():
-            wrong += int(np.unpackbits(echo ^ there[:, FRAME_BYTES - ECHO_DELAY_BYTES : -ECHO_DELAY_BYTES]).sum())
-            back += 8 * echo.size
-        sent += TEST_FRAMES
-        progress(message + 1, messages)
-    refused = exchange.read(Register.FRAME_ERRORS) - refused_before
-    return BitErrors(sent, refused, damaged, back, wrong)
 
 
 def read_slot(session: Session, slot: int, length_words: int) -> bytes:
@@ -231,7 +173,7 @@ def memory_errors(session: Session, board: Board, rng: np.random.Generator) -> i
 
 
 def chirp_words(board: Board) -> NDArray[np.uint32]:
-    """Drive words of a square chirp on all channels, (samples,) uint32: audible, with few edges."""
+    """Drive words of a square chirp on all channels, (samples,) uint32 for `board`: audible, with few edges."""
     duration_s = board.waveform.duration_s
     time_s = np.arange(board.waveform.samples) * board.waveform.bit_period_s
     cycles = CHIRP_LOW_HZ * time_s + (CHIRP_HIGH_HZ - CHIRP_LOW_HZ) * time_s**2 / (2 * duration_s)

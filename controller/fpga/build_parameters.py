@@ -1,4 +1,4 @@
-"""What is fixed when the gateware is built: `python -m controller.fpga.build_parameters BOARD_TOML RTL_FOLDER` prints it."""
+"""Parameters built into the gateware; `python -m controller.fpga.build_parameters BOARD_TOML RTL_FOLDER` prints them."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
 
 @dataclass(frozen=True)
 class Parameters:
-    """What is fixed when the gateware is built; names are those of `haptic_core.v` in lower case.
+    """Parameters built into the gateware, named as in `haptic_core.v`, in lower case.
 
-    The limits are hard: whatever the host writes, or does not, none of them is exceeded.
+    The limits are hard: the FPGA does not exceed them, whatever the host writes.
     """
 
     clock_hz: int
@@ -42,7 +42,7 @@ class Parameters:
 
     @classmethod
     def of(cls, board: Board, build_hash: int) -> Self:
-        """Those of a board: what its bitstream is built with, what simulates it, and what bring-up asks for.
+        """Parameters of a board: its bitstream and its simulation are built with them, and bring-up requires them.
 
         Parameters
         ----------
@@ -71,12 +71,12 @@ class Parameters:
         )
 
     def verilog(self) -> dict[str, int]:
-        """Parameters of the Verilog module."""
+        """Parameters by their names in the Verilog."""
         return {name.upper(): value for name, value in asdict(self).items()}
 
 
 def main(board_toml: str, folder: str) -> None:
-    """Print the parameters of a board's bitstream, `NAME=32'dVALUE`: what its Makefile passes on."""
+    """Print the parameters of the board in `board_toml`, with the Verilog in `folder`, as `NAME=32'dVALUE` for its Makefile."""
     try:
         parameters = Parameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
     except (ConfigError, OSError) as error:

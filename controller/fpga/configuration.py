@@ -123,10 +123,10 @@ def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
 
 
 def ramp_ticks(board: Board, bit_period: int) -> int:
-    """FPGA clocks from DISARM to the end of the ramp, at a bit period in 65536ths of a clock."""
+    """FPGA clocks from DISARM to the end of the ramp of `board`, with `bit_period` in 65536ths of a clock."""
     return (Parameters.of(board, 0).ramp_samples_reset + PIPELINE_SAMPLES) * bit_period >> 16
 
 
 def arming_ticks(board: Board, bit_period: int) -> int:
-    """FPGA clocks from ARM to the end of the ramp, the settling of the high voltage included."""
+    """FPGA clocks from ARM to the end of the ramp of `board`, with settling of the high voltage; as in `ramp_ticks`."""
     return Parameters.of(board, 0).hv_settle_ticks + ramp_ticks(board, bit_period)

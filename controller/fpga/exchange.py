@@ -133,7 +133,7 @@ class Exchange:
         return status
 
     def send_short(self, end: int, *, raise_faults: bool = True) -> Status:
-        """Send the short frames packed in `sent` from 0 to `end`; otherwise as `send`."""
+        """Send the short frames packed in `sent` from 0 to `end`; `raise_faults`, result and errors as in `send`."""
         return self.send([FRAME_BYTES] * (end // FRAME_BYTES), raise_faults=raise_faults)
 
     def retry(self, send: Callable[[bool], Status]) -> Status:
@@ -180,12 +180,12 @@ class Exchange:
                 continue
 
     def control(self, command: Control, *, raise_faults: bool = True) -> None:
-        """Send one command; raises as `send`."""
+        """Send one command; `raise_faults` and errors as in `send`."""
         end = frames.pack_control(self.sent, 0, self.sequence, command)
         self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
 
     def write(self, register: Register, value: int) -> None:
-        """Write one register (u32); raises as `send`."""
+        """Write `value` (u32) to a register; errors as in `send`."""
         end = frames.pack_write(self.sent, 0, self.sequence, register, value)
         self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1))
 

@@ -63,7 +63,7 @@ class GpioLines:
         return edge_s
 
     def permit(self, given: bool) -> None:
-        """Give or withdraw the run permit, if the board has a line for it.
+        """Give (`given`) or withdraw the run permit, if the board has a line for it.
 
         Raises
         ------

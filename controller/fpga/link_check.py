@@ -12,7 +12,7 @@ import numpy as np
 
 from controller.errors import LinkError
 from controller.fpga import frames
-from controller.fpga.bring_up import BitErrors, bit_errors
+from controller.fpga.bit_errors import BitErrors, bit_errors
 from controller.fpga.frames import FRAME_BYTES, LOAD_FRAME_BYTES
 from controller.fpga.link import Link
 from controller.fpga.registers import LOAD_PAYLOAD_MAX_BYTES
@@ -37,7 +37,7 @@ class ClockedLink(Link, Protocol):
     sck_hz: float
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Set SCK, at most to the board's; returns the actual SCK in Hz."""
+        """Set SCK to `sck_hz`, at most the board's; returns the actual SCK in Hz."""
 
 
 @dataclass(frozen=True, slots=True)

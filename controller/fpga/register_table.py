@@ -3,8 +3,9 @@
     .venv/bin/python -m controller.fpga.register_table            # write what differs
     .venv/bin/python -m controller.fpga.register_table --check    # exit code 1 if anything differs
 
-`registers.vh` gets the numbers of its constants and all codes. In `register_file.v`, `haptic_core.v` and `registers.vh` only
-the lines between `// generated: NAME` and `// end of NAME` are written, in README.md only the table of registers.
+`registers.vh` gets the numbers of its constants and all codes. In the Verilog (`registers.vh`, `register_file.v`,
+`haptic_core.v`, the `top.v` of each board) only the lines between `// generated: NAME` and `// end of NAME` are written, in
+README.md only the table of registers.
 """
 
 from __future__ import annotations
@@ -13,15 +14,18 @@ import argparse
 import re
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
 
 from controller.board.board import data_folder
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Kind, Register, Result, Start, State
 
 HEADER = ("address", "name", "access", "bits", "after reset", "what")
 SETTINGS = (Kind.SETTING, Kind.MASK)
 INPUTS = (Kind.LIVE, Kind.COUNTER, Kind.TIME_LOW)  # wires of haptic_core.v that register_file.v reads
+OTHER_PARAMETERS = ("clock_hz", "slots", "build_hash", "board")  # each module writes these by itself
 _BLOCK = re.compile(r"^( *)// generated: (\w+)\n.*?^ *// end of \2\n", re.MULTILINE | re.DOTALL)
 _DEFINE = re.compile(r"^(`define (\w+) \d+'([dh]))[0-9A-Fa-f]+", re.MULTILINE)
 _TABLE = re.compile(r"^\| address \| name \|.*\n(?:\|.*\n)*", re.MULTILINE)
@@ -44,15 +48,22 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
     """
     registers = list(registers)
     _check(registers)
-    blocks = {
+    names = [field.name.upper() for field in fields(Parameters) if field.name not in OTHER_PARAMETERS]
+    parameters = [f"parameter [31:0] {name:<19} = 32'd0," for name in names]
+    built_in = [f".{name}({name})," for name in names]
+    tops = {str(path): {"parameters": parameters, "built_in": built_in} for path in (folder.parent / "boards").glob("*/top.v")}
+    blocks = tops | {
         "registers.vh": {"codes": codes(registers)},
         "register_file.v": {
+            "parameters": parameters,
             "inputs": [f"input  wire {_range(_width(register))}{signal(register)}_i," for register in _inputs(registers)],
             "outputs": [f"output wire {_range(register.bits)}{signal(register)}_o," for register in _settings(registers)],
             "settings": settings(registers),
             "read": [line for register in registers for line in _case(register)],
         },
         "haptic_core.v": {
+            "parameters": parameters,
+            "built_in": built_in,
             "wires": [
                 f"wire {_range(_width(register))}{signal(register)};"
                 for register in registers

@@ -38,7 +38,7 @@ class Status(NamedTuple):
 
 
 def pack_status(buffer: WritableBuffer, offset: int, status: Status) -> int:
-    """Pack a status at `offset`, as the FPGA does; returns the offset of its end."""
+    """Pack a status into `buffer` at `offset`, as the FPGA does; returns the offset of its end."""
     STATUS.pack_into(buffer, offset, STATUS_SYNC, *status, 0)
     end = offset + FRAME_BYTES - CRC.size
     CRC.pack_into(buffer, end, zlib.crc32(memoryview(buffer)[offset:end]))

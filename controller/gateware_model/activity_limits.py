@@ -56,13 +56,13 @@ class ActivityLimits:
         self._flows = [_Flow(0, active=False, level=0, share=settings.duty_share)]
 
     def emission(self, tick: int, *, playing: bool) -> None:
-        """Note that an emission begins to play in `tick`, or that none plays from then on; replaces what was noted for later."""
+        """Note that an emission begins in `tick` (`playing`), or that none plays from then on; replaces later notes."""
         while self._emissions and self._emissions[-1].start >= tick:
             self._emissions.pop()
         self._emissions.append(_Emission(tick, playing))
 
     def activity(self, tick: int, *, active: bool) -> None:
-        """Note whether the bucket fills (playing or ramping) from `tick` on; replaces what was noted for later."""
+        """Note whether the bucket fills from `tick` on (`active`: playing or ramping); replaces later notes."""
         level = self._flow(tick).at(tick)
         while self._flows and self._flows[-1].start >= tick:
             self._flows.pop()

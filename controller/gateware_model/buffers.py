@@ -45,7 +45,7 @@ class Buffers:
         return self._words[buffer, :]
 
     def write(self, chunk: int, payload: memoryview) -> None:
-        """Write the words of a LOAD to the landing buffer; their chunk counts only once the frame is accepted."""
+        """Write the `payload` of a LOAD to the landing buffer; the chunk counts only once the frame is accepted."""
         first = chunk * CHUNK_WORDS
         words = np.frombuffer(payload, "<u4")
         self._words[self.landing, first : first + len(words)] = words
@@ -65,7 +65,7 @@ class Buffers:
         return self.checking(tick) and self._check is not None and self._check.slot == slot
 
     def intact(self, tick: int, slot: int) -> bool:
-        """Whether the content of `slot` has been checked and matches its CRC."""
+        """Whether the content of `slot` has been checked by `tick` and matches its CRC."""
         return not self.checking_slot(tick, slot) and self._intact[slot]
 
     def store(self, tick: int, slot: int, length_words: int, crc: int, *, live: bool) -> Result:
@@ -104,7 +104,7 @@ class Buffers:
         return Result.OK
 
     def loaded(self, tick: int) -> int:
-        """Value of SLOTS_LOADED: bit k is set if slot k holds a waveform whose CRC matches."""
+        """Value of SLOTS_LOADED in `tick`: bit k is set if slot k holds a waveform whose CRC matches."""
         return sum(1 << slot for slot in range(len(self.slot_words)) if self.intact(tick, slot))
 
     def chunks(self) -> int:
@@ -112,7 +112,7 @@ class Buffers:
         return sum(1 << chunk for chunk, words in enumerate(self.chunk_words) if words)
 
     def read_crc(self, tick: int, slot: int) -> tuple[Result, int]:
-        """Result and value of reading the CRC of a slot."""
+        """Result and value of reading the CRC of `slot` in `tick`."""
         if slot >= len(self.slot_buffer):
             return Result.BAD_SLOT, 0
         if not self.slot_words[slot]:

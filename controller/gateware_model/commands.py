@@ -73,12 +73,12 @@ class Commands:
         return self.player.live or any(play.live for play in self.queue.plays)
 
     def drop(self, tick: int) -> None:
-        """Empty the queue."""
+        """Empty the queue in `tick`."""
         self.queue.drop(tick)
         self._free_tick = 0
 
     def refuse(self, port: Port, refusal: Result) -> None:
-        """Record that a frame of `port` was refused for its sync word, length or CRC, or as BUSY."""
+        """Record the `refusal` of a frame of `port`: for its sync word, length or CRC, or as BUSY."""
         link = self.telemetry.links[port]
         link.result, link.unlocked = refusal, False
         link.counts[Register.FRAME_ERRORS] += 1

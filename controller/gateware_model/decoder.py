@@ -33,7 +33,7 @@ class Frame(NamedTuple):
 
 
 def decode(mosi: memoryview) -> Frame:
-    """Decode all bytes of one chip-select assertion."""
+    """Decode a frame; `mosi` holds all bytes of one chip-select assertion."""
     size = len(mosi)
     sync_good = mosi[:2] == _SYNC_BYTES[:size]
     if size < HEADER.size:

@@ -60,11 +60,11 @@ class OutputGate:
         return self.state in (GateState.SETTLING, GateState.RAMP_UP, GateState.STOPPING, GateState.RAMP_DOWN)
 
     def live(self, tick: int) -> bool:
-        """Whether anything is on, the pins at least, so that a cause leads to a fault."""
+        """Whether anything is on in `tick`, the pins at least, so that a cause leads to a fault."""
         return self.state is not GateState.OFF or tick < self._live_until
 
     def next_change(self, now: int) -> int | None:
-        """Tick of the next end of a ramp or of the next foreseeable fault; None if there is none."""
+        """Tick of the next end of a ramp or foreseeable fault from `now` on; None if there is none."""
         if not self.live(now):
             return None
         ticks = [self.silent_from if all(self.permits.values()) else now]
@@ -150,7 +150,7 @@ class OutputGate:
         self.pins.put_word(tick + PIN_TICKS, self._registers.idle_word, hv=1)
 
     def shut(self, tick: int, cause: Fault) -> None:
-        """Switch the outputs off with the next tick, whatever is still in the pipeline."""
+        """Switch the outputs off for `cause` after `tick`, whatever is still in the pipeline."""
         self.faults |= cause
         if cause & LIMITS:
             self._rest_until = tick + 1 + self._registers.parameters.edge_window_ticks
@@ -163,7 +163,7 @@ class OutputGate:
         self.limits.emission(tick + 1, playing=False)
 
     def clear(self, tick: int) -> None:
-        """Clear the causes of a fault, except those of a limit for a window after it."""
+        """Clear the causes of a fault in `tick`, except those of a limit until a window has passed since."""
         self.faults &= LIMITS if tick < self._rest_until else Fault(0)
         self.limits.clear(tick)
 

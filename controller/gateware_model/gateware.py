@@ -94,14 +94,14 @@ class UartTiming:
 
     @classmethod
     def of(cls, parameters: Parameters) -> Self:
-        """Timing at the default baud rate of the gateware."""
+        """Timing at the default baud rate, for the clock in `parameters`."""
         return cls((parameters.clock_hz * 512 // BAUD + 1) // 2)
 
     def bit_tick(self, tick: int, byte: int, bit: int) -> int:
         """Tick in which bit `bit` (0: start, 9: stop) of byte `byte` begins, of bytes sent back to back from `tick` on."""
         return tick + ((10 * byte + bit) * self.bit_256 >> 8)
 
-    def heard_tick(self, tick: int) -> int:
+    def received_tick(self, tick: int) -> int:
         """Tick in which a byte is received whose start bit begins at `tick`: in the middle of its stop bit."""
         return tick + 4 + (self.bit_256 // 2 - 256 + 9 * self.bit_256 >> 8)
 
@@ -113,7 +113,15 @@ def frame_ticks(size_bytes: int) -> int:
 
 
 def sck_rise_tick(select_tick: int, release_tick: int, size_bytes: int, bit: int) -> int:
-    """Tick in which SCK rises for bit `bit` of a frame, with SCK spread evenly between the edges of chip select."""
+    """Tick in which SCK rises for bit `bit` of a frame.
+
+    Parameters
+    ----------
+    select_tick, release_tick : int
+        When chip select falls and rises; SCK is spread evenly between them.
+    size_bytes, bit : int
+        Length of the frame, and number of the bit from 0 on.
+    """
     room = release_tick - select_tick - SELECT_TO_SCK_TICKS - (SCK_TO_RELEASE_TICKS - SCK_TICKS)
     return select_tick + SELECT_TO_SCK_TICKS + bit * room // (8 * size_bytes)
 
@@ -126,7 +134,7 @@ class InputTiming:
         self._trigger_from = READY_TICKS
 
     def frame(self, select_tick: int, release_tick: int, size_bytes: int) -> None:
-        """Check a frame and note it.
+        """Check a frame of `size_bytes`, with chip select low from `select_tick` to `release_tick`, and note it.
 
         Raises
         ------
@@ -141,7 +149,7 @@ class InputTiming:
         self._select_from = release_tick + SELECT_HIGH_TICKS
 
     def trigger(self, tick: int, high_ticks: int) -> None:
-        """Check a trigger pulse and note it.
+        """Check a trigger pulse of `high_ticks` at `tick`, and note it.
 
         Raises
         ------

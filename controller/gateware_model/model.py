@@ -46,7 +46,7 @@ class GatewareModel:
         self._uart = self._core.uart
         self._timing = InputTiming()
         self._permit_pins = dict.fromkeys(Permit, False)
-        self._lines = Lines(noting_frames=lines)
+        self._lines = Lines(record_frames=lines)
 
     @property
     def now(self) -> int:
@@ -68,7 +68,7 @@ class GatewareModel:
         return self._core.next_change()
 
     def status(self, port: Port = Port.SPI) -> Status:
-        """The status with which a link is answered whose frame begins now."""
+        """The status with which the link `port` is answered if its frame begins now."""
         return self._core.status(port)
 
     def permit(self, tick: int, level: bool, which: Permit = Permit.RUN) -> None:
@@ -86,7 +86,13 @@ class GatewareModel:
             self._events.add(Event(tick + TRIGGER_TICKS, EventKind.TRIGGER))
 
     def exchange(self, select_tick: int, release_tick: int, mosi: bytes | bytearray | memoryview, miso: memoryview) -> None:
-        """Exchange one frame; parameters as in `Gateware.exchange`."""
+        """Exchange one frame; parameters as in `Gateware.exchange`.
+
+        Raises
+        ------
+        ValueError
+            If it begins in the past, or its timing is not what the pins allow.
+        """
         if select_tick + INPUT_TICKS < self._events.now:
             raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._events.now}")
         self._timing.frame(select_tick, release_tick, len(mosi))
@@ -138,8 +144,8 @@ class GatewareModel:
         """
         timing = self._uart.timing
         for number, byte in enumerate(wire):
-            heard = timing.heard_tick(timing.bit_tick(tick, number, 0))
-            self._events.add(Event(heard + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
+            received = timing.received_tick(timing.bit_tick(tick, number, 0))
+            self._events.add(Event(received + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
         return timing.bit_tick(tick, len(wire), 0)
 
     def take_capture(self) -> Capture:

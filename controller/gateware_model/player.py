@@ -18,7 +18,7 @@ DECISION_TICKS = PIN_TICKS + 1  # from the tick in which a play is started to it
 
 
 def word_tick(number: int, bit_period: int) -> int:
-    """Ticks from the first word of an emission to word `number`, at a bit period in 65536ths of a tick."""
+    """Ticks from the first word of an emission to word `number`, with `bit_period` in 65536ths of a tick."""
     return number * bit_period >> 16
 
 
@@ -39,7 +39,7 @@ class Play:
     raw: tuple[int, ...]  # words of its frame
 
     def words(self, waveform: NDArray[np.uint32], idle_word: int, first: int, end: int) -> NDArray[np.uint32]:
-        """Drive words `first` to `end`, (end - first,) uint32, after polarity and channel mask."""
+        """Drive words `first` to `end` of `waveform`, (end - first,) uint32, after polarity; masked channels have `idle_word`."""
         data = waveform[self.first + first : self.first + end]
         if self.inverted:
             data = ~data
@@ -78,7 +78,7 @@ class Queue:
         self._head_from = tick
 
     def head(self, tick: int) -> Play | None:
-        """The play at the head, once it has been fetched from memory; else None."""
+        """The play at the head, if it has been fetched from memory by `tick`; else None."""
         return self.plays[0] if self.plays and tick >= self._head_from else None
 
     @property
@@ -87,7 +87,7 @@ class Queue:
         return self._head_from
 
     def fetching(self, tick: int) -> bool:
-        """Whether the next head is being fetched, so that a READ of the queue is BUSY."""
+        """Whether the next head is being fetched in `tick`, so that a READ of the queue is BUSY."""
         return self._popped < tick < self._popped + FETCH_TICKS
 
 
@@ -122,11 +122,11 @@ class Player:
         return self.release_tick is not None
 
     def settled(self, tick: int) -> bool:
-        """Whether no emission plays, and the idle word has been held for a bit period."""
+        """Whether no emission plays in `tick`, and the idle word has been held for a bit period."""
         return not self.playing and tick >= self.free_from
 
     def quiet(self, tick: int) -> bool:
-        """Whether there is no current play."""
+        """Whether there is no current play in `tick`, and the idle word has been held for a bit period."""
         return self.settled(tick) and self.running is None
 
     def next_change(self) -> int | None:
@@ -151,8 +151,8 @@ class Player:
         delay_ticks = 0 if play.start is Start.TIME else play.when & 0xFFFFFFFF
         self.release_tick = tick + delay_ticks if delay_ticks else None
 
-    def sound(self, tick: int, bit_period: int) -> None:
-        """Start an emission of the current play in the tick after `tick`."""
+    def start_emission(self, tick: int, bit_period: int) -> None:
+        """Start an emission of the current play after `tick`, with `bit_period` in 65536ths of a tick."""
         assert self.running
         self.playing = True
         self.release_tick = None
@@ -161,7 +161,7 @@ class Player:
         self.known_words = 0
 
     def finish(self, tick: int, bit_ticks: int) -> None:
-        """End the emission, whose last tick is `tick`."""
+        """End the emission, whose last tick is `tick`; the idle word follows for `bit_ticks` at least."""
         assert self.running
         self.playing = False
         self.halting = False
@@ -180,7 +180,7 @@ class Player:
             self.running = replace(self.running, count=1)
 
     def halt(self, tick: int, bit_period: int) -> None:
-        """End the play after its current drive word."""
+        """End the play after the drive word that plays in `tick`, with `bit_period` in 65536ths of a tick."""
         self.stop()
         if self.playing:
             number = ((tick + 1 - self.start) << 16) // bit_period

@@ -53,7 +53,7 @@ class UartPanel:
             gateware.permit(0, True, permit)
 
     def receive(self, data: bytes) -> bytes:
-        """Receive bytes; returns the bytes of the answers."""
+        """Receive `data`; returns the bytes of the answers."""
         self._tick = max(self._tick, (self._now_s() - self._start_s) * self._clock_hz)
         answers = bytearray()
         for byte in data:
@@ -82,7 +82,7 @@ class UartPanel:
 
 
 def decoded(line: bytes | bytearray) -> bytes:
-    """Decode a frame; one that ends within a COBS block is padded to a length that no frame has, so that it is refused."""
+    """Decode the COBS block `line`; if it ends early, pad the frame to a length that no frame has, so that it is refused."""
     whole = bytearray(line)
     code = end = 0
     while end < len(whole):

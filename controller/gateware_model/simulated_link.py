@@ -83,7 +83,7 @@ class SimulatedLink:
         return self._start_s + tick / self.clock_hz
 
     def set_sck_hz(self, sck_hz: int) -> float:
-        """Set SCK for the next frames; returns it in Hz."""
+        """Set SCK to `sck_hz` for the next frames; returns it."""
         self.sck_hz = float(sck_hz)
         self._ticks_per_bit = self.clock_hz / sck_hz
         self._pause_ticks = max(round(SELECT_PAUSE_SCK * self._ticks_per_bit), SELECT_PAUSE_TICKS)

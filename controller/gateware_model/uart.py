@@ -14,11 +14,11 @@ DELIVER_TICKS = 40  # from then until it is executed, in addition to one tick fo
 
 
 def cobs_encoded(data: bytes) -> bytes:
-    """COBS encoding of up to 253 bytes, with the terminating zero."""
+    """COBS encoding of `data`, at most 253 bytes, with the terminating zero."""
     return b"".join(bytes([len(block) + 1]) + block for block in data.split(b"\0")) + b"\0"
 
 
-class UartSide:
+class UartPeripheral:
     """State of the UART peripheral.
 
     Parameters

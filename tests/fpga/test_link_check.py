@@ -1,4 +1,4 @@
-"""The SCK that is proposed is one that the wires carry, and what was not seen is bounded."""
+"""The recommended SCK is one that the wires carry, and the error rate has a bound."""
 
 import math
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
-from controller.fpga.bring_up import BitErrors, bit_errors
+from controller.fpga.bit_errors import BitErrors, bit_errors
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.link_check import (
@@ -31,7 +31,7 @@ BUILD = 7
 
 
 class LongWires(SimulatedLink):
-    """Wires on which a bit of every frame is damaged at SCK above `carried_hz`, and all of them at twice that."""
+    """A link that damages one bit of every frame above `carried_hz`, and every bit above twice that."""
 
     carried_hz = math.inf
 
