@@ -52,10 +52,8 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
         If there is none, listing the scenes that exist.
     """
     name = name_or_path or board.scene
-    here: tuple[Path, ...] = (
-        (Path(name),) if name_or_path else ()
-    )  # what the board names is never meant of the folder one happens to be in
-    for file in (*here, board.beside(name), board.beside(f"{name}.toml")):
+    given = [Path(name)] if name_or_path else []  # a name in board.toml is never relative to the current folder
+    for file in (*given, board.beside(name), board.beside(f"{name}.toml")):
         if file.is_file() and file.name != "board.toml":
             return file
     known = sorted(file.stem for file in board.folder.glob("*.toml") if file.name != "board.toml")
@@ -164,7 +162,7 @@ def _check_not_hidden(
 
 
 def _covers(outer: Shape, inner: Shape) -> bool:
-    """Whether one shape certainly lies within another (a polygon covers only its equal, as far as this can tell)."""
+    """Whether one shape certainly lies within another; for a polygon as the outer shape, only if both are equal."""
     if outer == inner:
         return True
     if isinstance(outer, Polygon):
