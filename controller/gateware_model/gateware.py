@@ -101,7 +101,7 @@ class UartTiming:
         """Tick in which bit `bit` (0: start, 9: stop) of byte `byte` begins, of bytes sent back to back from `tick` on."""
         return tick + ((10 * byte + bit) * self.bit_256 >> 8)
 
-    def heard_tick(self, tick: int) -> int:
+    def received_tick(self, tick: int) -> int:
         """Tick in which a byte is received whose start bit begins at `tick`: in the middle of its stop bit."""
         return tick + 4 + (self.bit_256 // 2 - 256 + 9 * self.bit_256 >> 8)
 

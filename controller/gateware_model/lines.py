@@ -22,12 +22,12 @@ class Lines:
 
     Parameters
     ----------
-    noting_frames : bool
+    record_frames : bool
         Also record MISO and the UART, which takes time and memory.
     """
 
-    def __init__(self, *, noting_frames: bool) -> None:
-        self._noting_frames = noting_frames
+    def __init__(self, *, record_frames: bool) -> None:
+        self._record_frames = record_frames
         self._waiting = self._fault = False
         self._waiting_from: int | None = None
         self._waits: list[int] = []
@@ -61,7 +61,7 @@ class Lines:
 
     def exchange(self, select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> None:
         """Record MISO during a frame; parameters as in `miso_changes`."""
-        if self._noting_frames:
+        if self._record_frames:
             self._miso.append(miso_changes(select_tick, release_tick, answer, size_bytes))
 
     def take(self, capture: Capture, now: int, uart_ticks: Sequence[int]) -> Capture:
@@ -74,7 +74,7 @@ class Lines:
             waiting_ticks=_taken(self._waits, now),
             fault_ticks=_taken(self._faults, now),
             miso_ticks=miso[due].astype(np.uint64),
-            uart_ticks=np.array(uart_ticks if self._noting_frames else [], np.uint64),
+            uart_ticks=np.array(uart_ticks if self._record_frames else [], np.uint64),
         )
 
 

@@ -46,7 +46,7 @@ class GatewareModel:
         self._uart = self._core.uart
         self._timing = InputTiming()
         self._permit_pins = dict.fromkeys(Permit, False)
-        self._lines = Lines(noting_frames=lines)
+        self._lines = Lines(record_frames=lines)
 
     @property
     def now(self) -> int:
@@ -144,8 +144,8 @@ class GatewareModel:
         """
         timing = self._uart.timing
         for number, byte in enumerate(wire):
-            heard = timing.heard_tick(timing.bit_tick(tick, number, 0))
-            self._events.add(Event(heard + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
+            received = timing.received_tick(timing.bit_tick(tick, number, 0))
+            self._events.add(Event(received + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
         return timing.bit_tick(tick, len(wire), 0)
 
     def take_capture(self) -> Capture:

@@ -18,7 +18,7 @@ def cobs_encoded(data: bytes) -> bytes:
     return b"".join(bytes([len(block) + 1]) + block for block in data.split(b"\0")) + b"\0"
 
 
-class UartSide:
+class UartPeripheral:
     """State of the UART peripheral.
 
     Parameters

@@ -83,7 +83,7 @@ def primitive_of(effect: EffectTable) -> Primitive:
 
 
 def conflict(effect: EffectTable) -> str:
-    """What does not go together in an effect: the end of a message that begins with its key; empty if all is well."""
+    """Check the keys of an effect: the end of a message that begins with the effect's place in the file; empty: no conflict."""
     occasions = effect.occasions
     if not occasions:
         return f".when is missing: give one or several of {', '.join(get_args(When))}, or with `effect` a name to build on"
