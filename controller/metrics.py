@@ -39,23 +39,19 @@ class LatencyHistogram:
         octave = max(duration_ns.bit_length() - SUB_BITS - 1, 0)
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
-    def percentile_ns(self, fraction: float) -> float:
-        """Percentile of the recorded durations.
+    def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
+        """Percentiles of the recorded durations.
 
         Parameters
         ----------
-        fraction : float
-            0 to 1.
+        fractions : sequence of float
+            Each 0 to 1.
 
         Returns
         -------
-        float
-            Duration in ns that this fraction of the records do not exceed, within 0.8 %; NaN without records.
+        list of float
+            For each fraction the duration in ns that so many of the records do not exceed, within 0.8 %; NaN without records.
         """
-        return self._percentiles_ns((fraction,))[0]
-
-    def _percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
-        """Percentile for each fraction, from one sum over the buckets up to the worst record."""
         if not self.count:
             return [math.nan] * len(fractions)
         octave = max(self.worst_ns.bit_length() - SUB_BITS - 1, 0)
@@ -76,7 +72,7 @@ class LatencyHistogram:
         """`{count, p50, p99, p999, worst}`, durations in µs; None where there are too few records."""
         if not self.count:
             return {"count": 0, **dict.fromkeys(PERCENTILES), "worst": None}
-        known = [round(value_ns * 1e-3, 3) for value_ns in self._percentiles_ns(tuple(PERCENTILES.values()))]
+        known = [round(value_ns * 1e-3, 3) for value_ns in self.percentiles_ns(tuple(PERCENTILES.values()))]
         named: dict[str, float | int | None] = dict(zip(PERCENTILES, known, strict=True))
         if self.count < P999_SAMPLES:
             named["p999"] = None

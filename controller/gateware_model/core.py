@@ -14,7 +14,8 @@ from controller.gateware_model.commands import Commands
 from controller.gateware_model.decoder import Frame
 from controller.gateware_model.events import Event, EventKind, Events
 from controller.gateware_model.gate import GateState
-from controller.gateware_model.gateware import Permit, Port, UartTiming
+from controller.gateware_model.gateware import Permit, Port
+from controller.gateware_model.pin_timing import UartTiming
 from controller.gateware_model.sequencer import Sequencer
 from controller.gateware_model.uart import BEGIN_TICKS, DELIVER_TICKS, UartPeripheral
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
+from controller.gateware_model.pin_timing import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
 
 PAD_TICKS = 1  # from the state to `waiting_o` and `fault_o`, which are registered
 ANSWER_TICKS = 4  # from the fall of chip select to the first bit of the answer on MISO

@@ -15,8 +15,9 @@ from controller.gateware_model.core import Core
 from controller.gateware_model.decoder import decode
 from controller.gateware_model.events import Event, EventKind, Events
 from controller.gateware_model.gate import PIN_TICKS
-from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, Port, sck_rise_tick
+from controller.gateware_model.gateware import Permit, Port
 from controller.gateware_model.lines import Lines
+from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, sck_rise_tick
 from controller.gateware_model.uart import BYTE_TO_PULSE_TICKS
 
 INPUT_TICKS = 2  # two flip-flops: an edge of a pin at t is seen in the state of t + 2

@@ -29,13 +29,15 @@ class SlotCache:
     Attributes
     ----------
     slots : int
+    held : OrderedDict
+        Every slot, the next one to be taken first, with the key of its waveform; None: it holds none.
     """
 
     def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = REUSE_RADIUS_M) -> None:
         self.slots = slots
         self._single_focus = single_focus
         self._near_m2 = near_m**2
-        self._held: OrderedDict[int, Key | None] = OrderedDict()  # every slot, always; None: holds nothing
+        self.held: OrderedDict[int, Key | None] = OrderedDict()
         self._slot_of: dict[Key, int] = {}
         self._single_focus_of: dict[int, tuple[Key, SingleFocus]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
@@ -57,7 +59,7 @@ class SlotCache:
     def use(self, key: Key) -> int:
         """Slot of a resident waveform, which becomes the most recently used one."""
         slot = self._slot_of[key]
-        self._held.move_to_end(slot)
+        self.held.move_to_end(slot)
         return slot
 
     def take(self, spared: int | None = None) -> int:
@@ -73,7 +75,7 @@ class SlotCache:
         int
         """
         chosen = None
-        for slot, key in self._held.items():
+        for slot, key in self.held.items():
             if slot == spared:
                 continue
             if key not in self._pinned:
@@ -81,7 +83,7 @@ class SlotCache:
                 break
             if chosen is None:  # if all are pinned
                 chosen = slot
-        taken = next(iter(self._held)) if chosen is None else chosen
+        taken = next(iter(self.held)) if chosen is None else chosen
         self.drop(taken)
         return taken
 
@@ -90,8 +92,8 @@ class SlotCache:
         if key in self._slot_of:
             self.drop(self._slot_of[key])
         self.drop(slot)
-        self._held[slot] = key
-        self._held.move_to_end(slot)
+        self.held[slot] = key
+        self.held.move_to_end(slot)
         self._slot_of[key] = slot
         focus = self._focus_of(key)
         if focus is not None:
@@ -99,12 +101,12 @@ class SlotCache:
 
     def drop(self, slot: int) -> None:
         """Take note that what a slot holds cannot be played; it is the next one to be taken."""
-        key = self._held[slot]
+        key = self.held[slot]
         if key is not None:
             del self._slot_of[key]
             self._single_focus_of.pop(slot, None)
-            self._held[slot] = None
-        self._held.move_to_end(slot, last=False)
+            self.held[slot] = None
+        self.held.move_to_end(slot, last=False)
 
     def pin(self, keys: Iterable[Key]) -> None:
         """Let the waveforms of these keys stay once they are resident: the first ones, as far as `MIN_UNPINNED` slots are left."""
@@ -114,12 +116,8 @@ class SlotCache:
         """Take note that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
         self._single_focus_of.clear()
-        self._held.clear()
-        self._held.update(dict.fromkeys(range(self.slots)))
-
-    def residents(self) -> tuple[tuple[int, Key | None], ...]:
-        """Every slot with the key of its waveform, the next one to be taken first."""
-        return tuple(self._held.items())
+        self.held.clear()
+        self.held.update(dict.fromkeys(range(self.slots)))
 
     def _focus_of(self, key: Key) -> SingleFocus | None:
         return None if isinstance(key, tuple) and len(key) > 1 else self._single_focus(key)

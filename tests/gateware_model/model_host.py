@@ -9,8 +9,9 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit, frame_ticks
+from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.pin_timing import frame_ticks
 
 CLOCK_HZ = 20_000_000
 HASH = 0xC0FFEE
