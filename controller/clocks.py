@@ -38,39 +38,39 @@ FPGA_NEVER = FpgaTime(NEVER)
 
 
 class Clock(Protocol):
-    """A clock that never goes back."""
+    """A monotonic clock."""
 
     def now_s(self) -> float:
-        """Time in s."""
+        """Host time in s."""
 
     def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Return at `until_s`, or earlier when a file of the selector is ready."""
+        """Return at the host time `until_s`, or earlier when a file of the selector is ready."""
 
 
 class MonotonicClock:
     """Real time: the kernel's CLOCK_MONOTONIC, in which it also stamps the events of touch panels."""
 
     def now_s(self) -> float:
-        """Time in s since some fixed point; setting the clock of the day does not change it."""
+        """Host time in s; setting the system's date and time does not change it."""
         return time.monotonic()
 
     def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Sleep in the selector."""
+        """Block in the selector; inf: until a file is ready."""
         selector.select(None if until_s == NEVER else max(until_s - time.monotonic(), 0.0))
 
 
 class VirtualClock:
-    """Time that jumps to whatever comes next: a replay as fast as the machine goes, the same every time."""
+    """Simulated time, which jumps to the next event: a replay as fast as the machine allows, the same every time."""
 
     def __init__(self) -> None:
         self._now_s = 0.0
 
     def now_s(self) -> float:
-        """Time in s since the start."""
+        """Simulated host time in s since the start."""
         return self._now_s
 
     def wait(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Jump; signals still come through the selector."""
+        """Jump to `until_s`; signals are still served by the selector."""
         selector.select(0)
         if until_s != NEVER:
             self._now_s = max(self._now_s, until_s)

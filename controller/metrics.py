@@ -1,4 +1,4 @@
-"""Counting on the hot path: latency histograms of constant memory, and the counters of what was skipped."""
+"""Counters and latency histograms of the hot path, in constant memory."""
 
 from __future__ import annotations
 
@@ -10,13 +10,21 @@ from typing import Any
 
 import numpy as np
 
-SUB_BITS = 7  # 128 buckets per octave: a percentile is at most 0.8 % too low
-SHARES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
-P999_SAMPLES = 10_000  # below this, the thousandth worst is chance
+SUB_BITS = 7  # 128 buckets per octave: a percentile is off by at most 0.8 %
+PERCENTILES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
+P999_SAMPLES = 10_000  # with fewer records p999 is left out: it would be that of ten records at most
 
 
 class LatencyHistogram:
-    """Durations in ns in logarithmic buckets; `record` allocates nothing and costs the same for ever."""
+    """Durations in ns in logarithmic buckets; `record` allocates nothing and takes constant time.
+
+    Attributes
+    ----------
+    count : int
+        Durations recorded.
+    worst_ns : int
+        The longest of them.
+    """
 
     def __init__(self) -> None:
         self.count = 0
@@ -24,41 +32,48 @@ class LatencyHistogram:
         self._buckets = array("Q", bytes(8 * (64 << SUB_BITS)))
 
     def record(self, duration_ns: int) -> None:
-        """Count one duration; what a clock step has made negative counts as 0."""
+        """Count one duration; a negative one (the clock was stepped) counts as 0."""
         duration_ns = max(duration_ns, 0)
         self.count += 1
         self.worst_ns = max(self.worst_ns, duration_ns)
         octave = max(duration_ns.bit_length() - SUB_BITS - 1, 0)
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
-    def percentile_ns(self, share: float) -> float:
-        """Duration that `share` (0 to 1) of the records do not exceed, within 0.8 %; NaN without records."""
-        return self._percentiles_ns((share,))[0]
+    def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:
+        """Percentiles of the recorded durations.
 
-    def _percentiles_ns(self, shares: Sequence[float]) -> list[float]:
-        """Of each share; the buckets are summed once, and those above the worst record not at all."""
+        Parameters
+        ----------
+        fractions : sequence of float
+            Each 0 to 1.
+
+        Returns
+        -------
+        list of float
+            For each fraction the duration in ns that so many of the records do not exceed, within 0.8 %; NaN without records.
+        """
         if not self.count:
-            return [math.nan] * len(shares)
+            return [math.nan] * len(fractions)
         octave = max(self.worst_ns.bit_length() - SUB_BITS - 1, 0)
         last = (octave << SUB_BITS) + (self.worst_ns >> octave)
-        seen = np.cumsum(np.frombuffer(self._buckets, np.uint64, last + 1))  # in Python it would keep the loop for a millisecond
-        found = np.searchsorted(seen, [max(share * self.count, 0.5) for share in shares]).tolist()
+        seen = np.cumsum(np.frombuffer(self._buckets, np.uint64, last + 1))  # a loop in Python would take a millisecond
+        found = np.searchsorted(seen, [max(fraction * self.count, 0.5) for fraction in fractions]).tolist()
         return [min(_middle_ns(index), float(self.worst_ns)) for index in found]
 
     def buckets_us(self) -> list[list[float]]:
-        """[upper bound in us, count] of every bucket that has any."""
+        """[upper bound in µs, count] of every bucket with records."""
         return [[_upper_ns(index) * 1e-3, count] for index, count in enumerate(self._buckets) if count]
 
     def export(self, histogram: bool = True) -> dict[str, Any]:
-        """The summary in us, and the histogram as [upper bound in us, count] of every bucket that has any."""
+        """`summary_us`, with `histogram` also the buckets as `buckets_us` returns them; ready for JSON."""
         return self.summary_us() | ({"histogram": self.buckets_us()} if histogram else {})
 
     def summary_us(self) -> dict[str, float | int | None]:
-        """`{count, p50, p99, p999, worst}` in µs; None where there are too few records to say."""
+        """`{count, p50, p99, p999, worst}`, durations in µs; None where there are too few records."""
         if not self.count:
-            return {"count": 0, **dict.fromkeys(SHARES), "worst": None}
-        known = [round(value_ns * 1e-3, 3) for value_ns in self._percentiles_ns(tuple(SHARES.values()))]
-        named: dict[str, float | int | None] = dict(zip(SHARES, known, strict=True))
+            return {"count": 0, **dict.fromkeys(PERCENTILES), "worst": None}
+        known = [round(value_ns * 1e-3, 3) for value_ns in self.percentiles_ns(tuple(PERCENTILES.values()))]
+        named: dict[str, float | int | None] = dict(zip(PERCENTILES, known, strict=True))
         if self.count < P999_SAMPLES:
             named["p999"] = None
         return {"count": self.count, **named, "worst": round(self.worst_ns * 1e-3, 3)}
@@ -81,11 +96,24 @@ STAGES = ("decide", "frame", "wire", "wait", "trigger", "host", "total")
 
 @dataclass(slots=True)
 class Stages:
-    """The way of an emission from the read of its touch report to the trigger, in stages that follow each other.
+    """Latency of emissions, from the read of the touch report to the trigger, in consecutive stages.
 
-    decide: read, tracked, scene asked. frame: waveform looked up or composed, frames made, answers checked.
-    wire: bits on the wire. wait: for the plate to fall silent. trigger: the call that pulls the pin.
-    host: decide + frame + trigger, our own work. total: host + wire + wait.
+    Attributes
+    ----------
+    decide : LatencyHistogram
+        Read and track touches, evaluate the scene, choose the batch.
+    frame : LatencyHistogram
+        Look up or compose the waveform, pack frames, check answers.
+    wire : LatencyHistogram
+        Bits on the wire.
+    wait : LatencyHistogram
+        Until the plate is free.
+    trigger : LatencyHistogram
+        The call that raises the trigger line.
+    host : LatencyHistogram
+        decide + frame + trigger: the host's own work.
+    total : LatencyHistogram
+        host + wire + wait.
     """
 
     decide: LatencyHistogram = field(default_factory=LatencyHistogram)
@@ -97,7 +125,7 @@ class Stages:
     total: LatencyHistogram = field(default_factory=LatencyHistogram)
 
     def record(self, decide_ns: int, frame_ns: int, wire_ns: int, wait_ns: int, trigger_ns: int) -> None:
-        """Count one emission."""
+        """Count one emission: the durations of its stages in ns."""
         host_ns = decide_ns + frame_ns + trigger_ns
         self.decide.record(decide_ns)
         self.frame.record(frame_ns)
@@ -108,66 +136,66 @@ class Stages:
         self.total.record(host_ns + wire_ns + wait_ns)
 
     def export(self, histograms: bool = True) -> dict[str, dict[str, Any]]:
-        """Each stage as `LatencyHistogram.export` has it."""
+        """`LatencyHistogram.export` of each stage, by its name."""
         return {name: getattr(self, name).export(histograms) for name in STAGES}
 
 
 @dataclass(slots=True)
 class Skipped:
-    """Work that a scene did not need, each counted where it was left out."""
+    """Work and emissions that were left out, by cause."""
 
-    outside_region: int = 0  # touch samples that met no region: no lookup
-    between_emissions: int = 0  # touch samples in a region with nothing due
-    uploads: int = 0  # emissions whose waveform was resident in a slot
-    compositions: int = 0  # uploads of one finger on a cell: read from the bank as they are
-    merged: int = 0  # emissions replaced by a newer one of the same finger before the plate was free
-    bad_entries: int = 0  # emissions left out because the bank's entry is damaged or absent
+    outside_region: int = 0  # touch samples outside of all regions
+    between_emissions: int = 0  # touch samples in a region that made no emission due
+    uploads: int = 0  # emissions whose waveform was resident
+    compositions: int = 0  # uploads of a bank entry as it is, for one finger on a cell
+    merged: int = 0  # emissions replaced by a newer one of the same owner before the plate was free
+    bad_entries: int = 0  # emissions whose bank entry is damaged or absent
     refused: int = 0  # emissions that the FPGA did not accept
     outputs_off: int = 0  # emissions due while the outputs were off, or lost with them before they began
-    unconfirmed: int = 0  # emissions beyond what a contact gets that the panel has not confirmed
-    no_room: int = 0  # commands that waited when more came than wait at most
-    lifted: int = 0  # emissions that still waited when their finger was lifted
+    unconfirmed: int = 0  # emissions beyond the limit of a contact that the panel has not confirmed
+    no_room: int = 0  # emissions of commands that waited when too many others came
+    lifted: int = 0  # emissions that waited when their finger was lifted
     scene_changed: int = 0  # emissions that waited when another scene took over
 
     @property
     def emissions(self) -> int:
-        """Emissions that were due and not played, for whatever reason."""
+        """Emissions that were due and not played, of all causes."""
         waited = self.merged + self.no_room + self.lifted + self.scene_changed
         return waited + self.bad_entries + self.refused + self.outputs_off + self.unconfirmed
 
 
 @dataclass(slots=True)
 class Counters:
-    """What one run of the event loop did."""
+    """Counters of one run of the event loop; they are only reported, nothing is decided by them."""
 
-    due: int = 0  # emissions that fingers, spots and commands asked for: each in `foci`, in `skipped`, or waiting
-    foci: int = 0  # of them, those played
-    emissions: int = 0  # triggers given for an accepted play command, of one focus or several
+    due: int = 0  # emissions of fingers, spots and commands; each is counted in `foci` or `skipped` as well, or waits
+    foci: int = 0  # of these, those that were played
+    emissions: int = 0  # starts of an accepted play command, with one focus or several
     uploads: int = 0
     resident: int = 0
     heartbeats: int = 0
-    scheduled: int = 0  # of the emissions: started by the FPGA at a time given beforehand
-    late: int = 0  # beats that were handed over too late for their time, and played at once
-    prefetched: int = 0  # waveforms sent ahead of a moving finger
-    prefetch_wasted: int = 0  # of them, those that nothing played so far
-    near: int = 0  # of the resident ones: a waveform made for a place very near
+    scheduled: int = 0  # of `emissions`: started by the FPGA at a time given beforehand
+    late: int = 0  # beats that reached the FPGA too late for their time, and were played at once
+    prefetched: int = 0  # waveforms uploaded for a predicted emission of a moving finger
+    prefetch_wasted: int = 0  # of these, those that were not played so far
+    near: int = 0  # of `resident`: played with the waveform of a place near by
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
-    host_silent: int = 0  # outputs switched off by the FPGA because this process had stalled; armed again
-    outages: int = 0  # FPGA lost, reset or switched off for another cause
-    outage: str = ""  # the cause of the last one
-    outputs_off_s: float = 0.0  # time spent so
+    host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again
+    outages: int = 0  # times the FPGA was lost, reset, or switched off for another cause
+    outage: str = ""  # cause of the last one
+    outputs_off_s: float = 0.0  # in total, until they were on
     scenes_loaded: int = 0
     scenes_refused: int = 0
     scene_refused: str = ""  # why the last one was
-    reloads: int = 0  # of these, asked for by SIGHUP
-    reload_refused: str = ""  # why the last one of them was; empty if it was not
+    reloads: int = 0  # scenes loaded or refused that SIGHUP asked for
+    reload_refused: str = ""  # why the last reload was refused; empty if it was not
     skipped: Skipped = field(default_factory=Skipped)
     report_latency: LatencyHistogram = field(default_factory=LatencyHistogram)  # from the kernel's timestamp to our read
     upload_latency: Stages = field(default_factory=Stages)
     resident_latency: Stages = field(default_factory=Stages)
 
     def export(self, histograms: bool = True) -> dict[str, Any]:
-        """Everything, ready for JSON; with histograms it takes 12 ms and 200 kB, without 0.4 ms and 2 kB."""
+        """All counters and latencies, ready for JSON; with histograms it takes 12 ms and 200 kB, without 0.4 ms and 2 kB."""
         plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
         return plain | {
             "skipped": asdict(self.skipped),

@@ -10,10 +10,10 @@ module haptic_core #(
     parameter [31:0] SLOTS               = 32'd0,          // 1 to 16
     parameter [31:0] BUILD_HASH          = 32'd0,
     parameter [31:0] BOARD               = 32'h204D4953,   // 'SIM '
-    parameter [31:0] BAUD                = 32'd1_000_000,
+    // values after reset, and the hard limits: safety_island.v
+    // generated: parameters
     parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
     parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
-    // hard limits: safety_island.v
     parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
     parameter [31:0] HV_SETTLE_TICKS     = 32'd0,
     parameter [31:0] HEARTBEAT_TICKS_MAX = 32'd0,
@@ -23,7 +23,9 @@ module haptic_core #(
     parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
     parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
     parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
-    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0,
+    // end of parameters
+    parameter [31:0] BAUD                = 32'd1_000_000
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -288,11 +290,21 @@ module haptic_core #(
     wire        quiet, settled;
 
     register_file #(
-        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD),
-        .BIT_PERIOD_RESET(BIT_PERIOD_RESET), .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET), .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX),
-        .HV_SETTLE_TICKS(HV_SETTLE_TICKS), .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
-        .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX),
-        .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX), .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
+        // generated: built_in
+        .BIT_PERIOD_RESET(BIT_PERIOD_RESET),
+        .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET),
+        .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX),
+        .HV_SETTLE_TICKS(HV_SETTLE_TICKS),
+        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX),
+        .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
+        .PULSE_TICKS_MIN(PULSE_TICKS_MIN),
+        .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
+        .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX),
+        .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
+        .DUTY_SHARE_MAX(DUTY_SHARE_MAX),
+        .DUTY_TICKS_MAX(DUTY_TICKS_MAX),
+        // end of built_in
+        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD)
     ) register_file (
         .clk_i(clk_i), .rst_i(rst_i),
         .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),

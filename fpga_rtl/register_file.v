@@ -5,11 +5,8 @@
 `include "registers.vh"
 
 module register_file #(
-    parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
-    parameter [31:0] SLOTS               = 32'd4,
-    parameter [31:0] BUILD_HASH          = 32'd0,
-    parameter [31:0] BOARD               = 32'd0,
     // of the board
+    // generated: parameters
     parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
     parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
     parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
@@ -21,7 +18,12 @@ module register_file #(
     parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
     parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
     parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
-    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0,
+    // end of parameters
+    parameter [31:0] CLOCK_HZ            = 32'd80_000_000,
+    parameter [31:0] SLOTS               = 32'd4,
+    parameter [31:0] BUILD_HASH          = 32'd0,
+    parameter [31:0] BOARD               = 32'd0
 ) (
     input  wire        clk_i,
     input  wire        rst_i,

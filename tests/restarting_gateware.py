@@ -6,7 +6,8 @@ import numpy as np
 
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import READY_TICKS, TRIGGER_HIGH_TICKS, Gateware, GatewareFactory, Permit
+from controller.gateware_model.gateware import Gateware, GatewareFactory, Permit
+from controller.gateware_model.pin_timing import READY_TICKS, TRIGGER_HIGH_TICKS
 
 OPEN_LINE = 0xFF  # MISO while nothing drives it
 

@@ -17,7 +17,7 @@ def test_percentiles_are_those_of_the_values_within_a_bucket(values, share):
     for value in values:
         histogram.record(value)
     exact = float(np.percentile(values, 100 * share, method="inverted_cdf"))
-    assert histogram.percentile_ns(share) == pytest.approx(exact, rel=1 / 128, abs=0.5)
+    assert histogram.percentiles_ns([share])[0] == pytest.approx(exact, rel=1 / 128, abs=0.5)
     assert histogram.worst_ns == max(values)
     assert histogram.count == len(values)
 
@@ -27,7 +27,7 @@ def test_one_percent_is_noticed(exact):
     histogram = LatencyHistogram()
     histogram.record(round(exact * 1.01))
     histogram.record(round(exact * 1.01))
-    assert histogram.percentile_ns(0.5) != pytest.approx(exact, rel=1 / 256)
+    assert histogram.percentiles_ns([0.5])[0] != pytest.approx(exact, rel=1 / 256)
 
 
 def test_says_nothing_of_what_it_has_too_few_records_for():
@@ -43,7 +43,7 @@ def test_says_nothing_of_what_it_has_too_few_records_for():
 def test_a_clock_stepped_back_counts_as_no_time():
     histogram = LatencyHistogram()
     histogram.record(-5)
-    assert histogram.percentile_ns(1.0) == 0
+    assert histogram.percentiles_ns([1.0])[0] == 0
 
 
 def test_the_total_is_the_sum_of_its_stages():

@@ -4,9 +4,7 @@
 
 module top #(
     // From board.toml by the Makefile (controller/fpga/build_parameters.py); without them nothing is built
-    parameter [31:0] CLOCK_HZ            = 32'd0,
-    parameter [31:0] SLOTS               = 32'd0,
-    parameter [31:0] BUILD_HASH          = 32'd0,
+    // generated: parameters
     parameter [31:0] BIT_PERIOD_RESET    = 32'd0,
     parameter [31:0] RAMP_SAMPLES_RESET  = 32'd0,
     parameter [31:0] CHANNEL_MASK_MAX    = 32'd0,
@@ -18,7 +16,11 @@ module top #(
     parameter [31:0] TOTAL_EDGES_MAX     = 32'd0,
     parameter [31:0] EMISSION_TICKS_MAX  = 32'd0,
     parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
-    parameter [31:0] DUTY_TICKS_MAX      = 32'd0
+    parameter [31:0] DUTY_TICKS_MAX      = 32'd0,
+    // end of parameters
+    parameter [31:0] CLOCK_HZ            = 32'd0,
+    parameter [31:0] SLOTS               = 32'd0,
+    parameter [31:0] BUILD_HASH          = 32'd0
 ) (
     input  wire        iceclk,                      // 12 MHz
     input  wire        rs232_rx,                    // from the FTDI's channel B to the FPGA
@@ -63,12 +65,21 @@ module top #(
 
     wire waiting;
     haptic_core #(
-        .BOARD("HX8K"), .BAUD(1_000_000),
-        .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BIT_PERIOD_RESET(BIT_PERIOD_RESET),
-        .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET), .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX), .HV_SETTLE_TICKS(HV_SETTLE_TICKS),
-        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX), .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS), .PULSE_TICKS_MIN(PULSE_TICKS_MIN),
-        .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX), .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
-        .DUTY_SHARE_MAX(DUTY_SHARE_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
+        // generated: built_in
+        .BIT_PERIOD_RESET(BIT_PERIOD_RESET),
+        .RAMP_SAMPLES_RESET(RAMP_SAMPLES_RESET),
+        .CHANNEL_MASK_MAX(CHANNEL_MASK_MAX),
+        .HV_SETTLE_TICKS(HV_SETTLE_TICKS),
+        .HEARTBEAT_TICKS_MAX(HEARTBEAT_TICKS_MAX),
+        .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS),
+        .PULSE_TICKS_MIN(PULSE_TICKS_MIN),
+        .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
+        .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX),
+        .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX),
+        .DUTY_SHARE_MAX(DUTY_SHARE_MAX),
+        .DUTY_TICKS_MAX(DUTY_TICKS_MAX),
+        // end of built_in
+        .BOARD("HX8K"), .BAUD(1_000_000), .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH)
     ) core (
         .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),

@@ -1,7 +1,7 @@
-"""The bank file, byte by byte: README.md says it in words, this says it in `struct`.
+"""The format of a bank file in `struct`, as README.md specifies it.
 
-A header of one or more pages, then five sections, each from the next page on; every byte that
-nothing describes is zero. Tables are covered by a CRC-32 in the header, entries by one each.
+A header of one or more pages, then five sections, each starting at a page; all other bytes are
+zero. Tables are covered by a CRC-32 in the header, entries by one each.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
 MAX_HEADER = 1 << 20
-MODELLED = "modelled"  # build parameter `responses`: what they come from
+MODELLED = "modelled"  # build parameter `responses`: they come from a model, not from measurements
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
 # nx, ny, samples, channels, entries, parameters bytes, sections, zero
@@ -34,6 +34,7 @@ MODEL_CODE = (
     "physics/plate.py",
     "physics/driver.py",
     "physics/step_response.py",
+    "physics/modal_response.py",
     "physics/impulse_response.py",
     "physics/row_responses.py",
     "bank/packing.py",
@@ -99,7 +100,7 @@ class Header:
         return -(-self.samples // REST_SAMPLES)
 
     def sections(self) -> tuple[Section, ...]:
-        """Where everything lies; it follows from the counts alone. Tables have no CRC yet."""
+        """Section table without CRCs: offsets follow from the numbers of cells, entries and samples."""
         drive_bytes, response_bytes = 4 * self.samples, CHANNELS * (self.samples + self.rest_rows)
         offset = self.header_bytes
         placed = []

@@ -80,7 +80,7 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
 
 
 def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
-    """Check every row against its CRC-32, and what lies between the rows."""
+    """Check every row of a section against its CRC-32, and that the padding between rows is zero."""
     column = ["drive", "response"].index(section.name)
     cell_of = np.flatnonzero(bank.cells)
     for entry, checksums in enumerate(bank.checksums):

@@ -1,4 +1,4 @@
-"""Drive words and quantised responses: what a bank entry is made of.
+"""Drive words and quantised responses, of which a bank entry consists.
 
 Word n is sample n of an emission and bit q of it is channel q, little-endian, so the FPGA plays an
 entry word by word and a memoryview of the bank goes to the wire as it is.

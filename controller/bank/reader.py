@@ -24,7 +24,7 @@ Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; C
 
 @dataclass(slots=True)
 class Counters:
-    """What was read from a bank, and what was checked for that."""
+    """Counts of what was read from a bank and checked on the way."""
 
     lookups: int = 0  # drive words handed out or refused
     drive_checked: int = 0  # entries whose drive words' CRC-32 was computed
@@ -84,7 +84,7 @@ class Bank:
         except OSError as error:
             hint = "" if isinstance(error, PermissionError) else f"; build it: {rebuild}"
             raise BankError(f"{path}: cannot be read ({error.strerror}){hint}") from error
-        start: bytes | None = None  # of what cannot even be read nothing is advised
+        start: bytes | None = None  # None: unreadable, so no advice to rebuild it
         try:
             size = os.fstat(fd).st_size
             start = os.pread(fd, 16, 0)

@@ -52,7 +52,7 @@ class BankWriter:
     def __init__(self, path: Path, header: Header, cells: NDArray[np.bool_], *, overwrite: bool = False) -> None:
         if cells.shape != (header.grid.cells,) or np.count_nonzero(cells) != header.entries:
             raise ValueError(f"{np.count_nonzero(cells)} of {cells.shape} cells do not fit the header")
-        header.pack(header.sections())  # what the format cannot hold is refused before the work
+        header.pack(header.sections())  # parameters that do not fit the format are refused before the work
         self.path = path
         self._overwrite = overwrite
         self._header = header
@@ -67,8 +67,8 @@ class BankWriter:
         with self._disk_errors():
             folder = self.path.parent.stat()
             by_root_for_others = os.geteuid() == 0 != folder.st_uid
-            if not by_root_for_others:  # whose folder it is might lead root anywhere
-                self.path = self.path.resolve()  # a link stays, what it points to is replaced
+            if not by_root_for_others:  # else the owner of the folder could point root at any file
+                self.path = self.path.resolve()  # a link stays, its target is replaced
             if self.path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             if self.path.exists() and not self.path.is_file():
@@ -180,7 +180,7 @@ def _create_locked(path: Path) -> tuple[Path, int]:
         temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.building")
         fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
         fcntl.flock(fd, fcntl.LOCK_EX)
-        if os.fstat(fd).st_nlink:  # else another writer took it for a leftover before it was locked
+        if os.fstat(fd).st_nlink:  # else another writer removed it as a leftover before it was locked
             return temporary, fd
         os.close(fd)
 
@@ -220,7 +220,7 @@ def _reserve(fd: int, size: int) -> None:
     except OSError as error:
         if error.errno not in {errno.EOPNOTSUPP, errno.EINVAL}:
             raise
-        os.ftruncate(fd, size)  # this file system cannot reserve: it will say so while writing
+        os.ftruncate(fd, size)  # this file system cannot reserve: a full disk is found while writing
 
 
 def _write(fd: int, data: memoryview, offset: int) -> None:

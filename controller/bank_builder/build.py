@@ -140,7 +140,7 @@ def build_bank(
     worst_edge_rate_hz = 0.0
     idle = np.array([board.idle_word], np.uint32)
     with (
-        threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread is mostly waited for
+        threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(
             path, header, wanted, overwrite=overwrite
         ) as writer,  # a folder or disk that cannot take it is refused before the work

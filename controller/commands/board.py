@@ -11,7 +11,8 @@ from controller.board.reference import reference, schema
 from controller.commands.output import show
 from controller.errors import ConfigError
 from controller.scene.effects import EffectTable
-from controller.scene.scene_file import SceneTable, find_scene, read_scene
+from controller.scene.scene_file import find_scene, read_scene
+from controller.scene.scene_tables import SceneTable
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:

@@ -41,6 +41,8 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
         print(f"haptic-panel: a simulated panel: its lag is {SIMULATED_LAG_S * 1e3:g} ms", file=sys.stderr)
         return simulated_strokes(board, lag_s=SIMULATED_LAG_S)
 
+    from controller.touch.mouse import Mouse
+
     reader = open_panel(board)
     try:
         mouse = Mouse(options.reference)

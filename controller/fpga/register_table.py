@@ -3,8 +3,9 @@
     .venv/bin/python -m controller.fpga.register_table            # write what differs
     .venv/bin/python -m controller.fpga.register_table --check    # exit code 1 if anything differs
 
-`registers.vh` gets the numbers of its constants and all codes. In `register_file.v`, `haptic_core.v` and `registers.vh` only
-the lines between `// generated: NAME` and `// end of NAME` are written, in README.md only the table of registers.
+`registers.vh` gets the numbers of its constants and all codes. In the Verilog (`registers.vh`, `register_file.v`,
+`haptic_core.v`, the `top.v` of each board) only the lines between `// generated: NAME` and `// end of NAME` are written, in
+README.md only the table of registers.
 """
 
 from __future__ import annotations
@@ -13,15 +14,18 @@ import argparse
 import re
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
 
 from controller.board.board import data_folder
+from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Kind, Register, Result, Start, State
 
 HEADER = ("address", "name", "access", "bits", "after reset", "what")
 SETTINGS = (Kind.SETTING, Kind.MASK)
 INPUTS = (Kind.LIVE, Kind.COUNTER, Kind.TIME_LOW)  # wires of haptic_core.v that register_file.v reads
+OTHER_PARAMETERS = ("clock_hz", "slots", "build_hash", "board")  # each module writes these by itself
 _BLOCK = re.compile(r"^( *)// generated: (\w+)\n.*?^ *// end of \2\n", re.MULTILINE | re.DOTALL)
 _DEFINE = re.compile(r"^(`define (\w+) \d+'([dh]))[0-9A-Fa-f]+", re.MULTILINE)
 _TABLE = re.compile(r"^\| address \| name \|.*\n(?:\|.*\n)*", re.MULTILINE)
@@ -44,15 +48,22 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
     """
     registers = list(registers)
     _check(registers)
-    blocks = {
-        "registers.vh": {"codes": codes(registers)},
+    names = [field.name.upper() for field in fields(Parameters) if field.name not in OTHER_PARAMETERS]
+    parameters = [f"parameter [31:0] {name:<19} = 32'd0," for name in names]
+    built_in = [f".{name}({name})," for name in names]
+    tops = {str(path): {"parameters": parameters, "built_in": built_in} for path in (folder.parent / "boards").glob("*/top.v")}
+    blocks = tops | {
+        "registers.vh": {"codes": _codes(registers)},
         "register_file.v": {
+            "parameters": parameters,
             "inputs": [f"input  wire {_range(_width(register))}{signal(register)}_i," for register in _inputs(registers)],
             "outputs": [f"output wire {_range(register.bits)}{signal(register)}_o," for register in _settings(registers)],
-            "settings": settings(registers),
+            "settings": _setting_lines(registers),
             "read": [line for register in registers for line in _case(register)],
         },
         "haptic_core.v": {
+            "parameters": parameters,
+            "built_in": built_in,
             "wires": [
                 f"wire {_range(_width(register))}{signal(register)};"
                 for register in registers
@@ -71,22 +82,34 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
 
 
 def signal(register: Register) -> str:
-    """Name of a register's wire in the Verilog, without the ending of a port."""
-    return register.name.removesuffix("_LOW").lower()
+    """Name of a register's wire in the Verilog; the port of register_file.v has _i or _o behind it.
+
+    Parameters
+    ----------
+    register : Register
+        Both halves of a time give the same name.
+    """
+    return register.name.removesuffix("_LOW").removesuffix("_HIGH").lower()
 
 
 def table(registers: Iterable[Register]) -> list[str]:
-    """Lines of the README's table, in Markdown."""
+    """Lines of the README's table, in Markdown.
+
+    Parameters
+    ----------
+    registers : iterable of Register
+        In the order of their addresses.
+    """
     rows = [HEADER, ("---",) * len(HEADER)]
     for register in registers:
         bits = f"{register.bits - 1}:0" if register.bits > 1 else "0"
         rows.append(
-            (str(int(register)), register.name, register.access, bits, after_reset(register), register.text + _limits(register))
+            (str(int(register)), register.name, register.access, bits, _after_reset(register), register.text + _limits(register))
         )
     return ["|" + "|".join(cell if cell == "---" else f" {cell} " for cell in cells) + "|" for cells in rows]
 
 
-def after_reset(register: Register) -> str:
+def _after_reset(register: Register) -> str:
     """Value after reset as the README says it: a number, or where it comes from."""
     if register.kind is Kind.BUILT_IN:
         return "built in"
@@ -96,7 +119,7 @@ def after_reset(register: Register) -> str:
     return f"0x{number:08X}" if isinstance(number, int) and number >= 1 << 16 else str(number)
 
 
-def codes(registers: Iterable[Register]) -> list[str]:
+def _codes(registers: Iterable[Register]) -> list[str]:
     """Defines of all codes, bits and addresses."""
     registers = list(registers)
     groups: tuple[tuple[str, str, Iterable[IntEnum]], ...] = (
@@ -118,7 +141,7 @@ def codes(registers: Iterable[Register]) -> list[str]:
     return lines
 
 
-def settings(registers: Iterable[Register]) -> list[str]:
+def _setting_lines(registers: Iterable[Register]) -> list[str]:
     """Flip-flops of the settings: what is written, what they are after reset, what leaves."""
     kept = _settings(registers)
     lines = [f"reg {_range(register.bits)}{signal(register)}_q;" for register in kept]
@@ -279,6 +302,13 @@ def _with_numbers(text: str) -> str:
 def with_table(readme: str, lines: list[str]) -> str:
     """The README's text with its table of registers replaced.
 
+    Parameters
+    ----------
+    readme : str
+        Text of the README.
+    lines : list of str
+        Of the table, without line ends.
+
     Raises
     ------
     ValueError
@@ -292,7 +322,20 @@ def with_table(readme: str, lines: list[str]) -> str:
 
 
 def main(arguments: list[str] | None = None, say: Callable[[str], object] = sys.stdout.write) -> int:
-    """Write, or compare, the files; the exit code."""
+    """Write, or compare, the files.
+
+    Parameters
+    ----------
+    arguments : list of str
+        Of the command line; those of this process unless given.
+    say : callable
+        Takes a line for each file that differs, with its line end.
+
+    Returns
+    -------
+    int
+        Exit code: 1 if `--check` finds a difference, otherwise 0. Exits with 2 if a record or a file is refused.
+    """
     parser = argparse.ArgumentParser(prog="python -m controller.fpga.register_table", description="Registers as registers.py says.")
     parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if a file would change")
     parser.add_argument("--folder", type=Path, default=data_folder("fpga_rtl"), help="folder of the Verilog")

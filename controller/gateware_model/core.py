@@ -14,9 +14,10 @@ from controller.gateware_model.commands import Commands
 from controller.gateware_model.decoder import Frame
 from controller.gateware_model.events import Event, EventKind, Events
 from controller.gateware_model.gate import GateState
-from controller.gateware_model.gateware import Permit, Port, UartTiming
+from controller.gateware_model.gateware import Permit, Port
+from controller.gateware_model.pin_timing import UartTiming
 from controller.gateware_model.sequencer import Sequencer
-from controller.gateware_model.uart import BEGIN_TICKS, DELIVER_TICKS, UartSide
+from controller.gateware_model.uart import BEGIN_TICKS, DELIVER_TICKS, UartPeripheral
 
 _DELIVERY = (EventKind.UART_BEGIN, EventKind.LANDING, EventKind.FRAME)
 
@@ -35,14 +36,14 @@ class Core:
     ----------
     commands : Commands
         The parts of the model.
-    uart : UartSide
+    uart : UartPeripheral
     spi_until : int
         Last tick in which the core is busy with a frame of the SPI, as far as is known.
     """
 
     def __init__(self, parameters: Parameters, events: Events) -> None:
         self.commands = Commands(parameters)
-        self.uart = UartSide(UartTiming.of(parameters))
+        self.uart = UartPeripheral(UartTiming.of(parameters))
         self.spi_until = 0
         self._events = events
         self._sequencer = Sequencer(self.commands, events)

@@ -42,7 +42,7 @@ class _Plan:
     words: Words
     after: _State
     causes: dict[int, int] = field(default_factory=dict)  # by tick
-    culprits: dict[int, int] = field(default_factory=dict)  # channels, by tick
+    channels: dict[int, int] = field(default_factory=dict)  # channels, by tick
 
 
 class StageLimits:
@@ -60,7 +60,7 @@ class StageLimits:
         self._part_ticks = part_ticks(window_ticks)
         self._plans: list[_Plan] = []
         self._settled = _State()
-        self._culprits = 0  # of settled plans, since `clear`
+        self._channels = 0  # of settled plans, since `clear`
         self._cleared = -1
         self._activity = ActivityLimits(settings)
 
@@ -107,15 +107,15 @@ class StageLimits:
 
     def channels(self, tick: int) -> int:
         """Channels of the first short pulse or excess edge since `clear`, as known in `tick`."""
-        if self._culprits:
-            return self._culprits
-        seen = [(at, word) for plan in self._plans for at, word in plan.culprits.items() if self._cleared < at <= tick]
+        if self._channels:
+            return self._channels
+        seen = [(at, word) for plan in self._plans for at, word in plan.channels.items() if self._cleared < at <= tick]
         return min(seen)[1] if seen else 0
 
     def clear(self, tick: int) -> None:
         """Clear the channels known up to `tick`."""
         self._cleared = tick
-        self._culprits = 0
+        self._channels = 0
 
     def duty_level(self, tick: int) -> int:
         """Content of the duty bucket in `tick`, in whole ticks of activity."""
@@ -124,7 +124,7 @@ class StageLimits:
     def settle(self, tick: int) -> None:
         """Drop plans before `tick`, which will not be replaced or asked for any more."""
         while len(self._plans) > 1 and self._plans[1].ticks[0] + TOTAL_TICKS < tick:
-            self._culprits = self.channels(tick) if self._plans[0].culprits else self._culprits
+            self._channels = self.channels(tick) if self._plans[0].channels else self._channels
             self._settled = self._plans.pop(0).after
         self._activity.settle(tick)
 
@@ -189,4 +189,4 @@ class StageLimits:
 def _note(plan: _Plan, tick: int, cause: int, channels: int) -> None:
     at = tick + EDGE_TICKS
     plan.causes[at] = plan.causes.get(at, 0) | cause
-    plan.culprits[at] = plan.culprits.get(at, 0) | channels
+    plan.channels[at] = plan.channels.get(at, 0) | channels

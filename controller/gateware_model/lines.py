@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
+from controller.gateware_model.pin_timing import SCK_TICKS, SCK_TO_RELEASE_TICKS, SELECT_TO_SCK_TICKS
 
 PAD_TICKS = 1  # from the state to `waiting_o` and `fault_o`, which are registered
 ANSWER_TICKS = 4  # from the fall of chip select to the first bit of the answer on MISO
@@ -22,12 +22,12 @@ class Lines:
 
     Parameters
     ----------
-    noting_frames : bool
+    record_frames : bool
         Also record MISO and the UART, which takes time and memory.
     """
 
-    def __init__(self, *, noting_frames: bool) -> None:
-        self._noting_frames = noting_frames
+    def __init__(self, *, record_frames: bool) -> None:
+        self._record_frames = record_frames
         self._waiting = self._fault = False
         self._waiting_from: int | None = None
         self._waits: list[int] = []
@@ -61,7 +61,7 @@ class Lines:
 
     def exchange(self, select_tick: int, release_tick: int, answer: bytearray, size_bytes: int) -> None:
         """Record MISO during a frame; parameters as in `miso_changes`."""
-        if self._noting_frames:
+        if self._record_frames:
             self._miso.append(miso_changes(select_tick, release_tick, answer, size_bytes))
 
     def take(self, capture: Capture, now: int, uart_ticks: Sequence[int]) -> Capture:
@@ -74,7 +74,7 @@ class Lines:
             waiting_ticks=_taken(self._waits, now),
             fault_ticks=_taken(self._faults, now),
             miso_ticks=miso[due].astype(np.uint64),
-            uart_ticks=np.array(uart_ticks if self._noting_frames else [], np.uint64),
+            uart_ticks=np.array(uart_ticks if self._record_frames else [], np.uint64),
         )
 
 

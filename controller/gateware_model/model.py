@@ -15,8 +15,9 @@ from controller.gateware_model.core import Core
 from controller.gateware_model.decoder import decode
 from controller.gateware_model.events import Event, EventKind, Events
 from controller.gateware_model.gate import PIN_TICKS
-from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, Port, sck_rise_tick
+from controller.gateware_model.gateware import Permit, Port
 from controller.gateware_model.lines import Lines
+from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, sck_rise_tick
 from controller.gateware_model.uart import BYTE_TO_PULSE_TICKS
 
 INPUT_TICKS = 2  # two flip-flops: an edge of a pin at t is seen in the state of t + 2
@@ -46,7 +47,7 @@ class GatewareModel:
         self._uart = self._core.uart
         self._timing = InputTiming()
         self._permit_pins = dict.fromkeys(Permit, False)
-        self._lines = Lines(noting_frames=lines)
+        self._lines = Lines(record_frames=lines)
 
     @property
     def now(self) -> int:
@@ -144,8 +145,8 @@ class GatewareModel:
         """
         timing = self._uart.timing
         for number, byte in enumerate(wire):
-            heard = timing.heard_tick(timing.bit_tick(tick, number, 0))
-            self._events.add(Event(heard + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
+            received = timing.received_tick(timing.bit_tick(tick, number, 0))
+            self._events.add(Event(received + BYTE_TO_PULSE_TICKS, EventKind.UART_BYTE, byte=byte))
         return timing.bit_tick(tick, len(wire), 0)
 
     def take_capture(self) -> Capture:

@@ -151,7 +151,7 @@ class Player:
         delay_ticks = 0 if play.start is Start.TIME else play.when & 0xFFFFFFFF
         self.release_tick = tick + delay_ticks if delay_ticks else None
 
-    def sound(self, tick: int, bit_period: int) -> None:
+    def start_emission(self, tick: int, bit_period: int) -> None:
         """Start an emission of the current play after `tick`, with `bit_period` in 65536ths of a tick."""
         assert self.running
         self.playing = True

@@ -70,7 +70,7 @@ class RegisterFile:
 
     @property
     def bit_ticks(self) -> int:
-        """Its whole ticks."""
+        """Whole ticks of the bit period."""
         return self.bit_period >> 16
 
     @property
@@ -84,11 +84,34 @@ class RegisterFile:
         return self._values[Register.HEARTBEAT_TICKS]
 
     def read(self, register: Register) -> int | None:
-        """Value of a register that is kept here; None if it is kept elsewhere."""
+        """Value of a register of 32 bits, or None if it is not kept here.
+
+        Parameters
+        ----------
+        register : Register
+            Kept here are constants, what is built in, and settings.
+        """
         return self._values.get(register)
 
     def write(self, address: int, value: int, *, disarmed: bool, quiet: bool) -> Result:
-        """Change a setting, or say why not."""
+        """Change a setting, or say why not.
+
+        Parameters
+        ----------
+        address : int
+            From the frame; it may be no register's.
+        value : int
+            32 bits.
+        disarmed : bool
+            Outputs are off.
+        quiet : bool
+            Outputs are off or armed, and nothing plays or waits.
+
+        Returns
+        -------
+        Result
+            OK if the setting was changed.
+        """
         if address not in set(Register):
             return Result.UNKNOWN_REGISTER
         register = Register(address)

@@ -131,7 +131,7 @@ class Sequencer:
     def _start_emission(self, tick: int) -> None:
         """Start an emission of the current play in the next tick."""
         player, gate = self._player, self._gate
-        player.sound(tick, self._registers.bit_period)
+        player.start_emission(tick, self._registers.bit_period)
         assert player.running
         self._telemetry.emission_tick = tick + DECISION_TICKS
         gate.limits.emission(tick + 1, playing=True)

@@ -12,7 +12,8 @@ from collections.abc import Callable, Sequence
 
 from controller.board.devices import LinkSettings
 from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import READY_TICKS, Gateware, Permit
+from controller.gateware_model.gateware import Gateware, Permit
+from controller.gateware_model.pin_timing import READY_TICKS
 
 SELECT_PAUSE_SCK = 2  # SCK periods with chip select high between frames, and from its edges to the first and last bit
 SELECT_PAUSE_TICKS = 10  # and at least this many FPGA clocks

@@ -5,7 +5,7 @@ from __future__ import annotations
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Result
 from controller.gateware_model.decoder import Frame, decode
-from controller.gateware_model.gateware import UartTiming
+from controller.gateware_model.pin_timing import UartTiming
 
 BYTE_TO_PULSE_TICKS = 1  # from the tick of a byte to the output of the COBS decoder
 ANSWER_TICKS = 40  # from a frame's first byte to the start bit of its answer
@@ -18,7 +18,7 @@ def cobs_encoded(data: bytes) -> bytes:
     return b"".join(bytes([len(block) + 1]) + block for block in data.split(b"\0")) + b"\0"
 
 
-class UartSide:
+class UartPeripheral:
     """State of the UART peripheral.
 
     Parameters

@@ -1,14 +1,14 @@
-"""Which of the emissions that wait are played together, and which wait for the plate's next turn. Pure.
+"""Which of the emissions that are due are played as one waveform, and which wait for the next one. Pure.
 
-The plate plays one waveform at a time. Foci that are apart share one: their responses are summed, and each gets
-less than it would get alone (of two about 0.72, of four 0.5, of ten 0.35). It depends on how far apart two are, here the
-worse of both (simulated panel, median of 16 random pairs; tests/loop/test_focus_distances.py):
+The plate plays one waveform at a time. For several foci their responses are summed, and each focus gets a share of the
+amplitude that it would get alone: about 0.72 of it for two foci, 0.5 for four, 0.35 for ten. For two it depends on their
+distance; this is the smaller share of both (simulated panel, median of 16 random pairs; tests/loop/test_focus_distances.py):
 
     mm      0.5   1.5   2.5   4     5     6     7     8     9     10    12    20
     share   0.99  0.96  0.90  0.76  0.66  0.60  0.57  0.58  0.62  0.67  0.74  0.70
 
-Within half a spot two foci are one. Beyond it each lies on the other's slope, then in the trough around it (-0.3
-at 7 mm), and both lose by it: such two take turns.
+Two foci nearer than half a focal spot are one place. Farther away each lies on the flank of the other, then in the trough
+around it (-0.3 at 7 mm), which weakens both: two such foci are played in turn.
 """
 
 from __future__ import annotations
@@ -24,26 +24,27 @@ SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
 Emissions = tuple[Emission, ...]
 
 
-def select_batch(due: Sequence[Emission], duration_s: float, most: int = MAX_FOCI) -> tuple[Emissions, Emissions]:
-    """Choose what is played next.
+def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX_FOCI) -> tuple[Emissions, Emissions]:
+    """Choose what is played next as one waveform.
 
-    The one that waits longest is played, always. If it may be composed, so is what else may, is due within T of it,
-    and is not in the way of one chosen before it: nearer than SEPARATION_M, unless within MERGE_RADIUS_M and of its amplitude.
+    The emission that has waited longest is always chosen. If it may be composed, so is every other one that may, that is due
+    within `duration_s` of it, and whose focus is farther than `SEPARATION_M` from those chosen before; or nearer than
+    `MERGE_RADIUS_M` and of the same amplitude.
 
     Parameters
     ----------
     due : sequence of Emission
-        At least one; in the order in which their owners began to wait. An emission that replaces an older one of its
-        owner takes that one's place in the order: by their own times, one train could push another back for ever.
+        At least one, in the order in which their owners began to wait. An emission that replaces an older one of its owner
+        takes its place in the order: if they were ordered by their own times, one train could delay another for ever.
     duration_s : float
-        T.
-    most : int
+        Length of an emission.
+    max_foci : int
         Foci of one waveform.
 
     Returns
     -------
     chosen, rest : tuple of Emission
-        Both in the order given; the rest is to be given again, before what begins to wait later.
+        Both in the order given. The rest is to be given again, before what begins to wait later.
     """
     first = due[0]
     if first.alternate or len(due) == 1:
@@ -51,14 +52,14 @@ def select_batch(due: Sequence[Emission], duration_s: float, most: int = MAX_FOC
     latest_s = first.time_s + duration_s
     chosen, rest = [first], []
     for emission in due[1:]:
-        if emission.alternate or emission.time_s > latest_s or len(chosen) >= most or _in_the_way(emission, chosen):
+        if emission.alternate or emission.time_s > latest_s or len(chosen) >= max_foci or _conflicts(emission, chosen):
             rest.append(emission)
         else:
             chosen.append(emission)
     return tuple(chosen), tuple(rest)
 
 
-def _in_the_way(emission: Emission, chosen: Sequence[Emission]) -> bool:
+def _conflicts(emission: Emission, chosen: Sequence[Emission]) -> bool:
     for other in chosen:
         apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
         if apart_m2 < SEPARATION_M**2 and (apart_m2 > MERGE_RADIUS_M**2 or emission.amplitude != other.amplitude):

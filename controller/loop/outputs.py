@@ -1,7 +1,7 @@
-"""Whether the FPGA's outputs are on: arming, heartbeats, and the way back after a fault or an outage.
+"""Whether the FPGA's outputs are on: arming, heartbeats, and recovery after a fault or an outage.
 
-The FPGA decides; what the host does about it is `fpga.recovery`. A host whose own silence is the cause tries
-again a few times only: on a machine that is too slow, fingers would feel nothing but ramps.
+The FPGA decides; what the host does about it is in `fpga.recovery`. If the host itself missed heartbeats, it arms again only
+a few times: on a machine that is too slow, fingers would feel nothing but ramps.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from controller.fpga.recovery import Recovery
 from controller.fpga.session import Session
 from controller.metrics import Counters
 
-STALLS_IN_A_ROW = 3  # arming again after the host's own silence is tried this often without an emission in between
+STALLS_IN_A_ROW = 3  # times the host arms again after it missed heartbeats, without an emission in between
 
 
 class Outputs:
-    """The outputs of one FPGA, off at first; it need not be there yet.
+    """The outputs of one FPGA, off at first; the FPGA may still be absent.
 
     Parameters
     ----------
@@ -29,14 +29,14 @@ class Outputs:
     clock : Clock
         The loop's clock.
     clock_estimate : ClockEstimate
-        Told of the FPGA's time with each heartbeat.
+        Updated with each heartbeat.
     counters : Counters
-        Where outages are counted.
+        Counts heartbeats and outages.
 
     Attributes
     ----------
     on : bool
-        Armed, and the ramp is over: plays are taken.
+        Armed, and the ramp has ended: the FPGA accepts plays.
     """
 
     def __init__(self, session: Session, board: Board, clock: Clock, clock_estimate: ClockEstimate, counters: Counters) -> None:
@@ -51,17 +51,17 @@ class Outputs:
 
     @property
     def state(self) -> PanelState:
-        """ARMED, or why not; while they are on their way what was before."""
+        """ARMED, or why the outputs are off; while they are being armed, the state before."""
         return PanelState.ARMED if self.on else self._recovery.state
 
     @property
     def cause(self) -> str:
-        """Why they are off; empty while they are on, or on their way for the first time."""
+        """Why the outputs are off; empty while they are on, or armed for the first time."""
         return "" if self.on else self._recovery.cause
 
     @property
     def wanted(self) -> bool:
-        """Whether they are to be on; where they are and should not be, call `disarm`."""
+        """Whether the outputs are to be on. If they are on and not wanted, call `disarm`."""
         return self._recovery.wanted
 
     @wanted.setter
@@ -69,16 +69,16 @@ class Outputs:
         self._recovery.wanted = wanted
 
     def next_s(self) -> float:
-        """When `advance` has something to do."""
+        """Host time at which `advance` is due."""
         return self._session.heartbeat_due_s if self.on else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
-        """Do what is due: bring up, arm, end the ramp, give a heartbeat; True when the outputs have just come on.
+        """Do what is due: bring up, arm, end the ramp, or send a heartbeat; True when the outputs have just come on.
 
         Raises
         ------
         ControllerError
-            What the FPGA or the link says: give it to `failed`.
+            A fault of the FPGA or an error of the link: to be given to `failed`.
         """
         if self.on:
             if self._session.heartbeat_due_s <= now_s:
@@ -92,12 +92,12 @@ class Outputs:
         return True
 
     def failed(self, error: ControllerError, now_s: float) -> None:
-        """Take the outputs for off, and begin to get them back.
+        """Begin the recovery after an error: the outputs are off.
 
         Raises
         ------
         ControllerError
-            If they may not come back: the service ends with the cause.
+            The same, if there is no recovery from it; or the cause, if the host missed heartbeats too often.
         """
         if self.on:
             self._off_since_s = now_s
@@ -113,11 +113,17 @@ class Outputs:
         self._recovery.begin(error, now_s)
 
     def emission_started(self) -> None:
-        """Take note that something was played: the host is fast enough for that."""
+        """Take note that an emission was played: a later stall is not in a row with an earlier one."""
         self._stalls = 0
 
     def disarm(self) -> float:
-        """Have the outputs glide to 0 V; the time at which they are off."""
+        """Have the outputs ramp to 0 V; host time at which they are off.
+
+        Raises
+        ------
+        LinkError, FaultError
+            If the FPGA does not acknowledge it; it switches off by its heartbeat timeout then.
+        """
         now_s = self._clock.now_s()
         if not self.on:
             return now_s

@@ -1,4 +1,4 @@
-"""Between the event loop and what prepares another scene for it."""
+"""Interface between the event loop and what prepares another scene for it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,19 @@ from controller.waveforms.selection import Selection
 
 @dataclass(frozen=True, slots=True)
 class PreparedScene:
-    """Another scene and, if that has changed, the bank to play it from; or why there is none."""
+    """A scene that was prepared, or why it was refused.
+
+    Attributes
+    ----------
+    ticket : int
+        Of the command that asked for it; 0: SIGHUP.
+    scene : Scene or None
+        None: refused.
+    selection : Selection or None
+        Of another bank, if that was replaced.
+    reason : str
+        Why it was refused; empty if it was not.
+    """
 
     ticket: int
     scene: Scene | None
@@ -20,13 +32,19 @@ class PreparedScene:
 
 
 class SceneChange(Protocol):
-    """Prepares another scene outside the loop."""
+    """Prepares another scene in another process."""
 
     def begin(self, name: str | None, ticket: int) -> None:
-        """Prepare the scene of this name; None: the one that is played, read again."""
+        """Begin to prepare the scene of this name; None: the present one, read again.
+
+        Raises
+        ------
+        ControllerError
+            If it cannot begin.
+        """
 
     def fileno(self) -> int | None:
-        """Readable when it is done; None while nothing is prepared."""
+        """File that becomes readable when it is done; None while nothing is being prepared."""
 
     def take(self) -> PreparedScene | None:
-        """What was prepared; None while it is not done."""
+        """Take what was prepared; None while it is not done."""

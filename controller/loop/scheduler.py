@@ -1,7 +1,7 @@
-"""What is under way on the plate: fingers, effects that commands have started, spots; and what of it is due.
+"""Active effects of fingers, commands and spots, and the emissions of them that are due.
 
-All times are FPGA times but for those of `predict`. The scene decides what a finger feels; here it is kept until it
-plays. Whatever a command asked for gets exactly one outcome.
+The scene decides what is felt; here it is kept until it is played. Every command that plays an effect gets exactly one
+outcome.
 """
 
 from __future__ import annotations
@@ -20,55 +20,63 @@ from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import OUTSIDE, Scene
 from controller.touch.source import TouchSample
 
-MAX_WAITING_COMMANDS = 32  # commands; of more the oldest is skipped
-PREFETCH_DISTANCE_M = 0.75e-3  # of a finger's way, should that take more than one report
+MAX_WAITING_COMMANDS = 32  # if more wait, the oldest is skipped
+PREFETCH_DISTANCE_M = 0.75e-3  # an emission this near is predicted, even if the finger needs more than one report to get there
 MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
-MAX_DEFERRAL_S = 10e-3  # an emission on its own lets the beats of trains pass for so long
-COMMAND_MERGE_RADIUS_M = 1e-3  # commands for the same effect nearer than this are one
+MAX_DEFERRAL_S = 10e-3  # a single emission waits this long for the beats of trains
+COMMAND_MERGE_RADIUS_M = 1e-3  # of commands for one effect nearer to each other than this, the newer replaces the older
 
 Owner = int | str
 Confirmed = Callable[[int], bool]
 Outcomes = Callable[[int, Outcome, float], None]
-"""Told of a ticket, what became of it, and when (FPGA time)."""
+"""Called with a ticket, what became of it, and the age of the command in s."""
 
 
 class Scheduler:
-    """Everything that is felt, between two moments.
+    """Active effects and pending emissions of all fingers, commands and spots.
 
     Parameters
     ----------
     scene : Scene
-        What the plate should feel like.
     counters : Counters
-        Where skipped work is counted.
+        Counts emissions that are due, and those that are skipped.
     confirmed : callable
-        Whether the panel has confirmed a finger.
-    unconfirmed_most : int
-        Emissions that a finger gets before it is.
+        Whether the panel has confirmed the finger of this number.
+    max_unconfirmed : int
+        Emissions that a finger gets before it is confirmed.
     outcomes : callable
-        Told what became of commands.
+        Called with what became of each command.
 
     Attributes
     ----------
     scene : Scene
     spots : Spots
+        The beat of the scene's spots.
     due : dict of Emission
-        What waits to be played, of each owner the newest, in the order in which the owners began to wait.
+        Emissions to be played, the newest of each owner, in the order in which the owners began to wait.
     """
 
-    def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, unconfirmed_most: int, outcomes: Outcomes) -> None:
+    def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, max_unconfirmed: int, outcomes: Outcomes) -> None:
         self.scene = scene
         self.spots = Spots(scene.spots, FpgaTime(0.0))
         self._counters = counters
         self._confirmed = confirmed
-        self._unconfirmed_most = unconfirmed_most
+        self._max_unconfirmed = max_unconfirmed
         self._outcomes = outcomes
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
         self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
         self.due: dict[Owner, Emission] = {}
 
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
-        """A finger began, moved or was released, at a time that is `sample.time_s` in FPGA time."""
+        """Take a touch sample.
+
+        Parameters
+        ----------
+        sample : TouchSample
+            A finger is put down, moves, or is lifted.
+        time_s : FpgaTime
+            When: `sample.time_s` is the same moment in host time.
+        """
         finger, x_m, y_m, _, contact, _ = sample
         active = self._active.get(finger)
         if not contact:
@@ -87,7 +95,20 @@ class Scheduler:
             self._counters.skipped.between_emissions += 1
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: FpgaTime) -> None:
-        """A command plays an effect at a point, or for a finger.
+        """Start an effect for a command, at a point or at a finger.
+
+        Parameters
+        ----------
+        ticket : int
+            Above 0; the outcome is reported with it.
+        effect : str
+        x_m, y_m : float
+            Place on the plate; unused with a finger.
+        finger : int or None
+            The effect follows this finger.
+        amplitude : float
+            0.25 to 1, times the effect's own.
+        now_s : FpgaTime
 
         Raises
         ------
@@ -107,7 +128,7 @@ class Scheduler:
         self._add(emissions)
 
     def advance(self, until_s: FpgaTime) -> None:
-        """Collect what becomes due by itself up to a time."""
+        """Collect the beats of trains that are due up to `until_s`."""
         advanced = False
         for active in self._active.values():
             if active.next_s <= until_s:
@@ -117,22 +138,35 @@ class Scheduler:
             self._drop_ended()
 
     def add_spots(self, now_s: FpgaTime, until_s: FpgaTime) -> None:
-        """Collect the spots whose beat comes up to a time."""
+        """Collect the emissions of spots that are due up to `until_s`; beats that `now_s` has passed are left out."""
         for emission in self.spots.due(now_s, until_s):
             self._add((emission,))
 
     def join_spots(self, emissions: list[Emission], next_s: FpgaTime) -> list[Emission]:
-        """These and those spots that may be played with them; the beat of all goes on at `next_s`."""
+        """Emissions with those of the spots that may be played as one waveform with them.
+
+        Parameters
+        ----------
+        emissions : list of Emission
+        next_s : FpgaTime
+            When the beat of the spots goes on, after the one that is played now.
+        """
         self.spots.restart(next_s)
         played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
         self._counters.due += len(played) - len(emissions)
         return played
 
     def must_defer(self, now_s: FpgaTime, until_s: FpgaTime) -> bool:
-        """Whether what waits, played now and until some time, would be in the way of a train's beat; it is taken with that.
+        """Whether what is due has to wait for the beat of a train, which it would delay; it is played with that beat.
 
-        What has waited for MAX_DEFERRAL_S is not held any longer: of trains so fast that nothing goes between their beats,
-        a beat is late then.
+        What has waited for `MAX_DEFERRAL_S` is played in any case: a train may be so fast that nothing fits between its beats,
+        one of which is late then.
+
+        Parameters
+        ----------
+        now_s : FpgaTime
+        until_s : FpgaTime
+            When plate and wire would be free for a beat again, if what is due were played now. Something has to be due.
         """
         if self.next_s() > until_s:
             return False
@@ -140,7 +174,14 @@ class Scheduler:
         return now_s - oldest.time_s < MAX_DEFERRAL_S and not any(emission.period_s for emission in self.due.values())
 
     def next_batch(self, duration_s: float, now_s: FpgaTime) -> list[Emission]:
-        """What is played next, as one emission; the rest goes on waiting. A beat goes before what could be held for it."""
+        """Take what is played next, as one waveform; the rest stays due. A beat of a train goes before a single emission.
+
+        Parameters
+        ----------
+        duration_s : float
+            Emissions that are due within this time of the first are played with it.
+        now_s : FpgaTime
+        """
         if len(self.due) == 1:
             chosen = list(self.due.values())
             self.due.clear()
@@ -154,43 +195,49 @@ class Scheduler:
         return chosen
 
     def next_s(self) -> FpgaTime:
-        """When `advance` has something to do."""
+        """When the next beat of a train is due; inf without a train."""
         return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
 
     def predict(
-        self, finger: int, place: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
+        self, finger: int, locate: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
     ) -> tuple[float, float, float] | None:
-        """Where a moving finger will be played, and how strong, if one of its next reports will complete a spacing.
+        """Predict the focus of a finger's next emission, if one of its next reports will complete a spacing.
 
-        A spacing is felt at the first report behind it: where it falls is known, where the finger is played depends on
-        when the panel reports.
+        An emission follows the first report after a spacing is completed. Where that is follows from the finger's motion,
+        where the focus is from when the panel reports.
 
         Parameters
         ----------
-        place : callable
-            Where the finger will be at a time of the host.
+        finger : int
+        locate : callable
+            Place (x_m, y_m) of a finger at a host time; None if it is not down.
         now_s : float
-            In host time: of its last report.
+            Host time of the finger's last report.
         report_s : float
-            From one report to the next.
+            Time from report to report.
         after_s : float
-            From a report to the focus.
+            Time from a report to the focus.
+
+        Returns
+        -------
+        tuple of float or None
+            x_m, y_m, and amplitude.
         """
         active = self._active.get(finger)
-        here, then = place(finger, now_s), place(finger, now_s + report_s)
+        here, then = locate(finger, now_s), locate(finger, now_s + report_s)
         if active is None or here is None or then is None:
             return None
         step_m = math.dist(here, then)
         if step_m < MIN_STEP_M:
             return None
-        way_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
-        if way_m > max(step_m, PREFETCH_DISTANCE_M):
+        distance_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
+        if distance_m > max(step_m, PREFETCH_DISTANCE_M):
             return None
-        focus = place(finger, now_s + math.ceil(way_m / step_m) * report_s + after_s)
+        focus = locate(finger, now_s + math.ceil(distance_m / step_m) * report_s + after_s)
         return None if focus is None else (*focus, amplitude)
 
     def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
-        """These were started; trains that began with them keep their beat from there."""
+        """Report emissions as played; trains whose beat 0 is among them are shifted so that it falls on `start_s`."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
@@ -198,13 +245,13 @@ class Scheduler:
                 self._active[emission.owner].shift(emission.time_s, start_s)
 
     def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: FpgaTime) -> None:
-        """These will not be played."""
+        """Report emissions that will not be played; `outcome` says why."""
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, outcome, now_s - emission.time_s)
 
     def _release(self, finger: int, active: ActiveEffects | None, now_s: FpgaTime) -> None:
-        """A finger was lifted."""
+        """Take note that a finger was lifted."""
         last: tuple[Emission, ...] = ()
         if active is not None:
             last = active.release(now_s)
@@ -212,10 +259,10 @@ class Scheduler:
             del self._active[finger]
         self._add(last)
         self._discard_waiting_of(finger, last, now_s)
-        self._emission_counts.pop(finger, None)  # what it felt as it was lifted is counted too
+        self._emission_counts.pop(finger, None)  # after the emissions of its release were counted
 
     def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
-        """What still waits for a finger that is gone would be felt by nobody, but for what it feels as it is lifted."""
+        """Discard what is due for a finger that was lifted, but for the emissions of its release."""
         waiting = self.due.get(finger)
         if waiting is not None and waiting not in last:
             del self.due[finger]
@@ -223,12 +270,12 @@ class Scheduler:
             self.discarded([waiting], Outcome.SKIPPED, now_s)
 
     def _end_commands(self, active: ActiveEffects, outcome: Outcome, now_s: FpgaTime) -> None:
-        """Commands that end before their first emission."""
+        """Report the commands that end before their first emission."""
         for ticket, given_s in active.unplayed_commands:
             self._outcomes(ticket, outcome, now_s - given_s)
 
     def reset(self, now_s: FpgaTime) -> None:
-        """The outputs went off: what was under way is over; fingers that are down stay known, spots begin anew."""
+        """Discard everything that is due or active, since the outputs went off; fingers that are down stay known, spots restart."""
         waiting = list(self.due.values())
         self.due.clear()
         self._counters.skipped.outputs_off += len(waiting)
@@ -240,7 +287,7 @@ class Scheduler:
         self.spots.restart(now_s)
 
     def change_scene(self, scene: Scene, now_s: FpgaTime) -> None:
-        """Go on with another scene: fingers that are down feel it from their next move on."""
+        """Go on with another scene; fingers that are down feel it from their next move on."""
         waiting = list(self.due.values())
         self.due.clear()
         self._counters.skipped.scene_changed += len(waiting)
@@ -256,7 +303,7 @@ class Scheduler:
             finger = emission.finger
             if finger is not None:
                 given = self._emission_counts.get(finger, 0) + 1
-                if given > self._unconfirmed_most and not self._confirmed(finger):
+                if given > self._max_unconfirmed and not self._confirmed(finger):
                     self._counters.skipped.unconfirmed += 1
                     self.discarded([emission], Outcome.SKIPPED, emission.time_s)
                     continue
@@ -268,7 +315,7 @@ class Scheduler:
             self.due[emission.owner] = emission
 
     def _make_room(self, emissions: tuple[Emission, ...]) -> None:
-        """A command at a point replaces one for the same place; of too many that wait the oldest is skipped."""
+        """Let a command at a point replace one for the same place; if too many wait, skip the oldest."""
         for new in emissions:
             waiting = [e for owner, e in self.due.items() if isinstance(owner, str) and e.ticket]
             for old in waiting:

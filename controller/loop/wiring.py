@@ -1,4 +1,4 @@
-"""The event loop put together from its parts, the same for a simulated run and for the device."""
+"""Construction of the event loop from its parts, the same for a simulated run and for the device."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PLAY_COMMANDS = 2
 
 @dataclass(frozen=True, slots=True)
 class Assembly:
-    """A loop that is ready to run, and the parts that others look at."""
+    """A loop that is ready to run, and those of its parts that callers need."""
 
     loop: EventLoop
     counters: Counters
@@ -53,20 +53,19 @@ def assemble(
     change: SceneChange | None = None,
     **loop: Any,
 ) -> Assembly:
-    """Put a loop together.
+    """Construct a loop.
 
     Parameters
     ----------
     session : Session
         Of an FPGA that has been brought up.
     source : TrackedTouch
-        Fingers.
-    slots, max_duty
-        Other than the board's.
+    slots, max_duty : int, float
+        In place of the board's `link.slots` and `limits.max_duty`.
     played : callable, optional
-        Told of every start.
+        Called with every start.
     commands, change, **loop
-        As `EventLoop` has them.
+        As `EventLoop` takes them.
     """
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()

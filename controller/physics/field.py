@@ -22,9 +22,9 @@ Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
 MAP_STEP_M = 2e-3
-OUTSIDE_M = 10e-3  # contrast is against what lies farther from the focus
+OUTSIDE_M = 10e-3  # contrast is relative to points farther than this from the focus
 LINE_M = np.arange(-120, 121) * 0.05e-3  # where the spot is measured
-CREST_M = np.arange(-16, 17) * 0.25e-3  # a spot's crest is looked for this near: less than half a wavelength at 70 kHz
+CREST_M = np.arange(-16, 17) * 0.25e-3  # search range for the crest of a spot: less than half a wavelength at 70 kHz
 AROUND_S = np.arange(-50, 51) * 0.1e-6
 
 

@@ -101,7 +101,7 @@ class PlateTwin:
             In the order of `focus_ticks`. A step at the focus tick itself counts as after it.
         """
         ticks = capture.ticks.astype(np.int64)
-        words = np.zeros(len(ticks) + 1, np.uint32)  # words[i] is what step i leaves behind, words[i + 1] what it goes to
+        words = np.zeros(len(ticks) + 1, np.uint32)  # step i goes from words[i] to words[i + 1]
         np.copyto(words[1:], capture.words, where=capture.hv != 0)
         focus_ticks = capture.focus_ticks.astype(np.int64)
         bit_ticks = clock_hz * self.board.waveform.bit_period_s
@@ -152,7 +152,7 @@ class PlateTwin:
             sizes = np.abs(in_band).sum(axis=(1, 2))
             weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # at the plate's edge nothing can move
             self._exact[points_m] = self._amplitudes_of(in_band, weights, whole)
-            for index, point in enumerate(points_m):  # the responses are what takes time: each alone comes with them
+            for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
                 alone = slice(index, index + 1)
                 self._exact.setdefault((point,), self._amplitudes_of(in_band[alone], np.ones(1), whole[alone]))
         return self._exact[points_m]

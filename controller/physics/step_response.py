@@ -1,4 +1,4 @@
-"""Plate and driver together: what every mode does after a unit step of voltage, as a sum of exponentials.
+"""Plate and driver together: response of every mode to a unit step of voltage, as a sum of exponentials.
 
 A mode obeys M (q'' + 2/tau q' + w^2 q) = force, the driver's low-pass comes before it. The step
 response of the chain is a static part and one exponential for each pole, exactly:

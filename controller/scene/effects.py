@@ -98,6 +98,6 @@ class EffectTable(Record, frozen=True):
         """The effect `base`, with the keys that this one gives in place of those of `base`."""
         given = {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
         given.pop("effect", None)
-        if "count" in given or "duration_ms" in given:  # either key says how long the train is
+        if "count" in given or "duration_ms" in given:  # both give the length of the train
             base = msgspec.structs.replace(base, count=None, duration_ms=None)
         return msgspec.structs.replace(base, **given)

@@ -1,4 +1,4 @@
-"""What a name of an effect means: the effects that ship with the package, those of a scene, and what builds on them."""
+"""Effects by name: those that ship with the package, those of a scene, and effects that build on another."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def primitive_of(effect: EffectTable) -> Primitive:
 
 
 def conflict(effect: EffectTable) -> str:
-    """What does not go together in an effect: the end of a message that begins with its key; empty if all is well."""
+    """Check the keys of an effect: the end of a message that begins with the effect's place in the file; empty: no conflict."""
     occasions = effect.occasions
     if not occasions:
         return f".when is missing: give one or several of {', '.join(get_args(When))}, or with `effect` a name to build on"
@@ -110,7 +110,8 @@ def conflict(effect: EffectTable) -> str:
         if len(found) > 1:
             return f": {' and '.join(f'{key}{_shown(given[key])}' for key in found)} exclude each other: give one of them"
     if effect.emissions < 1:
-        return f".phase = {effect.phase:g} leaves no emission within duration_ms = {effect.duration_ms:g}"
+        late = f".phase = {effect.phase:g} leaves no emission within duration_ms = {effect.duration_ms:g}" if effect.phase else ""
+        return late or f".duration_ms = {effect.duration_ms:g} is too short for an emission"
     return _envelope_conflict(effect)
 
 

@@ -1,122 +1,25 @@
-"""scene.toml: regions and effects as typed tables, read and checked against a board."""
+"""Finds a scene.toml, reads it and checks it against a board."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple
+from typing import NamedTuple
 
-import msgspec
 import numpy as np
-from msgspec import Meta
 from numpy.typing import NDArray
 
 from controller.board.board import Board
-from controller.board.records import PlaceMm, Record, SizeMm, load_toml
+from controller.board.records import load_toml
 from controller.errors import ConfigError
-from controller.scene.effects import MIN_AMPLITUDE, ROUNDING, Amplitude, EffectTable
-from controller.scene.library import Effects, Tables, highest_rate_hz, known_effects, resolved
+from controller.scene.effects import MIN_AMPLITUDE, ROUNDING, EffectTable
+from controller.scene.library import Effects, highest_rate_hz, known_effects, resolved
+from controller.scene.scene_tables import AnyRegionTable, CircleTable, PlateTable, PolygonTable, RectangleTable, SceneTable
 from controller.scene.shapes import Circle, Point, Polygon, Rectangle
 from controller.scene.trains import silent, train_of
 
 ROUNDING_M = 1e-9
 Shape = Rectangle | Circle | Polygon
-
-
-class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
-    """A region of the plate and what is felt there; without effects, nothing. A finger is in the first region that contains it.
-
-    Attributes
-    ----------
-    name
-        Name of the region; no two have the same.
-    effects
-        Names of effects of the library or of the scene's own [effects.NAME], or tables with the keys of [effects.NAME].
-    amplitude
-        Factor of the amplitudes of its effects.
-    policy
-        `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
-    """
-
-    name: Annotated[str, Meta(min_length=1)]
-    effects: tuple[str | EffectTable, ...]
-    amplitude: Amplitude = 1.0
-    policy: Literal["compose", "alternate"] = "compose"
-
-
-class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):
-    """A rectangle.
-
-    Attributes
-    ----------
-    x_mm, y_mm
-        Corner with the smallest x and y.
-    width_mm
-        Extent along x.
-    height_mm
-        Extent along y.
-    """
-
-    x_mm: PlaceMm
-    y_mm: PlaceMm
-    width_mm: SizeMm
-    height_mm: SizeMm
-
-
-class CircleTable(RegionTable, frozen=True, kw_only=True, tag="circle"):
-    """A circle.
-
-    Attributes
-    ----------
-    x_mm, y_mm
-        Centre.
-    radius_mm
-        Radius.
-    """
-
-    x_mm: PlaceMm
-    y_mm: PlaceMm
-    radius_mm: SizeMm
-
-
-class PolygonTable(RegionTable, frozen=True, kw_only=True, tag="polygon"):
-    """A polygon.
-
-    Attributes
-    ----------
-    corners_mm
-        Corners [x, y] in order; edges do not cross.
-    """
-
-    corners_mm: Annotated[tuple[tuple[PlaceMm, PlaceMm], ...], Meta(min_length=3, max_length=1000)]
-
-    def __post_init__(self) -> None:
-        crossing = Polygon(self.corners_mm).crossing()
-        if crossing:
-            first, second = (list(self.corners_mm[edge]) for edge in crossing)
-            raise ValueError(f"corners_mm: the edges from {first} and from {second} cross or touch")
-
-
-class PlateTable(RegionTable, frozen=True, kw_only=True, tag="plate"):
-    """The whole plate."""
-
-
-AnyRegionTable = RectangleTable | CircleTable | PolygonTable | PlateTable
-
-
-class SceneTable(Record, frozen=True):
-    """A scene: regions of the plate and the effects that are felt in them.
-
-    Attributes
-    ----------
-    regions
-        The regions; of those that contain a finger the first counts.
-    effects
-        Effects of the scene by name, in addition to those of the library.
-    """
-
-    regions: Annotated[tuple[AnyRegionTable, ...], Meta(min_length=1)]
-    effects: Tables = msgspec.field(default_factory=dict)
 
 
 class CheckedRegion(NamedTuple):
@@ -149,10 +52,8 @@ def find_scene(board: Board, name_or_path: str | None = None) -> Path:
         If there is none, listing the scenes that exist.
     """
     name = name_or_path or board.scene
-    here: tuple[Path, ...] = (
-        (Path(name),) if name_or_path else ()
-    )  # what the board names is never meant of the folder one happens to be in
-    for file in (*here, board.beside(name), board.beside(f"{name}.toml")):
+    given = [Path(name)] if name_or_path else []  # a name in board.toml is never relative to the current folder
+    for file in (*given, board.beside(name), board.beside(f"{name}.toml")):
         if file.is_file() and file.name != "board.toml":
             return file
     known = sorted(file.stem for file in board.folder.glob("*.toml") if file.name != "board.toml")
@@ -261,7 +162,7 @@ def _check_not_hidden(
 
 
 def _covers(outer: Shape, inner: Shape) -> bool:
-    """Whether one shape certainly lies within another (a polygon covers only its equal, as far as this can tell)."""
+    """Whether one shape certainly lies within another; for a polygon as the outer shape, only if both are equal."""
     if outer == inner:
         return True
     if isinstance(outer, Polygon):

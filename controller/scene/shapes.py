@@ -131,7 +131,7 @@ class Polygon(Struct, frozen=True, array_like=True, forbid_unknown_fields=True, 
         return inside
 
     def meets(self, boxes: Boxes) -> NDArray[np.bool_]:
-        """Which boxes have a point in common with it: those an edge meets, and those wholly inside."""
+        """Which boxes have a point in common with it: those that an edge meets, and those entirely inside: (box,)."""
         x, y = (boxes.x_low + boxes.x_high) / 2, (boxes.y_low + boxes.y_high) / 2
         half_x, half_y = (boxes.x_high - boxes.x_low) / 2, (boxes.y_high - boxes.y_low) / 2
         met = self._contain(x, y)
@@ -172,7 +172,7 @@ def _turn(a: Point, b: Point, c: Point) -> float:
 
 
 def _on(a: Point, b: Point, c: Point) -> bool:
-    """Whether c, known to be in line with a and b, lies between them."""
+    """Whether c, collinear with a and b, lies between them."""
     return min(a[0], b[0]) <= c[0] <= max(a[0], b[0]) and min(a[1], b[1]) <= c[1] <= max(a[1], b[1])
 
 
@@ -186,7 +186,7 @@ def _touch(a: Point, b: Point, c: Point, d: Point) -> bool:
 
 
 def _folded_back(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether two edges that share a corner run over each other (or one has no length)."""
+    """Whether two edges that share a corner overlap, or one has no length."""
     shared, from_it, to_it = (b, a, d) if b == c else (a, b, c)
     forth = (from_it[0] - shared[0], from_it[1] - shared[1])
     back = (to_it[0] - shared[0], to_it[1] - shared[1])

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.capture import Capture
-from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, InputTiming, Permit, UartTiming
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming
 from controller.simulation.rtl_build import build_library
 
 TRIGGER: Final = 0  # pins, as in wrapper.cpp

@@ -167,11 +167,11 @@ def main(arguments: list[str] | None = None) -> int:
 def _in_background(arguments: Sequence[str]) -> int:
     """Start this module as another process; 0 once the panel plays, else the exit code of that process."""
     own = [argument for argument in arguments if argument != "--background"]
-    told, tells = os.pipe()
-    with os.fdopen(told, "rb") as answer:
-        command = [sys.executable, "-m", "controller.simulation.served_panel", *own, "--ready-fd", str(tells)]
-        panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(tells,), start_new_session=True)
-        os.close(tells)
+    read_end, write_end = os.pipe()
+    with os.fdopen(read_end, "rb") as answer:
+        command = [sys.executable, "-m", "controller.simulation.served_panel", *own, "--ready-fd", str(write_end)]
+        panel = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=(write_end,), start_new_session=True)
+        os.close(write_end)
         playing = answer.read(1)
     return 0 if playing else panel.wait()
 

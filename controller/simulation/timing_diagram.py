@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from controller.board.board import data_folder
 from controller.fpga.frames import CRC, HEADER
 from controller.fpga.registers import LOAD_PAYLOAD_MIN_BYTES, SHORT_PAYLOAD_BYTES
-from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, frame_ticks
+from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, frame_ticks
 from controller.simulation.timing_table import IDLE, INPUTS, Case, Change, drive_words, load_cases
 
 PINS: Final = {

@@ -1,1 +1,1 @@
-"""From the responses of a bank to drive words: which entry, composed of what, at which amplitude."""
+"""From the responses of a bank to drive words: selection, interpolation, composition, amplitude masking."""

@@ -19,7 +19,7 @@ void Vhaptic_core___024root___eval(Vhaptic_core___024root *);
 
 namespace {
 
-constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/gateware_model/gateware.py
+constexpr uint64_t SELECT_TO_SCK_TICKS = 5, SCK_TICKS = 2, SCK_TO_RELEASE_TICKS = 3;  // as in controller/gateware_model/pin_timing.py
 constexpr int RESET_CLOCKS = 4;
 constexpr uint64_t NEVER = UINT64_MAX;
 enum Pin : uint32_t { TRIGGER = 0, RUN_PERMIT = 1, TEMPERATURE_OK = 2, UART_RX = 3 };

@@ -15,7 +15,7 @@ from controller.board.board import Board, data_folder, find_board
 from controller.board.records import Record
 from controller.board.reference import attributes, reference, schema
 from controller.commands.board import NAMED
-from controller.scene.scene_file import SceneTable
+from controller.scene.scene_tables import SceneTable
 
 BOARDS = data_folder("boards")
 BOARD_FILES = sorted(BOARDS.glob("*/board.toml"))

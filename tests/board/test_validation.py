@@ -14,7 +14,7 @@ from controller.board.board import Board, find_board
 from controller.board.records import as_record
 from controller.board.validation import explain
 from controller.errors import ConfigError
-from controller.scene.scene_file import SceneTable
+from controller.scene.scene_tables import SceneTable
 
 BOARD = tomllib.loads((find_board("ulx3s") / "board.toml").read_text())
 SCENE = tomllib.loads((find_board("simulated") / "scene.toml").read_text())

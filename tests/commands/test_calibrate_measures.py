@@ -1,6 +1,7 @@
 """`calibrate-touch --ghosts` and `--lag` from the command line to the line in board.toml."""
 
 import json
+import os
 import shutil
 
 import pytest
@@ -22,6 +23,22 @@ def copied(board, tmp_path):
     folder = tmp_path / "panel"
     shutil.copytree(board.folder, folder)
     return folder
+
+
+def test_a_mouse_that_is_absent_is_named(copied, capsys):
+    far_end, near_end = os.openpty()
+    file = copied / "board.toml"
+    panel = f'kind = "serial_panel"\ndevice = "{os.ttyname(near_end)}"\n'
+    text = file.read_text().replace('kind = "recording"\nrecording = "demo.evemu"\n', panel)
+    assert "serial_panel" in text
+    file.write_text(text)
+    arguments = ["calibrate-touch", "--lag", "--board", str(copied), "--reference", "/dev/input/none"]
+    try:
+        assert main(arguments) == 69
+    finally:
+        os.close(far_end)
+        os.close(near_end)
+    assert "/dev/input/none: the mouse cannot be opened" in capsys.readouterr().err
 
 
 def test_ghosts_are_measured_stored_judged_again_and_written(copied, bank_file, tmp_path, capsys):

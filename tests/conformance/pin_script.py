@@ -17,17 +17,17 @@ from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import Control, Register
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import (
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.pin_timing import (
     READY_TICKS,
     SELECT_HIGH_TICKS,
     SELECT_TO_SCK_TICKS,
     TRIGGER_HIGH_TICKS,
     TRIGGER_PERIOD_TICKS,
-    Permit,
     UartTiming,
     frame_ticks,
 )
-from controller.gateware_model.model import GatewareModel
 
 # A slow clock, so that words of 6 ticks are within the fastest bit clock, yet a waveform can play while it arrives
 CLOCK_HZ = 12_000_000

@@ -14,7 +14,7 @@ from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import READY_TICKS
+from controller.gateware_model.pin_timing import READY_TICKS
 
 QUICK, SLOW = 3_000, 1_000_000
 CS, SCK, MOSI = 1, 2, 4

@@ -23,7 +23,7 @@ from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result, Start, State
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import frame_ticks
+from controller.gateware_model.pin_timing import frame_ticks
 
 HEARTBEAT_TICKS = 20_000
 PAUSE_TICKS = 60  # in which a short frame of the UART has room

@@ -1,6 +1,7 @@
 """Registers and a fault cause more, added to a copy of the tree at the places that fpga_rtl/README.md names, and nowhere else.
 
-A counter of TEST frames, the setting up to which it counts, and a fault while the bit period has one certain length.
+A counter of TEST frames, the setting up to which it counts, a number that is built in, and a fault while the bit period has one
+certain length.
 """
 
 import importlib.util
@@ -16,6 +17,7 @@ import pytest
 ROOT = Path(__file__).parent.parent.parent
 RECORDS = """    TESTS_MAX = 51, Kind.SETTING, 20, "TEST frames that are counted", 1000, 1, 5000
     TESTS = 52, Kind.COUNTER, 20, "TEST frames accepted, up to TESTS_MAX"
+    TESTS_BUILT = 53, Kind.BUILT_IN, 32, "a number of the board"
 """
 VERILOG = """    reg [19:0] tests_q;
     assign tests = tests_q;
@@ -29,18 +31,21 @@ MODEL = """        counts, most = self.telemetry.counts, self.registers.read(Reg
 """
 FAULT = """    TEST_PERIOD = 9, "The bit period was that of the test."
 """
-FAULT_VERILOG = """    assign cause[`FAULT_TEST_PERIOD] = live && bit_ticks_i == 16'd77;
+FAULT_VERILOG = """    assign cause[`FAULT_TEST_PERIOD] = live && bit_ticks_i == 16'd110;
 """
-FAULT_MODEL = """        if self._registers.bit_ticks == 77:
+FAULT_MODEL = """        if self._registers.bit_ticks == 110:
             cause |= Fault.TEST_PERIOD
 """
-FAULT_FORESEEN = """        if self._registers.bit_ticks == 77:
+FAULT_FORESEEN = """        if self._registers.bit_ticks == 110:
             ticks.append(now)
 """
 PLACES = (  # file, what is written there, before which line
     ("controller/fpga/registers.py", RECORDS, r"\n    @property\n    def access"),
     ("fpga_rtl/haptic_core.v", VERILOG, r"    // Waveforms\n"),
     ("controller/gateware_model/commands.py", MODEL, r"        \w+\.sequence = frame\.sequence\n"),
+    ("controller/fpga/build_parameters.py", "    tests_built: int\n", r"\n    @classmethod\n    def of"),
+    ("controller/fpga/build_parameters.py", "            tests_built=4321,\n", r"        \)\n\n    def verilog"),
+    ("tests/conformance/pin_script.py", "    tests_built=1234,\n", r"\)\n\nBIT_TICKS = "),
     ("controller/fpga/registers.py", FAULT, r"\n    @property\n    def sentence"),
     ("fpga_rtl/output_gate.v", FAULT_VERILOG, r"    wire       shut = "),
     ("controller/gateware_model/gate.py", FAULT_MODEL, r"        return cause \| Fault\.HOST_SILENT"),
@@ -59,11 +64,12 @@ run.send(frames.pack_write, Register.TESTS_MAX, 0)
 run.send(frames.pack_write, Register.TESTS_MAX, 2)
 for _ in range(3):
     run.send(frames.pack_test, bytes(40))
-run.send(frames.pack_read, Register.TESTS)
+for register in (Register.TESTS, Register.TESTS_BUILT):
+    run.send(frames.pack_read, register)
 run.status()
 answers, _ = run.perform(MODEL)
-first, refused, taken, *_, last = [parse_status(answer) for answer in answers[1:]]
-print(first.data, refused.result.name, taken.result.name, last.data)
+first, refused, taken, *_, counted, built = [parse_status(answer) for answer in answers[1:]]
+print(first.data, refused.result.name, taken.result.name, counted.data, built.data)
 """
 # The fault: armed, then the bit period of the test; `sys.argv` says whether the compiled Verilog has to do the same
 THE_FAULT = """
@@ -76,7 +82,7 @@ from controller.fpga.status import parse_status
 run = Script()
 run.settings()
 run.arm()
-run.send(frames.pack_write, Register.BIT_PERIOD, 77 << 16)
+run.send(frames.pack_write, Register.BIT_PERIOD, 110 << 16)
 run.wait(3)
 run.send(frames.pack_read, Register.FAULT_TIME_LOW)
 run.status()
@@ -97,7 +103,7 @@ module bench;
     wire [31:0] data;
     wire [19:0] tests_max;
     always #1 clk = !clk;
-    register_file register_file (
+    register_file #(.TESTS_BUILT(32'd4321)) register_file (
         .clk_i(clk), .rst_i(rst), .accept_i(write), .uart_i(1'b0), .read_i(1'b0), .write_i(write), .address_i(address),
         .words_i({96'd0, word}), .read_result_o(read_result), .write_result_o(write_result), .data_o(data), .off_i(1'b1),
         .quiet_i(1'b1), .permitted_i(1'b1), .refused_i(2'b00), .gap_i(1'b0), .tests_i(20'd777), .tests_max_o(tests_max)
@@ -107,7 +113,8 @@ module bench;
         word = 5001; #4 $display("%0d", write_result);
         word = 5000; #4 write = 1; #2 write = 0; #4 $display("%0d %0d", data, tests_max);
         address = 52; #4 $display("%0d %0d %0d", read_result, data, write_result);
-        address = 53; #4 $display("%0d", read_result);
+        address = 53; #4 $display("%0d %0d", read_result, data);
+        address = 54; #4 $display("%0d", read_result);
         $finish;
     end
 endmodule
@@ -128,9 +135,9 @@ def tree(tmp_path_factory):
         (place,) = re.finditer(line, before)
         (folder / name).write_text(before[: place.start()] + text + before[place.start() :])
     done = python(folder, "-m", "controller.fpga.register_table")
-    assert sorted(re.findall(r"(\S+): written", done.stdout)) == sorted(
-        str(folder / "fpga_rtl" / name) for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md")
-    )
+    written = {str(folder / "fpga_rtl" / name) for name in ("registers.vh", "register_file.v", "haptic_core.v", "README.md")}
+    written |= {str(path) for path in (folder / "boards").glob("*/top.v")}
+    assert set(re.findall(r"(\S+): written", done.stdout)) == written
     return folder
 
 
@@ -145,7 +152,7 @@ def python(folder, *arguments, check=True):
 
 
 def test_the_model_counts_and_keeps_it(tree):
-    assert python(tree, "-c", BY_THE_MODEL).stdout.split() == ["1000", "BAD_VALUE", "OK", "2"]
+    assert python(tree, "-c", BY_THE_MODEL).stdout.split() == ["1000", "BAD_VALUE", "OK", "2", "1234"]
 
 
 def test_the_model_has_the_fault(tree):
@@ -157,6 +164,7 @@ def test_the_readme_shows_it(tree):
     assert rows == [
         "| 51 | TESTS_MAX | RW | 19:0 | 1000 | TEST frames that are counted; 1 to 5000 |",
         "| 52 | TESTS | RO | 19:0 | 0 | TEST frames accepted, up to TESTS_MAX |",
+        "| 53 | TESTS_BUILT | RO | 31:0 | built in | a number of the board |",
     ]
 
 
@@ -167,7 +175,7 @@ def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
     sources = [tmp_path / "bench.v", tree / "fpga_rtl" / "register_file.v"]
     subprocess.run(["iverilog", "-g2005", f"-I{tree / 'fpga_rtl'}", "-o", tmp_path / "bench", *sources], check=True)
     said = subprocess.run(["vvp", "-n", tmp_path / "bench"], capture_output=True, text=True, check=True).stdout
-    assert said.splitlines()[:5] == ["0 1000 1000", "7", "5000 5000", "0 777 6", "5"]
+    assert said.splitlines()[:6] == ["0 1000 1000", "7", "5000 5000", "0 777 6", "0 4321", "5"]
 
 
 def test_the_whole_verilog_has_no_warning(tree):

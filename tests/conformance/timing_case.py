@@ -7,7 +7,8 @@ from pin_script import IDLE_WORD, Script
 
 from controller.fpga import frames
 from controller.fpga.registers import Control, Register, Start
-from controller.gateware_model.gateware import TRIGGER_HIGH_TICKS, Permit
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS
 from controller.simulation.timing_table import IDLE, drive_words
 
 SETTLED_TICKS = 20  # between the set-up and the first thing that a table does

@@ -1,4 +1,4 @@
-"""Bring-up: a good FPGA has no complaints, and each fault of a board gives its own."""
+"""Bring-up reports no complaint of a good FPGA, and the right one for each fault of a board."""
 
 import dataclasses
 import json
@@ -28,7 +28,7 @@ BITS = 3e4
 
 
 class Wired:
-    """Gateware on a board whose wires are not what they should be."""
+    """Gateware with damage on its wires: `pins`, `bits` and `answer` change outputs, MOSI and MISO."""
 
     def __init__(self, gateware, pins=lambda words: words, bits=lambda mosi: mosi, answer=lambda _: None):
         self._gateware, self._pins, self._bits, self._answer = gateware, pins, bits, answer
@@ -140,7 +140,7 @@ def rest(session, clock, until_s):
 
 
 def test_the_gateware_plays_a_waveform_while_it_arrives(board):
-    """An ability of the gateware that the loop does not use: the first word is out a chunk and a frame after the upload began."""
+    """An ability that the loop does not use: the first word is on the pins one chunk and one frame after the upload began."""
     clock, link, session = opened(board)
     exchange, words = session.exchange, armed(session, board, clock)
     sequence = exchange.sequence

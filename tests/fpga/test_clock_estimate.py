@@ -1,4 +1,4 @@
-"""The FPGA's clock on the host's: what exchanges tell of it, however late they are."""
+"""The clock estimate: its bound holds for every drift and delay, and it recovers from resets and jumps."""
 
 import pytest
 from hypothesis import given
@@ -10,7 +10,7 @@ CLOCK_HZ = 80_000_000
 
 
 def exchanges(drift, delays_s, every_s=0.033, start_ticks=1_000_000):
-    """(before_s, after_s, ticks) of exchanges that lasted so long, of which the frame was on the wire half way."""
+    """(before_s, after_s, ticks) of exchanges with these durations, whose frame is on the wire half way."""
     for number, delay_s in enumerate(delays_s):
         before_s = 5.0 + number * every_s
         at_s = before_s + delay_s / 2
@@ -44,6 +44,20 @@ def test_an_fpga_that_was_reset_is_known_anew():
     estimate.add(10.0, 10.0001, 800_000_000)
     estimate.add(11.0, 11.0001, 8_000)
     assert estimate.fpga_s(11.0001) == pytest.approx(8_000 / CLOCK_HZ, abs=1e-4)
+
+
+@pytest.mark.parametrize("jump_s", [-2e-3, 2e-3, 3600.0])
+def test_a_clock_that_jumps_is_known_again_with_the_next_exchange(jump_s):
+    """A host that was suspended, or an FPGA that was reset soon after power-up."""
+    estimate = ClockEstimate(CLOCK_HZ)
+    *before, last = exchanges(50e-6, [40e-6] * 20)
+    for exchange in before:
+        estimate.add(*exchange)
+    before_s, after_s, ticks = last
+    jumped = ticks + round(jump_s * CLOCK_HZ)
+    estimate.add(before_s, after_s, jumped)
+    assert abs(float(estimate.fpga_s((before_s + after_s) / 2)) - jumped / CLOCK_HZ) <= estimate.error_s
+    assert estimate.error_s == pytest.approx(20e-6)
 
 
 def test_a_time_is_the_nearest_clock():

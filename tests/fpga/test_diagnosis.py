@@ -1,4 +1,4 @@
-"""What comes back instead of a status is told in words that point at the wire."""
+"""The diagnosis of an answer that is no status names the wire or setting at fault."""
 
 import pytest
 from hypothesis import given, settings

@@ -1,4 +1,4 @@
-"""The SCK that is proposed is one that the wires carry, and what was not seen is bounded."""
+"""The recommended SCK is one that the wires carry, and the error rate has a bound."""
 
 import math
 
@@ -31,7 +31,7 @@ BUILD = 7
 
 
 class LongWires(SimulatedLink):
-    """Wires on which a bit of every frame is damaged at SCK above `carried_hz`, and all of them at twice that."""
+    """A link that damages one bit of every frame above `carried_hz`, and every bit above twice that."""
 
     carried_hz = math.inf
 

@@ -1,4 +1,4 @@
-"""An FPGA that is reset, browns out, hears and says garbage, or loses a permit: outputs off on the way, work again afterwards."""
+"""Recovery from a reset, a brown-out, a damaged link or a lost permit: outputs are off meanwhile, and work afterwards."""
 
 from itertools import pairwise
 from types import SimpleNamespace
@@ -33,7 +33,7 @@ TIMEOUT_S = BOARD.limits.heartbeat_timeout_ms * 1e-3
 
 
 class BadDay(SimulatedLink):
-    """A link on which things happen before the frames with given numbers: `events` maps a number to a function."""
+    """A link with faults: `events` maps the number of a frame to a function that is called before it."""
 
     def __init__(self, *args):
         super().__init__(*args)
@@ -56,7 +56,7 @@ class BadDay(SimulatedLink):
             start += length
 
     def reset(self, dark_s=1e-3):
-        """The FPGA loses its supply now."""
+        """Interrupt the FPGA's supply now."""
         self.gateware.restart(max(self._tick_now(), self._free_tick), round(dark_s * self.clock_hz))
 
 
@@ -82,7 +82,7 @@ class Panel:
         self.clock._now_s = max(self.clock.now_s(), self.link.wire_free_s()) + seconds
 
     def recover(self, error, give_up_s=10.0):
-        """What the loop does; how long it took."""
+        """Recover as the loop does; returns how long it took."""
         began_s = self.clock.now_s()
         self.outputs.failed(error, began_s)
         self.come_on(began_s + give_up_s)
@@ -90,7 +90,7 @@ class Panel:
         return self.clock.now_s() - began_s
 
     def come_on(self, until_s):
-        """Go on until the outputs are on."""
+        """Do turns until the outputs are on."""
         while not self.advance():
             assert self.clock.now_s() < until_s, self.outputs.cause
 
@@ -104,7 +104,7 @@ class Panel:
             return False
 
     def lost(self, seconds=1.0):
-        """The error by which heartbeats find that something is wrong."""
+        """The error that heartbeats raise within `seconds`."""
         with pytest.raises((LinkError, FaultError)) as caught:
             self.rest(self.clock.now_s() + seconds)
         return caught.value
@@ -117,7 +117,7 @@ class Panel:
         return self.session.heartbeat().emissions - before == 1
 
     def off_between(self, from_s, until_s):
-        """Whether the high voltage was off at all times of a stretch but for a first part that a heartbeat timeout may take."""
+        """Whether the high voltage was off during an interval, except a heartbeat timeout at its beginning."""
         self.link.close()
         capture = self.link.take_capture()
         times_s = capture.ticks.astype(float) / BOARD.link.clock_hz

@@ -1,4 +1,4 @@
-"""The serial link against the gateware model behind a pseudo-terminal, on lines that lose, damage and add bytes."""
+"""The serial link, with the gateware model behind a pseudo-terminal and lines that lose, damage and add bytes."""
 
 import contextlib
 import itertools
@@ -35,7 +35,7 @@ WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.
 
 
 class Line:
-    """What passes between a panel and its terminal, and what happens to it there: `to_panel`, `to_host` take and give bytes."""
+    """The line between a panel and its terminal; `to_panel` and `to_host` change the bytes that pass."""
 
     def __init__(self, panel):
         self.panel = panel
@@ -52,12 +52,12 @@ class Line:
         return answer
 
     def frames(self):
-        """Frames that the panel has heard so far."""
+        """Frames that the panel has received so far."""
         return [cobs.decode(bytes(line)) for line in bytes(self.heard).split(b"\0") if line]
 
 
 def at(number, change):
-    """Damage of the `number`th byte from now on: `change` takes it and gives what comes instead."""
+    """Damages the `number`th byte from now on: `change` maps it to the bytes that replace it."""
     counter = itertools.count()
 
     def damage(data):
@@ -75,7 +75,7 @@ def flipped(byte):
 
 
 class TimeToAnswer:
-    """A clock for the link that stands still while its peer, a thread of this process, has not had its turn."""
+    """A clock for the link that stands still until its peer, a thread of this process, has run."""
 
     perf_counter_ns = staticmethod(time.perf_counter_ns)
 
@@ -94,7 +94,7 @@ class TimeToAnswer:
 
 
 class CountingLink(SerialLink):
-    """Knows what it has handed to the terminal."""
+    """A port that counts what it wrote to the terminal."""
 
     def _opened(self):
         port = super()._opened()
@@ -125,7 +125,7 @@ def line(board, clock):
 
 @pytest.fixture
 def open_link(clock, line, monkeypatch):
-    """Opens the one link of a test to the terminal at which the line ends."""
+    """Opens the link of a test, at the terminal at which the line ends."""
     link_time = TimeToAnswer(line)
     monkeypatch.setattr(serial_link, "time", link_time)
     with PseudoTerminal(line.answer) as terminal:
@@ -147,7 +147,7 @@ def wait_at_most(link, latency_s):
 
 
 def nops(link, count, sequence=10):
-    """Send NOPs in one message; the statuses that came back."""
+    """Send NOPs in one message; returns the statuses received."""
     sent = bytearray(count * FRAME_BYTES)
     for number in range(count):
         frames.pack_nop(sent, number * FRAME_BYTES, sequence + number)
@@ -157,7 +157,7 @@ def nops(link, count, sequence=10):
 
 
 def recovered(link):
-    """After an error the next message is whole, as soon as answers under way have been waited for."""
+    """After an error the next message succeeds, once pending answers have been discarded."""
     for latency_s in (BRIEF_S, 10 * BRIEF_S, 100 * BRIEF_S, PATIENT_S):  # the first will do unless the machine is very busy
         wait_at_most(link, latency_s)
         with contextlib.suppress(LinkError):

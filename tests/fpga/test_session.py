@@ -1,4 +1,4 @@
-"""The host's side of the protocol against the gateware model, and on links that damage what they carry."""
+"""The session with the gateware model, on good links and on links that damage frames."""
 
 import math
 import zlib
@@ -31,7 +31,7 @@ def gateware(board, build_hash=BUILD, **other):
 
 
 class NoisyLink(SimulatedLink):
-    """A link that flips one bit of what passes: `noise` maps the number of a frame to (direction, byte)."""
+    """A link that flips one bit: `noise` maps the number of a frame to (direction, byte)."""
 
     def __init__(self, *args):
         super().__init__(*args)
@@ -301,7 +301,7 @@ def test_a_play_at_once_and_one_at_a_time_need_no_trigger(board, clock, link, ar
 
 
 def test_over_a_good_link_the_fpga_finds_no_gap_in_the_numbers_of_the_frames(clock, link, armed):
-    """Whatever the host does: else the count that tells of lost frames would tell of the host's own."""
+    """Otherwise SEQUENCE_GAPS would count the host's own gaps as lost frames."""
     first = armed.exchange.read(Register.SEQUENCE_GAPS)  # the number after that of another host, or of a reset
     armed.set_bit_period(0.99)
     armed.upload(1, WORDS)

@@ -1,4 +1,4 @@
-"""Frames become spidev messages that the kernel takes: within its buffer, each frame under its own chip select."""
+"""spidev messages fit the kernel's buffer, with each frame under its own chip select."""
 
 import ctypes
 import struct

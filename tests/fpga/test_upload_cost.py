@@ -1,4 +1,4 @@
-"""What an upload costs the host: the payload copied once into the frames, a CRC pass there and one for its slot, no more."""
+"""Cost of an upload on the host: the payload is copied once, into the frames, with one CRC pass there and one for its slot."""
 
 import tracemalloc
 import zlib

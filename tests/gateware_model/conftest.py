@@ -1,4 +1,4 @@
-"""A model of the gateware with a host on its pins; the class itself is in model_host.py."""
+"""Fixtures: the gateware model with a host at its pins (model_host.py)."""
 
 import sys
 from pathlib import Path
@@ -12,13 +12,13 @@ from model_host import Host
 
 @pytest.fixture
 def host():
-    """A model just out of reset, with its permits given."""
+    """A model just reset, with its permits given."""
     return Host()
 
 
 @pytest.fixture
 def armed():
-    """Armed, with WORDS in slot 0 and nothing else going on."""
+    """Armed and idle, with WORDS in slot 0."""
     host = Host().arm()
     host.store(0)
     host.pins_after(0)

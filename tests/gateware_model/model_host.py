@@ -1,4 +1,4 @@
-"""The gateware model with its pins in the hands of a test: frames one after another, triggers, and what comes out."""
+"""A host for tests that drives the pins of the gateware model: frames, triggers, captures."""
 
 import zlib
 
@@ -9,8 +9,9 @@ from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import Permit, frame_ticks
+from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.pin_timing import frame_ticks
 
 CLOCK_HZ = 20_000_000
 HASH = 0xC0FFEE
@@ -50,7 +51,7 @@ T = len(WORDS) * BIT_TICKS
 
 
 class Host:
-    """Sends frames to a model one after another, as fast as it may; `tick` is then when the last one is carried out."""
+    """Sends frames to a model as fast as its timing allows; `tick` is when the last one is executed."""
 
     def __init__(self, parameters=PARAMETERS, start=10, permits=Permit):
         self.model = GatewareModel(parameters)
@@ -74,7 +75,7 @@ class Host:
         return bytes(self._buffer[:end])
 
     def send(self, pack, *arguments, **named):
-        """The status that comes meanwhile; None if the frame is too short to bring it whole."""
+        """Send a frame; returns the status received with it, None if the frame is too short for one."""
         answer = self.exchange(self.packed(pack, *arguments, **named))
         return parse_status(answer) if len(answer) >= FRAME_BYTES else None
 
@@ -104,7 +105,7 @@ class Host:
         self.send(frames.pack_load, chunk, memoryview(np.asarray(words, "<u4")).cast("B"))
 
     def upload(self, slot, words=WORDS, crc=None):
-        """The frames of an upload; the STORE is the last one, its result not yet fetched."""
+        """Send an upload, with STORE last; its result is not yet fetched."""
         for chunk in range(-(-len(words) // CHUNK_WORDS)):
             self.load(words[CHUNK_WORDS * chunk : CHUNK_WORDS * (chunk + 1)], chunk)
         crc = zlib.crc32(np.asarray(words, "<u4").tobytes()) if crc is None else crc
@@ -132,7 +133,7 @@ class Host:
         return self
 
     def play(self, slot=0, **named):
-        """Have a play accepted, and wait until a trigger finds it; the tick in which it was carried out."""
+        """Queue a play and wait until a trigger can start it; returns the tick in which it was executed."""
         self.send(frames.pack_play, slot, **named)
         carried_out = self.tick
         assert self.status().result is Result.OK
@@ -151,7 +152,7 @@ class Host:
 
 
 def word_at(capture, tick):
-    """Channel pins at a tick, of a capture that begins before it."""
+    """Channel pins at a tick, in a capture that begins before it."""
     return int(capture.words[np.searchsorted(capture.ticks, tick, "right") - 1])
 
 

@@ -1,4 +1,4 @@
-"""Arming, ramps, disarming and every cause for which the gateware model shuts its outputs.
+"""Arming, ramps, disarming and every cause of a fault in the gateware model.
 
 SHORT_PULSE and LONG_EMISSION stand behind what registers and PLAY refuse already: test_limits.py has them.
 """

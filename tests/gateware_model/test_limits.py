@@ -1,4 +1,4 @@
-"""The model of the stage protection against the reference that goes tick by tick, replaced plans included."""
+"""The stage limits of the model against a reference that goes tick by tick, with plans that are replaced."""
 
 from bisect import bisect_left, bisect_right
 from dataclasses import asdict
@@ -38,7 +38,7 @@ def reference(limit_settings, inputs):
 @settings(deadline=None, max_examples=60)
 @given(limits, st.lists(plans, max_size=8), st.lists(st.tuples(st.integers(1, 50), st.booleans()), max_size=8), st.data())
 def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
-    """Plans made at rising ticks, each for now or later, replacing what is not past; sounds, activity, clears, settling."""
+    """Random plans that replace earlier ones, with emissions, activity, clears and settling in between."""
     limits_ = StageLimits(limit_settings, WINDOW_TICKS)
     inputs = [Inputs() for _ in range(DAY_TICKS)]
     starts, at = {}, 1
@@ -87,7 +87,7 @@ def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
 
 
 def test_planned_words_that_never_come_do_not_count():
-    """A fault cuts an emission after its first edges; what was foreseen is forgotten, the cut is judged."""
+    """A fault cuts an emission after its first edges: its remaining plan is dropped, and the cut itself is checked."""
     limits_ = StageLimits(LimitSettings(channel_edges=3, total_edges=4), 1000)
     limits_.show(np.arange(10, 100, 10), np.array([1, 0, 1, 0, 1, 0, 1, 0, 1], np.uint32))
     assert limits_.next_change(0) == 42
@@ -113,7 +113,7 @@ def most_within(ticks, window_ticks):
     st.sampled_from([60, 479, 480, 481, 700]),
 )
 def test_no_interval_of_a_window_has_more_edges_than_the_limit_wherever_it_begins(gaps, start, channel_edges, total_edges, window):
-    """Of the edges that trip nothing, by the reference; an edge too many is the last before the outputs are off."""
+    """Of the edges that cause no fault, by the reference; an excess edge is the last before the outputs are off."""
     inputs, word = [Inputs() for _ in range(start)], 0
     for wait, following in gaps:
         inputs += [Inputs(word) for _ in range(wait)]
@@ -134,7 +134,7 @@ def test_no_interval_of_a_window_has_more_edges_than_the_limit_wherever_it_begin
 
 
 def test_twice_the_limit_across_the_end_of_a_window_is_too_many():
-    """What windows at fixed times let pass."""
+    """Which counting in windows at fixed times would allow."""
     for window in (480, 4800):
         for end in (window, 2 * window, 15 * part_ticks(window), 16 * part_ticks(window)):
             limits_ = StageLimits(LimitSettings(channel_edges=20, total_edges=20), window)

@@ -1,4 +1,4 @@
-"""The gateware model by itself: each result, each register, and what can be read back; the Verilog is compared in conformance/."""
+"""The gateware model alone: each result and register, and all READs; tests/conformance compares it with the Verilog."""
 
 import zlib
 

@@ -1,4 +1,4 @@
-"""The output pins of the model as captures take them."""
+"""Captures of the model's output pins."""
 
 import tracemalloc
 

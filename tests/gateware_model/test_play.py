@@ -1,4 +1,4 @@
-"""What plays of the gateware model, and when: words, starts, queue, delays, repetitions, and what is still arriving."""
+"""Plays of the gateware model: words, starts, queue, delays, repetitions, and plays during an upload."""
 
 from dataclasses import replace
 
@@ -238,7 +238,7 @@ def test_what_is_scheduled_behind_a_repetition_waits_for_its_last_emission(armed
 
 @pytest.mark.parametrize("length", [1, 2, 30])
 def test_scheduled_plays_as_dense_as_they_are_accepted_are_all_played(length):
-    """On the slowest clock, where words are shorter than the ten ticks it takes to fetch the next play."""
+    """At the slowest clock, where a word is shorter than the ten ticks in which the next play is fetched."""
     slow = replace(PARAMETERS, clock_hz=8_000_000, pulse_ticks_min=4)
     host = Host(slow).arm(BIT_PERIOD=4 << 16)
     host.store(0)
@@ -436,7 +436,7 @@ CHUNK_TICKS = 125 * SLOWEST_BIT_TICKS  # 25,000: a LOAD of a whole chunk takes 2
 
 @pytest.fixture
 def live():
-    """Armed, with the slowest bit clock, at which this link is just fast enough, and a first chunk that has arrived."""
+    """Armed at the slowest bit clock, for which this link is just fast enough, with the first chunk loaded."""
     host = Host().arm(BIT_PERIOD=SLOWEST_BIT_TICKS << 16)
     host.load(CHUNK)
     host.pins_after(0)

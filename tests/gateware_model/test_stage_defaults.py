@@ -1,4 +1,4 @@
-"""What the boards' own limits allow: the paper's endless 500 Hz at full duty on the simulated panel, not on hardware."""
+"""The limits of the boards: endless 500 Hz at full duty, as in the paper, on the simulated panel but not on hardware."""
 
 import selectors
 
@@ -19,7 +19,7 @@ BUSIEST_EDGES_PER_S = 104e3  # of a channel at full duty, by `bank info --power`
 
 
 def play_endlessly(name, seconds):
-    """Emissions of random words, back to back, for so long; the FPGA's session and pins."""
+    """Play random words back to back for a time; returns the fault, session, pins and start."""
     board = load_board(find_board(name))
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)

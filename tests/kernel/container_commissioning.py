@@ -188,6 +188,10 @@ def test_a_copied_board_is_made_ones_own_and_the_shell_finds_the_command():
     assert f"length_mm = {LENGTH_MM}" in board.read_text()
 
 
+def test_the_changed_board_is_checked_without_any_device():
+    assert "panel/board.toml" in done(step("board check"))
+
+
 def test_the_bank_is_where_run_looks_for_it_and_belongs_to_the_service():
     assert f"bank: {BANK}\n" in done(step("bank build"))
     for place, mode in ((BANK.parent.parent, 0o750), (BANK.parent, 0o750), (BANK, 0o644)):

@@ -19,8 +19,9 @@ from restarting_gateware import RestartingGateware
 from controller.board.board import data_folder
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
-from controller.gateware_model.gateware import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, Permit, frame_ticks
+from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
 
 HEADER = struct.Struct("<IIII")  # of labdev: speed in Hz, bytes, mode, whether chip select rises behind it
 REQUEST_BYTES = 1 << 16

@@ -383,7 +383,8 @@ def test_a_lag_is_measured_from_both_devices_at_once_and_strokes_that_tell_nothi
     command = [sys.executable, "-c", program, "calibrate-touch", "--lag", "--board", str(folder), "--seconds", "5", "--write"]
     command += ["--reference", device.device.path, "--out", str(kept)]
     running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert "hold the mouse to the finger and slide both" in running.stderr.readline()
+    first = running.stderr.readline()
+    assert "hold the mouse to the finger and slide both" in first, first + running.stderr.read()
     for k in range(50):
         send(panel, *finger(0, 5, 500 + k, 500), TOUCH)
         for _ in range(4):  # a fast mouse, as seen by the median of its periods, however slow this machine

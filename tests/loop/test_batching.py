@@ -20,8 +20,8 @@ def owners(emissions):
     return [e.owner for e in emissions]
 
 
-def chosen_of(*due, most=MAX_FOCI):
-    chosen, rest = select_batch(due, T_S, most)
+def chosen_of(*due, max_foci=MAX_FOCI):
+    chosen, rest = select_batch(due, T_S, max_foci)
     assert sorted(owners(chosen) + owners(rest)) == sorted(owners(due))
     return owners(chosen)
 
@@ -64,7 +64,7 @@ def test_one_that_is_in_the_way_waits_and_the_next_one_is_taken():
 def test_ten_foci_are_one_waveform_and_the_eleventh_waits():
     due = [emission(k, 10 * k) for k in range(12)]
     assert chosen_of(*due) == list(range(10))
-    assert chosen_of(*due, most=3) == [0, 1, 2]
+    assert chosen_of(*due, max_foci=3) == [0, 1, 2]
 
 
 places = st.tuples(st.floats(0, 200), st.floats(0, 140))
@@ -96,12 +96,12 @@ def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
 
 
 @given(st.lists(st.tuples(places, st.floats(0, 5), st.booleans()), min_size=1, max_size=14), st.integers(1, 10))
-def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, most):
+def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, max_foci):
     due = [emission(k, x, at, y_mm=y, alternate=alone) for k, ((x, y), at, alone) in enumerate(wanted)]
-    chosen, rest = select_batch(due, T_S, most)
+    chosen, rest = select_batch(due, T_S, max_foci)
     assert sorted((*chosen, *rest), key=lambda e: e.owner) == due
     assert chosen[0] is due[0]
-    assert len(chosen) <= most
+    assert len(chosen) <= max_foci
     assert all(e.time_s <= chosen[0].time_s + T_S for e in chosen)
     for k, one in enumerate(chosen):
         for other in chosen[:k]:

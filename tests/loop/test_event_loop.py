@@ -21,11 +21,13 @@ from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.session import Session
+from controller.loop import wiring
 from controller.loop.dispatcher import PREFETCH_SLACK_S
 from controller.loop.occupancy import Repetition
 from controller.loop.scene_source import PreparedScene
 from controller.loop.watched_files import WatchedFiles
 from controller.loop.wiring import assemble
+from controller.metrics import Counters
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.simulation import simulated_run
@@ -847,3 +849,36 @@ def test_answers_that_are_read_late_do_not_move_the_fpgas_time(board, bank_file,
     assert counters.scheduled == len(played) > 10
     for start in played:
         assert link.time_s(start.at_ticks) == pytest.approx(start.trigger_s, abs=50e-6)
+
+
+class Muted:
+    """Counts nothing, once it is made."""
+
+    def __init__(self):
+        super().__init__()
+        object.__setattr__(self, "muted", True)
+
+    def __setattr__(self, name, value):
+        if not getattr(self, "muted", False):
+            super().__setattr__(name, value)
+
+
+def test_counters_decide_nothing(board, bank_file, tmp_path, evemu_text, monkeypatch):
+    """Stalls with emissions between them, a spot, a finger: the pins do the same if nothing is counted."""
+
+    class MutedCounters(Muted, Counters):
+        pass
+
+    reports = [(0.005 * k, {0: (20.0 + 0.3 * k, 54.0)}) for k in range(500)]
+    captures = []
+    for kind in (Counters, MutedCounters):
+        monkeypatch.setattr(wiring, "Counters", kind)
+        with Bank.open(bank_file, board) as bank:
+            clock = StallingClock([(0.25 + 0.5 * k, 0.25) for k in range(5)])
+            link, counters, loop = loop_of(board, bank, tmp_path, clock, reports, evemu_text, SPOT + TEXTURE)
+            loop.run()
+            link.close()
+        assert (counters.host_silent, counters.emissions > 20) == ((5, True) if kind is Counters else (0, False))
+        captures.append(link.take_capture())
+    for field in ("ticks", "words", "hv", "focus_ticks"):
+        assert np.array_equal(getattr(captures[0], field), getattr(captures[1], field))

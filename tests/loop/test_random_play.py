@@ -346,7 +346,7 @@ class Judge:
     def turn(self, _):
         """The slot cache is consistent in itself and with what the FPGA holds."""
         cache = self._playback._slots
-        residents = cache.residents()
+        residents = cache.held.items()
         assert sorted(slot for slot, _ in residents) == list(range(cache.slots))
         buffers = self._link.gateware._buffers
         keys = [key for _, key in residents if key is not None]

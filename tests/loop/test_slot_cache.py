@@ -84,7 +84,7 @@ def test_a_waveform_that_is_kept_in_another_slot_leaves_the_one_before():
     slot = cache.take(spared=before)
     cache.keep(1, slot)
     assert cache.use(1) == slot
-    assert [key for _, key in cache.residents()] == [None, None, 1]
+    assert [key for _, key in cache.held.items()] == [None, None, 1]
     assert cache.take() == before
 
 
@@ -125,6 +125,6 @@ def test_every_slot_is_used_by_one_waveform_at_most(slots, pinned, steps):
             if what != "refused":
                 cache.keep(key, slot)
                 holds = {other: held for other, held in holds.items() if held != key} | {slot: key}
-        assert {slot: held for slot, held in cache.residents() if held is not None} == holds
-        assert sorted(slot for slot, _ in cache.residents()) == list(range(slots))
+        assert {slot: held for slot, held in cache.held.items() if held is not None} == holds
+        assert sorted(slot for slot, _ in cache.held.items()) == list(range(slots))
         assert all(cache.find(held) == held for held in holds.values())

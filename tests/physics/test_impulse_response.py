@@ -6,7 +6,8 @@ from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits, drive_words
 from controller.board.board import find_board, load_board
-from controller.physics.impulse_response import ResponseModel, band_gain, pulse_response
+from controller.physics.impulse_response import ResponseModel
+from controller.physics.modal_response import band_gain, pulse_response
 from controller.physics.row_responses import in_rows
 
 BOARD = load_board(find_board("simulated"))

@@ -38,7 +38,9 @@ from controller.fpga import frames
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result, State
 from controller.fpga.status import parse_status
-from controller.gateware_model.gateware import (
+from controller.gateware_model.gateware import Permit
+from controller.gateware_model.model import INPUT_TICKS, GatewareModel
+from controller.gateware_model.pin_timing import (
     BAUD,
     READY_TICKS,
     SCK_TICKS,
@@ -47,9 +49,7 @@ from controller.gateware_model.gateware import (
     SELECT_TO_SCK_TICKS,
     TRIGGER_HIGH_TICKS,
     TRIGGER_PERIOD_TICKS,
-    Permit,
 )
-from controller.gateware_model.model import INPUT_TICKS, GatewareModel
 
 __all__ = [
     "BIT_TICKS",

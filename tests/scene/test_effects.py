@@ -7,6 +7,7 @@ import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scene.scenes import BOARD, CLICK, square
 
 from controller.board.board import data_folder, load_board
 from controller.errors import ConfigError
@@ -14,28 +15,7 @@ from controller.scene.effects import EffectTable, When
 from controller.scene.fingers import ActiveEffects
 from controller.scene.library import LIBRARY, library
 from controller.scene.primitives import PRIMITIVES, conflict, primitive_of
-from controller.scene.scene import load_scene
 from controller.scene.trains import Train
-
-BOARD = load_board(data_folder("boards") / "simulated")
-CLICK = '{ effect = "click" }'
-
-
-@pytest.fixture
-def scene_of(tmp_path):
-    """Loads a scene from the lines of its regions."""
-
-    def load(*regions, effects="", board=BOARD):
-        file = tmp_path / "scene.toml"
-        file.write_text(effects + "".join(f"[[regions]]\n{region}\n" for region in regions))
-        return load_scene(file, board)
-
-    return load
-
-
-def square(effects, name="square", x_mm=50, size_mm=40):
-    place = f"x_mm = {x_mm}\ny_mm = 50\nwidth_mm = {size_mm}\nheight_mm = {size_mm}"
-    return f'name = "{name}"\nshape = "rectangle"\n{place}\neffects = [{effects}]'
 
 
 @pytest.mark.parametrize(
@@ -118,6 +98,7 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         (f"{{ {PRESS}, phase = 0.5 }}", '.phase = 0.5 does not go with when = "press", a single emission; it belongs to a train ('),
         (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
         (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
+        (f"{{ {BUZZ}, duration_ms = 1e-9 }}", ".duration_ms = 1e-09 is too short for an emission"),
         (
             '{ when = "release", rate_hz = 100, count = 3 }',
             '.rate_hz = 100 does not go with when = "release", a single emission',
