@@ -110,7 +110,8 @@ def conflict(effect: EffectTable) -> str:
         if len(found) > 1:
             return f": {' and '.join(f'{key}{_shown(given[key])}' for key in found)} exclude each other: give one of them"
     if effect.emissions < 1:
-        return f".phase = {effect.phase:g} leaves no emission within duration_ms = {effect.duration_ms:g}"
+        late = f".phase = {effect.phase:g} leaves no emission within duration_ms = {effect.duration_ms:g}" if effect.phase else ""
+        return late or f".duration_ms = {effect.duration_ms:g} is too short for an emission"
     return _envelope_conflict(effect)
 
 

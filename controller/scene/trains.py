@@ -146,7 +146,12 @@ def train_of(effect: EffectTable, amplitude: float = 1.0) -> Train:
 
 def silent(train: Train) -> bool:
     """Whether all beats of a train are silent."""
-    return not any(train.amplitude_of(beat, 1.0) for beat in range(train.beats))
+    beats = {0, train.beats - 1}
+    if train.period_s:  # between two points of the envelope the loudest beats are the first and the last one there
+        for at_s, _ in train.envelope:
+            beat = math.floor((at_s - train.first_s) / train.period_s)
+            beats |= {beat - 1, beat, beat + 1}  # the division may round up or down
+    return not any(train.amplitude_of(beat, 1.0) for beat in beats if 0 <= beat < train.beats)
 
 
 def _between(envelope: tuple[tuple[float, float], ...], at_s: float) -> float:

@@ -1,7 +1,7 @@
-"""The processes beside the loop: `python -m controller.service.beside_loop panel|thermometer PRIORITY SETTINGS` (JSON).
+"""Helper processes of the service: `python -m controller.service.beside_loop panel|thermometer PRIORITY SETTINGS` (JSON).
 
-Started by the service (`worker`); standard input is the way to it. They end when it does, and by no signal that is
-meant for it: a service manager sends those to all of a service's processes.
+The service starts them (`worker`); their standard input is a socket to it. They end when it is closed, and ignore the signals
+that a service manager sends to all processes of a service.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from controller.touch.panels import open_panel
 
 
 def main(arguments: list[str]) -> None:
-    """Serve until the loop has gone."""
+    """Serve until the loop closes the socket."""
     what, priority, settings = arguments
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
-    enter_realtime(Realtime(priority=int(priority), lock_memory=int(priority) > 0))  # what is refused, the loop has told
+    enter_realtime(Realtime(priority=int(priority), lock_memory=int(priority) > 0))  # the loop has reported what is refused
     with socket.socket(fileno=sys.stdin.fileno()) as loop:
         try:
             if what == "panel":

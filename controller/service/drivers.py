@@ -1,4 +1,4 @@
-"""The only place that chooses drivers for a board; each is imported when it is opened: another computer may lack it."""
+"""Selects and opens the drivers of a board. Each is imported when it is opened: other computers may lack its package."""
 
 from __future__ import annotations
 
@@ -39,28 +39,34 @@ UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from
 
 
 def gateware_hash() -> int:
-    """Hash of the gateware that belongs to this software."""
+    """Build hash of the gateware that belongs to this software."""
     return build_hash(data_folder("fpga_rtl"))
 
 
 def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
-    """Link to gateware that is computed.
+    """Link to simulated gateware.
 
     Parameters
     ----------
+    board : Board
+    now_s : callable
+        The host's clock.
     gateware : GatewareFactory
-        What computes the gateware's pins.
+        Makes the simulated gateware: the model, or the compiled Verilog.
     """
     return SimulatedLink(board.link, now_s, gateware(Parameters.of(board, gateware_hash())))
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
-    """Link of a board's FPGA.
+    """Link to a board's FPGA.
 
     Parameters
     ----------
+    board : Board
+    now_s : callable
+        The host's clock.
     unhurried : bool
-        Wait longer for answers over a serial port: for bring-up, not for the loop.
+        Wait longer for answers over a serial port: for bring-up, not for the event loop.
 
     Raises
     ------
@@ -79,18 +85,18 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 
 
 def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
-    """Link and session of an FPGA that may not be there yet; nothing is asked of it before `bring_up`."""
+    """Link and session of an FPGA that may not be connected yet; nothing is sent before `bring_up`."""
     link = LazyLink(lambda: open_link(board, now_s), now_s)
     return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
 
 
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:
-    """Bring up what is at the other end of a link, checked to run the gateware that belongs to this software.
+    """Bring up the FPGA at the other end of a link, and check that it runs the gateware of this software.
 
     Raises
     ------
     LinkError
-        If it does not answer or is another one.
+        If it does not answer, or runs another gateware.
     """
     return Session(link, board, gateware_hash(), now_s)
 
@@ -109,7 +115,14 @@ def open_panel(board: Board) -> EventReader:
 
 
 def open_input(device: str, *, grab: bool = False) -> EventReader:
-    """Input device of the kernel, by path or name.
+    """Driver of an input device of the kernel.
+
+    Parameters
+    ----------
+    device : str
+        Path or name.
+    grab : bool
+        Keep other programs from reading it.
 
     Raises
     ------
@@ -122,7 +135,7 @@ def open_input(device: str, *, grab: bool = False) -> EventReader:
 
 
 def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0.0) -> TouchSource:
-    """Touches of a board's panel, or of a recording that begins at `start_s`.
+    """Touches of a board's panel, or of a recording that begins at `start_s` on the host's clock.
 
     Raises
     ------
@@ -135,9 +148,9 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
 
 
 def await_panel(board: Board) -> AwaitedReader | PanelProcess:
-    """Driver of a board's touch panel, which may not be there yet; one on a bus that may hang is a process of its own.
+    """Driver of a board's touch panel, which may not be connected yet. One on an I2C bus runs in a process of its own.
 
-    Called before real time begins.
+    Call it before the loop gets real-time priority.
 
     Raises
     ------
@@ -157,12 +170,12 @@ def await_panel(board: Board) -> AwaitedReader | PanelProcess:
 def tracked(
     source: TouchSource, board: Board, bridged: Callable[[int, int], None] | None = None, motion: type[Motion] = Motion
 ) -> Tracker:
-    """A source behind the board's tracker; for `bridged` and `motion` see there."""
+    """Tracker of a board for a source of touches; for `bridged` and `motion` see `Tracker`."""
     return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged, motion)
 
 
 def open_thermometer(board: Board) -> Thermometer | None:
-    """Sensor of the plate's temperature, which may come later; None where the board has none."""
+    """Thermometer of a board, whose sensor may be connected later; None if the board has none."""
     if board.temperature is None:
         return None
     from controller.service.temperature import Thermometer
@@ -171,7 +184,7 @@ def open_thermometer(board: Board) -> Thermometer | None:
 
 
 def await_thermometer(board: Board) -> Thermometer | None:
-    """As `open_thermometer`, by a process of its own. Called before real time begins."""
+    """As `open_thermometer`, with the sensor read by a process of its own. Call it before the loop gets real-time priority."""
     if board.temperature is None:
         return None
     from controller.service.temperature import Thermometer
@@ -181,10 +194,10 @@ def await_thermometer(board: Board) -> Thermometer | None:
 
 
 def _beside(what: str, priority: int, settings: Record) -> Worker:
-    """A process of `beside_loop`."""
+    """Start a helper process with `beside_loop`."""
     return Worker(["-m", "controller.service.beside_loop", what, str(priority), msgspec.json.encode(settings).decode()])
 
 
 def recording_path(board: Board, given: str | None) -> Path:
-    """File to replay: the one asked for, else the board's own."""
+    """Path of the recording to replay: the given one, else the board's."""
     return board.beside(board.touch.recording) if given is None else Path(given)

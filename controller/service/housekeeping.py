@@ -1,4 +1,4 @@
-"""What the service does beside playing, a little in each turn of the loop: watchdog, status, log, temperature."""
+"""What the service does in each turn of the loop beside playing: watchdog, status and log, reloads, temperature."""
 
 from __future__ import annotations
 
@@ -14,64 +14,64 @@ from controller.loop.scene_source import PreparedScene
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
 
-PLAYING_S = 1.0  # since the last emission, for which the panel is said to be playing
-FIRST_S = 0.1  # between looks for the first temperature
+PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
+FIRST_S = 0.1  # between attempts until the first temperature
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
 
 
 class Thermometer(Protocol):
-    """The plate's temperature, as far as it is known."""
+    """Temperature of the plate, and the bit clock that follows from it."""
 
     @property
     def temperature_c(self) -> float:
-        """In °C; NaN while it is not."""
+        """Temperature in °C; NaN if unknown."""
 
     @property
     def cause(self) -> str:
-        """Why the last reading gave nothing; empty if it did."""
+        """Why the last reading failed; empty if it did not."""
 
     def scale(self, now_s: float) -> float:
-        """What the bit clock is to be multiplied by."""
+        """Read the sensor if due; returns the factor of the bit clock."""
 
 
 class Panel(Protocol):
-    """A touch panel, as far as it can be absent."""
+    """A touch panel that may be disconnected."""
 
     @property
     def present(self) -> bool:
-        """Whether it is there."""
+        """Whether it is connected."""
 
     @property
     def cause(self) -> str:
-        """Why it is not there; empty while that is not known yet."""
+        """Why it is not connected; empty while unknown."""
 
 
 class OutputsSeen(Protocol):
-    """Whether the outputs are on."""
+    """The outputs of the FPGA, as the event loop knows them."""
 
     @property
     def on(self) -> bool:
-        """Whether plays are taken."""
+        """Whether plays are accepted."""
 
     @property
     def state(self) -> PanelState:
-        """ARMED, or why not."""
+        """ARMED, or the state that keeps them off."""
 
     @property
     def cause(self) -> str:
-        """Why not, in words."""
+        """Why they are off."""
 
 
 class Watched(Protocol):
-    """What is told about: the loop."""
+    """State of the event loop that the service reports."""
 
     @property
     def outputs(self) -> OutputsSeen:
-        """The outputs of its FPGA."""
+        """The outputs of the FPGA."""
 
     @property
     def repeating(self) -> bool:
-        """Whether the FPGA plays something again and again by itself."""
+        """Whether the FPGA repeats an emission by itself."""
 
     @property
     def reloading(self) -> bool:
@@ -79,33 +79,33 @@ class Watched(Protocol):
 
     @property
     def stretch(self) -> Callable[[float], None]:
-        """Told by how much slower emissions are played than the bank says."""
+        """Callable that takes the factor by which emissions are longer than in the bank."""
 
 
 class Housekeeping:
-    """Called in each turn.
+    """Reports the panel's state and follows the plate's temperature; `progress` is called in each turn of the loop.
 
     Parameters
     ----------
     board : Board
     session : Session
-        Whose bit clock follows the plate's temperature.
+        Its bit clock follows the plate's temperature.
     notifier : Notifier
-        Told of the state of the panel when it changes, and that the service is ready once there is one: it serves then,
-        whether or not the FPGA and the touch panel are there. Who starts after it, such as a user interface, shall not
-        wait for somebody to plug in a cable, and is told of the state itself.
+        Reports the panel's state to the service manager when it changes. The service is ready with the first known state,
+        whether or not FPGA and touch panel are connected: programs that start after it, such as a user interface, do not
+        wait for a cable to be plugged in, and show the state themselves.
     watchdog : Watchdog
     thermometer : Thermometer or None
-        None: the plate is taken to be as warm as the bank says.
+        None: the bit clock is not scaled.
     reload_file : ReloadFile, optional
-        Told what became of each reload.
+        Where the result of each reload is written.
 
     Attributes
     ----------
     scale : float
-        Of the bit clock, as the FPGA plays it now.
+        Factor of the bit clock that the FPGA uses now.
     condition : Condition
-        How the panel is.
+        State of the panel, as last reported.
     """
 
     def __init__(
@@ -133,7 +133,7 @@ class Housekeeping:
         self._temperature_cause = ""
         self._temperature_c: float | None = None
         self._reloading = False
-        self._ready = False  # said so
+        self._ready = False  # was reported
         self._scene_stays = ""
         self._played_s = -math.inf
         self._emission_started = False  # since the last turn
@@ -142,12 +142,15 @@ class Housekeeping:
         self._reload_refused = ""
 
     def watch(self, loop: Watched, panel: Panel | None, told: Callable[[Condition], None] | None = None) -> None:
-        """The loop and the panel that are told about; no panel where a recording is replayed.
+        """Set what is reported.
 
         Parameters
         ----------
+        loop : Watched
+        panel : Panel or None
+            None: a recording is replayed.
         told : callable, optional
-            Called with each new condition, the first one included.
+            Called with each new condition, the first included.
         """
         self._loop = loop
         self._panel = panel
@@ -155,15 +158,21 @@ class Housekeeping:
             self._told = told
 
     def emission_started(self) -> None:
-        """Take note that an emission was played."""
+        """Note that an emission was started."""
         self._emission_started = True
 
     def scene_changed(self, prepared: PreparedScene) -> None:
-        """Take note of a scene that was taken over, or refused; it is told in the next turn."""
+        """Note that a scene is in force, or was refused; reported in the next turn."""
         self._scene = prepared
 
     def progress(self, now_s: float) -> None:
-        """One turn of the loop."""
+        """Do what is due in this turn of the loop.
+
+        Parameters
+        ----------
+        now_s : float
+            Host time.
+        """
         self._watchdog.progress(now_s)
         loop = self._loop
         if loop is None:
@@ -178,26 +187,28 @@ class Housekeeping:
         if self._scene is not None:
             self._tell_scene(self._scene)
             self._scene = None
-        if self._reloads != self._reloads_told and not loop.reloading:  # else another is on its way, and waited for too
+        if (
+            self._reloads != self._reloads_told and not loop.reloading
+        ):  # else another one is being prepared, whose result the caller waits for too
             self._reloads_told = self._reloads
             self._reload_file.write(self._reloads, self._reload_refused)
-        if self._read_s <= now_s and loop.outputs.on:  # an FPGA that is lost takes no other bit clock
+        if self._read_s <= now_s and loop.outputs.on:  # skip while the FPGA is unreachable: it cannot accept a new bit clock
             self._follow_temperature(loop, now_s)
 
     def _tell_scene(self, prepared: PreparedScene) -> None:
-        """Tell that a scene was taken over, or why not."""
+        """Report a scene that is in force, or why it was refused."""
         self._scene_stays = f"the scene stays as it was: {prepared.reason}" if prepared.scene is None else ""
         if self._scene_stays:
             log(self._scene_stays, Priority.WARNING)
         else:
-            log("another scene is played, or the same read again")
+            log("the scene was loaded")
         self._notifier.status(self._status)
         if not prepared.ticket:
             self._reloads += 1
             self._reload_refused = prepared.reason
 
     def _look(self, loop: Watched, now_s: float) -> None:
-        """Tell of the panel's condition if it has changed."""
+        """Determine the panel's condition, and report it if it has changed."""
         outputs, panel = loop.outputs, self._panel
         on, state, cause = outputs.on, outputs.state, outputs.cause
         present = panel is None or panel.present
@@ -219,7 +230,7 @@ class Housekeeping:
         ):
             return
         if not cause and state not in WORKING:
-            return  # on its way: nothing is known yet
+            return  # the outputs are being switched on: the result is not known yet
         self.condition = Condition(state, cause, on, present, self._temperature_c)
         self._log(before)
         if not self._ready:
@@ -230,7 +241,7 @@ class Housekeeping:
         self._told(self.condition)
 
     def _log(self, before: Condition) -> None:
-        """What of a new condition is for the log: not whether something is being played."""
+        """Log what changed, except whether something is being played."""
         now = self.condition
         if now.outputs_on != before.outputs_on and now.outputs_on:
             log("the outputs are on")
@@ -245,7 +256,7 @@ class Housekeeping:
 
     @property
     def _status(self) -> str:
-        """One line for `systemctl status`."""
+        """State of the panel as one line for `systemctl status`."""
         now = self.condition
         said = f"{now.state.value} on board {self._board_name!r}" if now.state in WORKING else f"{now.state.value}: {now.cause}"
         return f"{said}; {self._scene_stays}" if self._scene_stays else said
@@ -254,7 +265,7 @@ class Housekeeping:
         assert self._thermometer is not None
         scale = self._thermometer.scale(now_s)
         temperature_c = self._thermometer.temperature_c
-        unknown = math.isnan(temperature_c) and not self._thermometer.cause  # it was not answered yet
+        unknown = math.isnan(temperature_c) and not self._thermometer.cause  # the sensor has not answered yet
         self._read_s = now_s + (min(FIRST_S, self._period_s) if unknown else self._period_s)
         self._temperature_c = None if math.isnan(temperature_c) else temperature_c
         if self._thermometer.cause != self._temperature_cause:
@@ -265,7 +276,7 @@ class Housekeeping:
                 log("the temperature sensor is read again")
         if scale == self.scale:
             return
-        if self._session.set_bit_period(scale):  # else something plays: the next turn but one
+        if self._session.set_bit_period(scale):  # else an emission is playing: try again in a later turn
             self.scale = scale
             loop.stretch(1 / scale)
         else:
@@ -273,4 +284,4 @@ class Housekeeping:
 
 
 def _nobody(_: Condition) -> None:
-    """Who is told where nobody is."""
+    """Ignore the condition: the board has no application socket."""

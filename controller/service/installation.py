@@ -1,6 +1,6 @@
-"""How this package came onto this machine, and the line for a shell that completes it.
+"""How this package was installed, and the command that adds what is missing.
 
-Never by the package's name: what a registry has under that name need not be ours.
+The command never names the package alone: a registry may have another package of that name.
 """
 
 from __future__ import annotations
@@ -12,21 +12,19 @@ import sys
 from urllib.parse import unquote, urlsplit
 
 DISTRIBUTION = "haptic-panel"
-OFFLINE = frozenset({"scipy", "matplotlib", "mpl_toolkits", "tqdm", "threadpoolctl"})  # what the extra `offline` brings
-DRIVERS = frozenset(
-    {"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"}
-)  # what the package itself brings, partly on Linux only
+OFFLINE = frozenset({"scipy", "matplotlib", "mpl_toolkits", "tqdm", "threadpoolctl"})  # installed by the extra `offline`
+DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 
 
 def install_line(extra: str = "") -> str:
-    """Line for a shell that installs this package again from where it came, with what an extra needs."""
+    """Command line that installs this package again from its source, with an extra if one is given."""
     source, options = _source()
     wanted = f"{source}[{extra}]" if extra else source
     return shlex.join([sys.executable, "-m", "pip", "install", *options, wanted])
 
 
 def missing_package(name: str | None) -> str | None:
-    """What is to be done where a package cannot be imported; None where it is not one that this package needs."""
+    """Message for a package that cannot be imported: how to install it; None for one that this package does not use."""
     package = (name or "").partition(".")[0]
     if package in OFFLINE:
         return f"{package} is missing, one of the offline tools that this needs: {install_line('offline')}"
@@ -36,7 +34,7 @@ def missing_package(name: str | None) -> str | None:
 
 
 def _source() -> tuple[str, list[str]]:
-    """Folder or wheel that this package was installed from, as far as pip has noted it, and the options to do so again."""
+    """Folder or wheel that pip installed this package from, as pip recorded it, and the options to install it again."""
     distribution = importlib.metadata.distribution(DISTRIBUTION)
     wheel = f"{DISTRIBUTION.replace('-', '_')}-{distribution.version}-py3-none-any.whl"
     noted = json.loads(distribution.read_text("direct_url.json") or "{}")

@@ -1,6 +1,6 @@
-"""What has to be done before a scene can be played: at the start, and for another scene in a process of its own.
+"""Preparation of a scene before it is played: at the start of the service, and for a reload in a process of its own.
 
-Reading and checking the file, and reading the waveforms it can ask for, so that they are in the page cache.
+Reads and checks the file, and reads the waveforms that the scene can need, so that they are in the page cache.
 """
 
 from __future__ import annotations

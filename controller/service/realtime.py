@@ -17,14 +17,19 @@ CAP_IPC_LOCK = 14  # linux/capability.h
 
 
 def enter_realtime(settings: Realtime) -> list[str]:
-    """Give this thread its priority and core, and keep in memory whatever it touches from now on.
+    """Set priority and core of this thread, lock memory as it is used, and limit BLAS to one thread.
 
-    Threads and processes started later are ordinary again. BLAS is limited to one thread.
+    Threads and processes started later have ordinary priority.
+
+    Parameters
+    ----------
+    settings : Realtime
+        Of the board.
 
     Returns
     -------
     list of str
-        Empty, or one warning that says what was refused and what to do.
+        Empty, or one warning: what was refused, and how to permit it.
     """
     refused = [_schedule(settings.priority), _pin(settings.cpu), _lock_memory() if settings.lock_memory else ""]
     one_blas_thread()
@@ -54,10 +59,10 @@ def _pin(cpu: int | None) -> str:
 
 
 def _lock_memory() -> str:
-    """Lock on fault: a plain mlockall would read the whole bank in and keep it.
+    """Lock pages as they are used (MCL_ONFAULT): a plain mlockall would read and keep the whole bank.
 
-    What is mapped later counts in full against the limit, the bank as a whole, though only pages touched are
-    kept: with a limit the map would fail later on, so that nothing is locked then (mmap(2), EAGAIN).
+    With a limit, nothing is locked: a later mapping counts in full against it, although only the pages used are kept, so that
+    mapping a bank would fail (mmap(2), EAGAIN).
     """
     hard = resource.getrlimit(resource.RLIMIT_MEMLOCK)[1]
     if hard == resource.RLIM_INFINITY:
@@ -71,20 +76,20 @@ def _lock_memory() -> str:
 
 
 def _may_lock() -> bool:
-    """Whether this process is above RLIMIT_MEMLOCK."""
+    """Whether this process may exceed RLIMIT_MEMLOCK (CAP_IPC_LOCK)."""
     effective = re.search(r"^CapEff:\s*(\w+)", Path("/proc/self/status").read_text(), re.MULTILINE)
     return bool(effective and int(effective[1], 16) >> CAP_IPC_LOCK & 1)
 
 
 def one_blas_thread() -> list[str]:
-    """Limit every OpenBLAS of this process to one thread, and those of its children: the loop's products are small.
+    """Limit OpenBLAS to one thread, in this process and its children: for the loop's small products, threads cost time.
 
     Returns
     -------
     list of str
-        The libraries that were told; empty where numpy has another BLAS.
+        Paths of the OpenBLAS libraries found; empty if numpy uses another BLAS.
     """
-    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # for one that is loaded later
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # for libraries loaded later
     told = []
     for path in sorted(set(re.findall(r"(/.*openblas.*)$", Path("/proc/self/maps").read_text(), re.MULTILINE))):
         library = ctypes.CDLL(path)

@@ -1,7 +1,7 @@
-"""What became of a reload, told to who asked for it: `systemctl reload` fails where the scene was refused.
+"""Result of a reload, for `systemctl reload`, which fails if the scene was refused.
 
-The service writes it into its runtime folder ($RUNTIME_DIRECTORY, systemd.exec(5)), in memory, whole or not at all;
-`ExecReload=` waits for the next one.
+The service writes it atomically to its runtime folder ($RUNTIME_DIRECTORY, systemd.exec(5)), in memory; the command of
+`ExecReload=` waits for the next result.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ LOOK_MS = 50
 
 
 class Reloaded(msgspec.Struct, frozen=True):
-    """How many reloads were decided since the service started, and why the last one was refused; empty if it was not."""
+    """Number of reloads since the service started, and why the last one was refused; empty if it was not."""
 
     count: int
     refused: str
 
 
 class ReloadFile:
-    """The service's end.
+    """File with the result of the last reload, written by the service.
 
     Parameters
     ----------
     folder : Path or None
-        None: nobody waits.
+        The runtime folder; None: there is none, and nothing is written.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -43,11 +43,19 @@ class ReloadFile:
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] = os.environ) -> Self:
-        """In the folder that this service was given."""
+        """File in the folder that $RUNTIME_DIRECTORY names."""
         return cls(_folder(environment))
 
     def write(self, count: int, refused: str) -> None:
-        """Take note of a reload; a full disk is no reason to stop."""
+        """Write the result of a reload; an error, such as a full disk, is ignored.
+
+        Parameters
+        ----------
+        count : int
+            Reloads so far.
+        refused : str
+            Why the scene was refused; empty if it was not.
+        """
         if self._file is None:
             return
         new = self._file.with_suffix(".new")
@@ -59,14 +67,19 @@ class ReloadFile:
 
 
 def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
-    """Have the service read its scene again, and wait until that is decided.
+    """Have the service read its scene again, and wait for the result.
+
+    Parameters
+    ----------
+    pid : int
+        Main process of the service.
 
     Raises
     ------
     ConfigError
-        If the scene was refused, with the reason; the old one goes on playing.
+        If the scene was refused, with the reason; the scene before stays in force.
     ControllerError
-        If there is no such service, or it ended meanwhile.
+        If the process does not exist, or ended meanwhile.
     """
     folder = _folder(environment)
     if folder is None:
@@ -76,13 +89,13 @@ def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
         process = os.pidfd_open(pid)
         signal.pidfd_send_signal(process, signal.SIGHUP)
     except OSError as error:
-        raise ControllerError(f"process {pid} cannot be told to reload: {error.strerror}") from error
+        raise ControllerError(f"process {pid} cannot be sent SIGHUP: {error.strerror}") from error
     poll = select.poll()
     poll.register(process, select.POLLIN)
     try:
         while (now := _read(folder / NAME)).count == before.count:
             if poll.poll(LOOK_MS):
-                raise ControllerError("the service ended before it had decided")
+                raise ControllerError("the service ended during the reload")
     finally:
         os.close(process)
     if now.refused:

@@ -1,4 +1,4 @@
-"""The service: a board's real panel and FPGA under the event loop, until a signal comes or the FPGA forbids it."""
+"""The service: a board's touch panel and FPGA with the event loop, until a signal or a fault that ends it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from controller.touch.reports import describe_warnings
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
 
-REPLAY_AFTER_S = 0.3  # beyond the ramp
+REPLAY_AFTER_S = 0.3  # from the end of the ramp to the start of a recording
 
 
 def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recording | None = None) -> dict[str, Any]:
@@ -34,6 +34,12 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
 
     Parameters
     ----------
+    board : Board
+    scene : Scene
+    scene_name : str
+        Name or path of the scene, for reloads and the log.
+    bank : Bank
+        Open; it has all cells that the scene can need.
     replay : Recording, optional
         Touches from a recording instead of the board's panel; the service ends with it.
 
@@ -45,9 +51,10 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     Raises
     ------
     IncompatibleFpga
-        If the FPGA is another one than this software and the board need. One that is absent is waited for, as is the panel.
+        If the FPGA does not have the gateware or limits that software and board require. The service waits for an FPGA or
+        touch panel that is not connected.
     FaultError
-        If the FPGA has switched off for a reason that the host may not clear.
+        If the FPGA has switched off because of a fault that the host must not clear.
     """
     clock = MonotonicClock()
     with ExitStack() as stack:

@@ -1,9 +1,8 @@
-"""The process that prepares scenes for the loop: started before real time begins, ordinary in all, and nice.
+"""The process that prepares scenes for the event loop: of ordinary priority, started before the loop gets real-time priority.
 
-It waits for one request after the other on its standard input, a socket, and has each carried out by a child of its
-own, which has limits of time and memory, sees nothing of the loop, and ends with its answer. What comes of it, also
-of a child that hangs, grows or dies, is one message back; and the next request finds a new child. It ends when
-the loop does.
+It reads requests from its standard input, a socket, and forks a child for each one. The child has limits of time and memory,
+holds nothing of the loop, and ends with its answer. Each request gets exactly one answer, even if its child hangs, exceeds
+its limits or dies. The process ends when the loop closes the socket.
 """
 
 from __future__ import annotations
@@ -25,20 +24,20 @@ from controller.service.prepare_scene import prepare
 from controller.service.scene_message import HEADER, MOST_BYTES, length, pack_refusal, pack_scene, unpack_request
 
 NICE = 5
-MEMORY_BYTES = 256 << 20  # that a preparation may take beside the bank
+MEMORY_BYTES = 256 << 20  # limit for a preparation, in addition to the bank's size
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 CHUNK_BYTES = 1 << 16
 
 
 def serve(loop: socket.socket, limit_s: float) -> None:
-    """Answer requests until the other end is closed.
+    """Answer requests until the other end of the socket is closed.
 
     Parameters
     ----------
     loop : socket
         Stream, to the loop.
     limit_s : float
-        For one preparation.
+        Time limit of one preparation, in s.
     """
     while (request := _receive(loop)) is not None:
         pid, pipe = _begin(request, loop, limit_s)
@@ -46,7 +45,7 @@ def serve(loop: socket.socket, limit_s: float) -> None:
             answer = _wait(pipe, loop, limit_s)
         finally:
             os.close(pipe)
-            os.kill(pid, signal.SIGKILL)  # it has ended, or has to
+            os.kill(pid, signal.SIGKILL)  # it has ended, or must end now
             _, status = os.waitpid(pid, 0)
         if answer is None:
             return
@@ -56,7 +55,7 @@ def serve(loop: socket.socket, limit_s: float) -> None:
 
 
 def _receive(loop: socket.socket) -> bytes | None:
-    """The next request; None at the end."""
+    """The next request; None once the socket is closed."""
     message = bytearray()
     while len(message) < HEADER.size or len(message) < HEADER.size + length(message):
         more = loop.recv(CHUNK_BYTES)
@@ -67,13 +66,13 @@ def _receive(loop: socket.socket) -> bytes | None:
 
 
 def _begin(request: bytes, loop: socket.socket, limit_s: float) -> tuple[int, int]:
-    """A child that works on a request: its number, and what to read its answer from."""
+    """Fork a child for a request; returns its process id, and the pipe to read its answer from."""
     reads, writes = os.pipe()
     pid = os.fork()
     if pid:
         os.close(writes)
         return pid, reads
-    try:  # nothing of this process goes on in the child
+    try:  # no exception may leave the child's branch
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
         loop.close()
         os.close(reads)
@@ -83,28 +82,30 @@ def _begin(request: bytes, loop: socket.socket, limit_s: float) -> tuple[int, in
 
 
 def _work(request: bytes, limit_s: float) -> bytes:
-    """The answer to a request, whatever happens."""
+    """The answer to a request; any error becomes a refusal."""
     try:
         asked = unpack_request(request)
         _limit(Path(asked.bank), limit_s)
-        os.chdir(asked.board.folder)  # where plain names of scenes are looked up
+        os.chdir(asked.board.folder)  # plain names of scenes are looked up here
         return pack_scene(prepare(asked.board, asked.scene, Path(asked.bank)))
     except ControllerError as error:
         return pack_refusal(str(error))
     except MemoryError:
         return pack_refusal(f"preparing the scene takes more memory than {MEMORY_BYTES >> 20} MB beside the bank")
-    except Exception as error:  # whatever it is, it is told in a line, and the old scene plays on
+    except Exception as error:  # whatever it is, the answer is one line, and the scene before stays in force
         return pack_refusal(f"preparing the scene failed: {type(error).__name__}: {error}")
 
 
 def _limit(bank: Path, limit_s: float) -> None:
-    """Take what a preparation needs, and no more."""
+    """Limit memory, time and files of this process to what a preparation needs."""
     with contextlib.suppress(OSError):
-        Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")  # of all processes of the service this goes first
+        Path("/proc/self/oom_score_adj").write_text(
+            "1000", encoding="ascii"
+        )  # when memory runs out, the kernel ends this process of the service first
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     with contextlib.suppress(FileNotFoundError):
         _lower(resource.RLIMIT_AS, pages * resource.getpagesize() + bank.stat().st_size + MEMORY_BYTES)
-    _lower(resource.RLIMIT_CPU, math.ceil(limit_s) + 1)  # it is told to have taken too long before
+    _lower(resource.RLIMIT_CPU, math.ceil(limit_s) + 1)  # `_wait` reports the time limit before this applies
     _lower(resource.RLIMIT_FSIZE, 0)
     _lower(resource.RLIMIT_CORE, 0)
 
@@ -121,7 +122,7 @@ def _write(pipe: int, answer: bytes) -> None:
 
 
 def _wait(pipe: int, loop: socket.socket, limit_s: float) -> bytes | None:
-    """What the child says, until it ends, says too much or takes too long; None if the loop has ended meanwhile."""
+    """Output of the child, until it ends, exceeds the size of an answer or the time limit; None if the loop has ended meanwhile."""
     poll = select.poll()
     poll.register(pipe, select.POLLIN)
     poll.register(loop, select.POLLRDHUP)
@@ -156,10 +157,10 @@ def _in_words(status: int) -> str:
 
 
 def main() -> None:
-    """Serve the socket on standard input; the only argument is the time limit in s."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # meant for the loop: this ends with it
+    """Serve the socket on standard input; the argument is the time limit in s."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # meant for the loop, with which this process ends
         signal.signal(number, signal.SIG_IGN)
-    with contextlib.suppress(PermissionError):  # a sandbox may forbid even that
+    with contextlib.suppress(PermissionError):  # a sandbox may forbid it
         os.nice(NICE)
     with socket.socket(fileno=0) as loop, contextlib.suppress(ConnectionError):
         serve(loop, float(sys.argv[1]))

@@ -1,8 +1,8 @@
-"""What goes between the loop and the process that prepares scenes for it: versioned, bounded, checked data.
+"""Messages between the event loop and the process that prepares scenes: with version, size limit and CRC.
 
 A message is a header (magic, version, length, CRC-32; little-endian) and that many bytes of MessagePack. The scene
 in it is what `scene`, `trains`, `spacings` and `shapes` declare, within the ranges that their types give; the board is
-`board.Board`. Whatever does not fit is refused as a whole.
+`board.Board`. A message that does not fit is refused as a whole.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ REASON_CHARACTERS = 1000
 
 
 class MessageError(ControllerError):
-    """What the other process said does not fit."""
+    """A message of the other process is invalid."""
 
 
 class Request(Struct, frozen=True, forbid_unknown_fields=True):
@@ -65,7 +65,16 @@ _replies = msgspec.msgpack.Decoder(_Reply)
 
 
 def pack_request(board: Board, scene: str, bank: Path) -> bytes:
-    """Message that asks for a scene."""
+    """Message that requests a scene.
+
+    Parameters
+    ----------
+    board : Board
+    scene : str
+        Name or path.
+    bank : Path
+        Bank that it will be played from.
+    """
     return _framed(_encoder.encode(Request(__version__, board, scene, str(bank))))
 
 
@@ -84,17 +93,17 @@ def pack_scene(scene: Scene) -> bytes:
 
 
 def pack_refusal(reason: str) -> bytes:
-    """Message that says in a line why there is no scene."""
+    """Message that refuses a request; `reason` is shortened to one line."""
     return _framed(_encoder.encode(_Reply(__version__, reason=_line(reason))))
 
 
 def length(header: bytes | bytearray) -> int:
-    """Bytes of a message behind its header.
+    """Length of a message after its header, in bytes.
 
     Raises
     ------
     MessageError
-        If it is no such header, of another version, or of a message that is too large.
+        If the header is invalid, of another version, or of a message that is too large.
     """
     if len(header) < HEADER.size:
         raise MessageError("the message is cut off")
@@ -109,7 +118,7 @@ def length(header: bytes | bytearray) -> int:
 
 
 def unpack_request(message: bytes) -> Request:
-    """What is asked for.
+    """The request in a message.
 
     Raises
     ------
@@ -125,7 +134,7 @@ def unpack_request(message: bytes) -> Request:
 
 
 def unpack_scene(message: bytes) -> Scene | str:
-    """The scene, or why there is none.
+    """The scene in a message, or why it was refused.
 
     Raises
     ------

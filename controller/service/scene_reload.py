@@ -1,7 +1,7 @@
-"""Another scene, and a bank that was replaced, while the loop goes on: prepared by a helper process, taken over at once.
+"""Loading of another scene, or of a replaced bank, while the loop runs: a helper process prepares it, the loop takes it over.
 
-Nothing here waits for another process. The helper (`scene_helper`) is started before the loop has its priority, because
-whoever starts a program waits until the new process has had its turn, and that of an ordinary process may be long in coming.
+Nothing here blocks. The helper (`scene_helper`) is started before the loop gets real-time priority: starting a program waits until
+the new process was scheduled, which can take long for one of ordinary priority.
 """
 
 from __future__ import annotations
@@ -26,25 +26,25 @@ from controller.scene.scene_file import find_scene
 from controller.service.scene_message import HEADER, MessageError, length, pack_request, unpack_scene
 from controller.waveforms.selection import Selection
 
-LIMIT_S = 30.0  # for one preparation; the bank may have to be read from a slow card
-GRACE_S = 5.0  # beyond which the helper itself is taken to hang
+LIMIT_S = 30.0  # time limit of one preparation; the bank may have to be read from a slow card
+GRACE_S = 5.0  # after that limit, until the helper itself counts as hanging
 CHUNK_BYTES = 1 << 16  # read in one turn of the loop
-MOST_FILES = 1 << 20  # that may be open at the start, where there is no limit
+MOST_FILES = 1 << 20  # file descriptors to close in the helper if their number is unlimited
 PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.service.scene_helper import main; main()"
 
 
 class SceneChanger:
-    """`SceneChange` by a helper process, which is started here.
+    """A `SceneChange` that starts and uses a helper process.
 
     Parameters
     ----------
     board : Board
     name : str
-        Of the scene that is played, or its path.
+        Name or path of the scene in force.
     bank : Bank
-        That it is played from.
+        The bank in use.
     limit_s : float
-        For one preparation.
+        Time limit of one preparation, in s.
 
     Raises
     ------
@@ -61,7 +61,7 @@ class SceneChanger:
         self._cpus = os.sched_getaffinity(0)
         self._pid = 0
         self._socket: socket.socket | None = None
-        self._gone: list[int] = []  # processes that were ended, and whose end has not been asked for yet
+        self._gone: list[int] = []  # killed processes that were not waited for yet
         self._wanted: tuple[str, int] | None = None
         self._request = b""
         self._asked_again = False
@@ -73,17 +73,16 @@ class SceneChanger:
 
     @property
     def pid(self) -> int:
-        """Number of the helper process."""
+        """Process id of the helper."""
         return self._pid
 
     def begin(self, name: str | None, ticket: int) -> None:
-        """Prepare a scene; None: the one that is played, read again.
+        """Prepare a scene; None: read the scene in force again.
 
         Raises
         ------
         ConfigError
-            If another is being prepared for somebody: what was asked for last would not be what is answered. A reload
-            is put off until then.
+            If another scene is being prepared; a reload (ticket 0) is instead deferred until that is done.
         """
         if self._wanted is not None:
             if ticket:
@@ -99,11 +98,11 @@ class SceneChanger:
             self._ask_again()
 
     def fileno(self) -> int | None:
-        """Readable when the helper has said something; None while nothing is prepared."""
+        """File that is readable when the helper has answered; None while nothing is being prepared."""
         return None if self._wanted is None or self._socket is None else self._socket.fileno()
 
     def take(self) -> PreparedScene | None:
-        """What was prepared; None while it is not done."""
+        """The prepared scene, or why it was refused; None while it is not ready."""
         if self._wanted is not None and self._failed is None:
             self._read()
         failed, self._failed = self._failed, None
@@ -118,21 +117,21 @@ class SceneChanger:
         return failed
 
     def close(self) -> None:
-        """End the helper, and what it works at."""
+        """End the helper."""
         self._end_helper()
         for pid in self._gone:
             os.waitpid(pid, 0)
         self._gone.clear()
 
     def _start(self) -> None:
-        """Another helper. Forking alone does not wait for the new process, as all that starts a program in one call does."""
+        """Start a helper. fork does not wait for the new process; calls that start a program (vfork, posix_spawn) do."""
         ours, theirs = socket.socketpair()
         folder = str(Path(__file__).resolve().parent.parent.parent)
         command = [sys.executable, "-I", "-c", PROGRAM.format(folder), repr(self._limit_s)]
         files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
         files = MOST_FILES if files == resource.RLIM_INFINITY else files
         pid = _fork()
-        if pid < 0:  # no memory, no processes left
+        if pid < 0:  # no memory, or too many processes
             ours.close()
             theirs.close()
             return
@@ -150,7 +149,7 @@ class SceneChanger:
         self._pid, self._socket = pid, ours
 
     def _end_helper(self) -> None:
-        """Let go of the helper, without waiting for its end."""
+        """Kill the helper, without waiting for its end."""
         if self._socket is not None:
             self._socket.close()
             self._socket = None
@@ -165,7 +164,7 @@ class SceneChanger:
             return False
 
     def _ask_again(self) -> None:
-        """The helper has died: ask another one, but not for ever."""
+        """The helper has died: start another one and repeat the request, once."""
         if self._asked_again:
             self._fail("the process that prepares scenes ends again and again")
             return
@@ -177,7 +176,7 @@ class SceneChanger:
             self._fail("no process to prepare a scene")
 
     def _read(self) -> None:
-        """Take a piece of what the helper says."""
+        """Read a part of the helper's answer."""
         if self._socket is None:
             return
         try:
@@ -193,7 +192,7 @@ class SceneChanger:
         self._said += more
 
     def _complete(self) -> bool:
-        """Whether the whole answer is there, or what is there can be none."""
+        """Whether the answer is complete or invalid."""
         try:
             return len(self._said) >= HEADER.size and len(self._said) >= HEADER.size + length(self._said)
         except MessageError:
@@ -210,7 +209,7 @@ class SceneChanger:
         try:
             said = unpack_scene(bytes(self._said))
         except MessageError as error:
-            self._end_helper()  # what it says next could not be told from the rest of this
+            self._end_helper()  # its next answer could not be told from the rest of this one
             return PreparedScene(ticket, None, reason=f"what prepares scenes answers wrongly: {error}")
         if not isinstance(said, Scene):
             return PreparedScene(ticket, None, reason=said)
@@ -229,7 +228,7 @@ class SceneChanger:
 
 
 def _fork() -> int:
-    """Fork for an exec; below 0 if that cannot be. The C library's own call also has the linear algebra give its memory back."""
+    """Fork before an exec; below 0 on failure. _Fork does not run fork handlers; those of OpenBLAS would free its memory."""
     plain = getattr(ctypes.PyDLL(None), "_Fork", None)  # glibc 2.34
     if plain is not None:
         return int(plain())
@@ -240,13 +239,13 @@ def _fork() -> int:
 
 
 def _environment() -> dict[str, str]:
-    """Ours, without what is the service manager's, and with sums on one thread."""
+    """Environment of the helper: without the service manager's variables, with OpenBLAS limited to one thread."""
     notify = {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}
     return {name: value for name, value in os.environ.items() if name not in notify} | {"OPENBLAS_NUM_THREADS": "1"}
 
 
 def _identity(path: Path) -> tuple[int, ...]:
-    """What tells a file from one that has taken its place; of one that is gone nothing."""
+    """Device, inode, time and size, which differ from those of a file that replaces it; empty if the file is gone."""
     try:
         at = path.stat()
     except OSError:

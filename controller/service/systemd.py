@@ -15,14 +15,14 @@ PINGS_PER_TIMEOUT = 3  # sd_watchdog_enabled(3) recommends every half of it; one
 
 
 class Notifier:
-    """Tells the service manager how the service is; silent where there is none.
+    """Reports the service's state to the service manager; does nothing without one.
 
-    Nothing here blocks: what finds the manager's queue full is kept and sent, in its order, by a later call.
+    It does not block: messages that find the manager's queue full are kept and sent in order by later calls.
 
     Parameters
     ----------
     address : str
-        $NOTIFY_SOCKET: a path, or a name in the abstract namespace with @ in front; empty: nobody listens.
+        $NOTIFY_SOCKET: a path, or a name in the abstract namespace with @ in front; empty: there is no manager.
     """
 
     def __init__(self, address: str) -> None:
@@ -37,34 +37,34 @@ class Notifier:
         self.close()
 
     def close(self) -> None:
-        """Fall silent."""
+        """Close the socket; nothing is sent any more."""
         if self._socket is not None:
             self._socket.close()
             self._socket = None
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str] = os.environ) -> Self:
-        """The one that this process was started with."""
+        """Notifier for the socket that $NOTIFY_SOCKET names."""
         return cls(environment.get("NOTIFY_SOCKET", ""))
 
     def ready(self, status: str) -> None:
-        """It plays, or plays again after `reloading`."""
+        """The service is ready, at the start or again after `reloading`."""
         self._tell(f"READY=1\nSTATUS={_line(status)}")
 
     def reloading(self, status: str) -> None:
-        """It is preparing another scene; `ready` follows, whether that was taken over or not."""
+        """The service prepares another scene; `ready` follows, whether the scene is loaded or refused."""
         self._tell(f"RELOADING=1\nMONOTONIC_USEC={time.monotonic_ns() // 1000}\nSTATUS={_line(status)}")
 
     def stopping(self, status: str) -> None:
-        """Outputs are being switched off; the process ends."""
+        """The outputs are being switched off and the process ends."""
         self._tell(f"STOPPING=1\nSTATUS={_line(status)}")
 
     def status(self, status: str) -> None:
-        """One line for `systemctl status`."""
+        """Set the line that `systemctl status` shows."""
         self._tell(f"STATUS={_line(status)}")
 
     def alive(self) -> None:
-        """Put off the watchdog; allocates nothing while the manager listens."""
+        """Reset the watchdog; allocates nothing while the manager reads."""
         if self._owed:
             self._settle()
         self._send(b"WATCHDOG=1")
@@ -91,14 +91,14 @@ class Notifier:
 
 
 class Watchdog:
-    """Lets the service manager see that the loop turns: a loop that hangs stops calling, and is killed.
+    """Resets the service manager's watchdog while the loop turns; the manager kills a service whose loop hangs.
 
     Parameters
     ----------
     notifier : Notifier
-        Who is told.
+        Sends the messages.
     timeout_s : float
-        After so much silence the service is killed, in s; inf: nobody watches.
+        Silence after which the service is killed, in s; inf: there is no watchdog.
     """
 
     def __init__(self, notifier: Notifier, timeout_s: float) -> None:
@@ -108,13 +108,13 @@ class Watchdog:
 
     @classmethod
     def from_environment(cls, notifier: Notifier, environment: Mapping[str, str] = os.environ) -> Self:
-        """The one that this process was started with: $WATCHDOG_USEC, if $WATCHDOG_PID is this process or not set."""
+        """Watchdog with the timeout of $WATCHDOG_USEC, provided that $WATCHDOG_PID is this process or not set."""
         microseconds = environment.get("WATCHDOG_USEC", "")
         ours = environment.get("WATCHDOG_PID", str(os.getpid())) == str(os.getpid())
         return cls(notifier, int(microseconds) * 1e-6 if ours and microseconds.isdecimal() and int(microseconds) else float("inf"))
 
     def progress(self, now_s: float) -> None:
-        """Called in each turn of the loop; sends at most every third of the timeout."""
+        """Call in each turn of the loop; sends at most one message every third of the timeout."""
         if now_s >= self._due_s:
             self._due_s = now_s + self._period_s
             self._notifier.alive()

@@ -1,7 +1,8 @@
-"""The plate's temperature and the bit clock that follows from it.
+"""The plate's temperature, and the bit clock that follows from it.
 
-Warm glass is softer and its waves slower: what was computed at one temperature is played at another by scaling its
-time. The glass follows the room within minutes, so a sensor is asked every few seconds and may be away for a while.
+Warm glass is softer and its waves slower: waveforms computed for one temperature are played at another by scaling the bit
+clock. Glass follows the room within minutes, so it is enough to read the sensor every few seconds, and to hold a reading for
+minutes.
 """
 
 from __future__ import annotations
@@ -13,35 +14,35 @@ from typing import Final
 from controller.board.devices import Temperature
 from controller.service.temperature_sensors import Sensor, sensor_of
 
-HOLD_S: Final = 600.0  # the last good reading is kept so long, then the reference temperature is assumed
-JUMP_C: Final = 5.0  # between two readings; a larger one is believed when the next one says the same
-RETRY_S: Final = 10.0  # after a failure: a stuck bus may hold each attempt up for BUS_TIMEOUT_MS
+HOLD_S: Final = 600.0  # the last valid reading is used for this long, then the reference temperature
+JUMP_C: Final = 5.0  # largest step between two readings; a larger one is accepted if the next reading confirms it
+RETRY_S: Final = 10.0  # after a failure: on a stuck bus each attempt takes BUS_TIMEOUT_MS
 
 
 def bit_clock_scale(settings: Temperature, temperature_c: float) -> float:
-    """By how much faster than at the reference temperature to play."""
+    """Factor of the bit clock at a temperature, relative to the reference temperature."""
     return 1 + settings.coefficient_per_k * (temperature_c - settings.reference_c)
 
 
 class Thermometer:
-    """A sensor whose nonsense is refused and whose absence is borne for a while.
+    """A temperature sensor with a check of its readings, which holds the last valid one while the sensor is missing.
 
     Parameters
     ----------
     settings : Temperature
     sensor : Sensor or None
-        None: the one that the settings name; it may be absent, and come later.
+        None: the one that the settings name; it may be missing and be connected later.
 
     Attributes
     ----------
     temperature_c : float
-        The last good reading; NaN before the first and when it has become too old.
+        The last valid reading; NaN before the first, and once it is older than `HOLD_S`.
     refused : int
-        Readings out of range, or apart from the ones around them.
+        Readings out of range, or too far from the readings before and after.
     failed : int
-        Attempts at which the sensor could not be read.
+        Attempts that failed.
     cause : str
-        Why the last attempt gave nothing; empty if it did.
+        Why the last attempt gave no valid reading; empty if it did.
     """
 
     def __init__(self, settings: Temperature, sensor: Sensor | None = None) -> None:
@@ -52,11 +53,11 @@ class Thermometer:
         self._settings = settings
         self._sensor = sensor or sensor_of(settings)
         self._good_s = -math.inf
-        self._doubtful_c = math.nan  # the reading before, if it was a jump
+        self._doubtful_c = math.nan  # the reading before, if its step was too large
         self._retry_s = -math.inf
 
     def scale(self, now_s: float) -> float:
-        """Ask the sensor; what the bit clock is to be scaled by, 1 as long as no temperature is known."""
+        """Read the sensor; returns the factor of the bit clock, 1 while no temperature is known."""
         if now_s >= self._retry_s:
             self._read(now_s)
         if now_s - self._good_s > HOLD_S:
@@ -64,7 +65,7 @@ class Thermometer:
         return 1.0 if math.isnan(self.temperature_c) else bit_clock_scale(self._settings, self.temperature_c)
 
     def close(self) -> None:
-        """Let go of the sensor."""
+        """Close the sensor."""
         self._sensor.close()
 
     def _read(self, now_s: float) -> None:

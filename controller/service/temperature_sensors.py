@@ -23,39 +23,39 @@ from controller.board.worker import Worker, WorkerEnded
 
 HWMON: Final = Path("/sys/class/hwmon")
 TEMPERATURE_REGISTER: Final = 0  # of the LM75 family
-STEP_C: Final = 1 / 256  # of its 16 bits, of which a chip leaves those that it does not resolve 0
+STEP_C: Final = 1 / 256  # value of the lowest of the 16 bits
 I2C_RETRIES: Final = 0x0701  # linux/i2c-dev.h
 I2C_TIMEOUT: Final = 0x0702
 BUS_TIMEOUT_MS: Final = 20
-HANGS_S: Final = 5.0  # without an answer, after which a sensor's process is taken to hang
-ANSWER: Final = struct.Struct("=id")  # errno and temperature; behind them what the error is called
+HANGS_S: Final = 5.0  # without an answer, after which the process counts as hanging
+ANSWER: Final = struct.Struct("=id")  # errno and temperature in °C, followed by the error's text
 
 
 class Sensor(Protocol):
-    """What gives a temperature."""
+    """A temperature sensor."""
 
     def read_c(self) -> float | None:
-        """Temperature in °C; None from a `SensorProcess` that has not answered yet.
+        """Temperature in °C; None if a `SensorProcess` has not answered yet.
 
         Raises
         ------
         OSError
-            If the sensor cannot be read; it is opened again at the next call.
+            If the sensor cannot be read; the next call opens it again.
         """
 
     def close(self) -> None:
-        """Let go of it."""
+        """Close the sensor."""
 
 
 class SensorProcess:
-    """A sensor that a process of its own asks: a bus that hangs, or takes 0.7 s as 1-Wire does, costs no heartbeat.
+    """A sensor read by a process of its own, so that a bus that hangs, or takes 0.7 s as 1-Wire does, delays no heartbeat.
 
-    A reading is as old as the time since the one before was taken.
+    Each call of `read_c` requests the next reading, so a reading is as old as the time between two calls.
 
     Parameters
     ----------
     worker : Worker
-        Runs `serve_sensor`.
+        The process; it runs `serve_sensor`.
     """
 
     def __init__(self, worker: Worker) -> None:
@@ -63,7 +63,7 @@ class SensorProcess:
         self._ask()
 
     def read_c(self) -> float | None:
-        """What was asked for last, in °C; None while it is not there."""
+        """The reading requested last, in °C; None while it has not arrived."""
         try:
             answer = self._worker.receive()
         except WorkerEnded:
@@ -80,7 +80,7 @@ class SensorProcess:
         return float(reading_c)
 
     def close(self) -> None:
-        """End its process."""
+        """End the process."""
         self._worker.close()
 
     def _ask(self) -> None:
@@ -89,7 +89,7 @@ class SensorProcess:
 
 
 def serve_sensor(sensor: Sensor, loop: socket.socket) -> None:
-    """Ask a sensor whenever the loop asks, for as long as there is one; it may block."""
+    """Read a sensor at each request of the loop, until its end of the socket is closed; may block."""
     while loop.recv(1):
         try:
             answer = ANSWER.pack(0, sensor.read_c())
@@ -99,12 +99,12 @@ def serve_sensor(sensor: Sensor, loop: socket.socket) -> None:
 
 
 class Hwmon:
-    """A sensor with a driver in the kernel: sysfs gives thousandths of a degree (Documentation/hwmon/sysfs-interface).
+    """A sensor with a kernel driver: sysfs gives thousandths of a degree (Documentation/hwmon/sysfs-interface).
 
     Parameters
     ----------
     device : str
-        Path of a temp*_input, or the name of a chip, whose temp1_input is meant.
+        Path of a temp*_input, or name of a chip, of which temp1_input is read.
     """
 
     def __init__(self, device: str) -> None:
@@ -119,13 +119,13 @@ class Hwmon:
             return int(os.pread(self._fd, 32, 0)) * 1e-3
         except ValueError:
             self.close()
-            raise OSError(errno.EIO, "what it says is no number") from None
+            raise OSError(errno.EIO, "its reading is not a number") from None
         except OSError:
             self.close()
             raise
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         if self._fd >= 0:
             os.close(self._fd)
             self._fd = -1
@@ -143,14 +143,14 @@ class Hwmon:
 
 
 class Lm75:
-    """LM75, TMP75, TMP102 and their like: register 0 is the temperature, two's complement, most significant byte first.
+    """LM75, TMP75, TMP102 and compatible chips: register 0 is the temperature, two's complement, most significant byte first.
 
-    9 to 16 bits, as the chip resolves them, the rest 0 (LM75B datasheet 7.4.3; TMP75 7.5.1.2; TMP102 normal mode).
+    Depending on the chip, 9 to 16 bits are significant; the rest are 0 (LM75B datasheet 7.4.3; TMP75 7.5.1.2; TMP102 normal mode).
 
     Parameters
     ----------
     bus : str
-        Such as /dev/i2c-1.
+        I2C bus, such as /dev/i2c-1.
     address : int
         0x48 to 0x4F, by the chip's pins.
     """
@@ -161,7 +161,7 @@ class Lm75:
         self._bus: SMBus | None = None
 
     def read_c(self) -> float:
-        """Temperature in °C: one word, 0.4 ms at 100 kHz."""
+        """Temperature in °C: one word on the bus, 0.4 ms at 100 kHz."""
         try:
             if self._bus is None:
                 self._bus = SMBus(self._bus_name)
@@ -174,7 +174,7 @@ class Lm75:
             raise
 
     def close(self) -> None:
-        """Let go of the bus."""
+        """Close the bus."""
         if self._bus is not None:
             with contextlib.suppress(OSError):
                 self._bus.close()
@@ -182,10 +182,10 @@ class Lm75:
 
 
 def lm75_c(word: int) -> float:
-    """Temperature in °C of an SMBus word, whose low byte came first and is the chip's high one."""
+    """Temperature in °C from an SMBus word; its low byte, which arrives first, is the chip's high byte."""
     return ctypes.c_int16((word & 0xFF) << 8 | word >> 8 & 0xFF).value * STEP_C
 
 
 def sensor_of(settings: Temperature) -> Sensor:
-    """The one that the settings name; it may be absent, and come later."""
+    """The sensor that the settings name; it may be missing and be connected later."""
     return Hwmon(settings.device) if settings.kind == "hwmon" else Lm75(settings.device, settings.address)

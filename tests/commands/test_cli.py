@@ -382,7 +382,7 @@ def test_a_file_that_is_no_bank_is_never_written_over_and_nothing_advises_it(cap
         said = told_off(capsys, "bank", action, notes)
         assert "is not a bank" in said
         assert "bank build" not in said
-    assert "no bank: it is left as it is" in told_off(capsys, "bank", "build", "--board", small_board, "--out", notes)
+    assert "is no bank, so it is not replaced" in told_off(capsys, "bank", "build", "--board", small_board, "--out", notes)
     assert notes.read_bytes() == content
     notes.write_bytes(b"HPNLBANK and then nonsense")
     assert f"--out {notes}" in told_off(capsys, "bank", "info", notes), "what begins as a bank may be built again"

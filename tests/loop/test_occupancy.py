@@ -1,5 +1,6 @@
 """When the plate is free: by hand, and over random starts."""
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -36,11 +37,11 @@ def test_a_repetition_that_is_stopped_sounds_to_the_end_of_its_last_emission():
     plate = occupancy(max_duty=0.5)
     plate.started(1.0, 101.0, by_clock=True)
     plate.repetition = Repetition(101.0, 0.025)
-    assert plate.next_repetition_s(1.03) == 1.05
+    assert plate.next_repetition_s(1.03) == pytest.approx(1.05)
     plate.stop_repetition(1.06)
     assert plate.repetition is None
     assert plate.next_repetition_s(1.06) == NEVER
-    assert abs(plate.free_s - (1.05 + 2 * T_S + ERROR_S)) < 1e-9
+    assert plate.free_s == pytest.approx(1.05 + 2 * T_S + ERROR_S)
 
 
 @given(

@@ -98,6 +98,7 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         (f"{{ {PRESS}, phase = 0.5 }}", '.phase = 0.5 does not go with when = "press", a single emission; it belongs to a train ('),
         (f"{{ {BUZZ}, count = 3, phase = 1 }}", ".phase = 1"),
         (f"{{ {BUZZ}, duration_ms = 4, phase = 0.5 }}", ".phase = 0.5 leaves no emission within duration_ms = 4"),
+        (f"{{ {BUZZ}, duration_ms = 1e-9 }}", ".duration_ms = 1e-09 is too short for an emission"),
         (
             '{ when = "release", rate_hz = 100, count = 3 }',
             '.rate_hz = 100 does not go with when = "release", a single emission',

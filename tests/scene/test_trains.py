@@ -116,3 +116,22 @@ def test_a_duration_holds_the_beats_that_begin_within_it(rate_hz, beats, phase):
         assert math.isclose(train_of(effect).first_s, phase / rate_hz)
     whole = EffectTable(when="press", rate_hz=rate_hz, duration_ms=beats / rate_hz * 1e3)
     assert train_of(whole).beats == beats, "rounding gives none more"
+
+
+@given(
+    st.integers(1, 40),
+    st.sampled_from([0.0, 0.01, 1 / 30, 0.1]),
+    st.floats(0, 0.05),
+    st.lists(st.tuples(st.floats(0, 2), st.sampled_from([0.0, 0.12, 0.13, 1.0])), min_size=1, max_size=8, unique_by=lambda p: p[0]),
+)
+def test_a_train_is_silent_if_each_of_its_beats_is(beats, period_s, first_s, envelope):
+    train = Train(1.0, beats, period_s, first_s, tuple(sorted(envelope)))
+    assert silent(train) == (not any(train.amplitude_of(beat, 1.0) for beat in range(beats)))
+
+
+def test_of_a_million_beats_only_those_beside_the_points_of_the_envelope_are_looked_at(monkeypatch):
+    looked_at = []
+    real = Train.amplitude_of
+    monkeypatch.setattr(Train, "amplitude_of", lambda train, beat, gain: looked_at.append(beat) or real(train, beat, gain))
+    assert silent(Train(1.0, 1_000_000, 0.01, 0.0, ((0.0, 0.0), (0.011, 0.0), (0.015, 1.0), (0.019, 0.0))))
+    assert len(looked_at) < 20

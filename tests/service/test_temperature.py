@@ -139,7 +139,7 @@ def test_hwmon_is_found_by_name_and_by_path_and_again_after_it_was_away(tmp_path
     (tmp_path / "hwmon1" / "temp1_input").write_text("-4125\n")
     assert by_name.read_c() == by_path.read_c() == -4.125
     (tmp_path / "hwmon1" / "temp1_input").write_text("fault\n")
-    with pytest.raises(OSError, match="no number"):
+    with pytest.raises(OSError, match="not a number"):
         by_path.read_c()
     (tmp_path / "hwmon1" / "temp1_input").write_text("24000\n")
     assert by_path.read_c() == 24.0
