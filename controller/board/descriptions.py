@@ -7,7 +7,6 @@ import re
 
 from msgspec import inspect
 from msgspec.inspect import (
-    AnyType,
     BoolType,
     CustomType,
     DictType,
@@ -118,11 +117,6 @@ def keys_of(kind: Type | None) -> list[str]:
     structs = structs_of(kind)
     tags = [struct.tag_field for struct in structs if struct.tag_field]
     return list(dict.fromkeys([*tags, *(field.encode_name for struct in structs for field in fields_of(struct))]))
-
-
-def is_anything(kind: Type | None) -> bool:
-    """Whether any value is valid."""
-    return kind is None or isinstance(kind, AnyType)
 
 
 def _described_text(kind: StrType) -> str:

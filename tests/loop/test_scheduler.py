@@ -1,4 +1,4 @@
-"""What is under way between two moments: what waits, what replaces what, and what commands are told."""
+"""Active effects and pending emissions: what waits, what replaces what, and what commands are told."""
 
 import math
 

@@ -647,7 +647,7 @@ async def disarming_drops_what_plays_and_what_waits(dut):
     await panel.trigger()
     await panel.play(0)
     await panel.control(Control.DISARM)
-    await panel.wait(2 * BIT_TICKS)  # the word that sounds
+    await panel.wait(2 * BIT_TICKS)  # the current word
     assert not (await panel.status()).state & (State.PLAYING | State.REPEATING | State.PENDING)
     await panel.arm_again()
     await panel.trigger()

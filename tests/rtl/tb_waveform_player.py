@@ -45,7 +45,7 @@ class Emission:
         self.end = self.decided + (self.play.length * self.period >> 16)
 
     def word(self, tick):
-        """Number of the word that sounds in a tick."""
+        """Number of the word on the pins at a tick."""
         return (((tick - self.decided) << 16) - 1) // self.period
 
 
