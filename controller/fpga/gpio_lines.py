@@ -59,7 +59,7 @@ class GpioLines:
             edge_s = self._now_s()
             self._request.set_value(self._trigger, Value.INACTIVE)
         except OSError as error:
-            raise LinkError(f"the trigger line {self._trigger!r} failed ({error.strerror}): is its GPIO chip gone?") from error
+            raise _failure("trigger", self._trigger, error) from error
         return edge_s
 
     def permit(self, given: bool) -> None:
@@ -74,7 +74,7 @@ class GpioLines:
             try:
                 self._request.set_value(self._permit, Value.ACTIVE if given else Value.INACTIVE)
             except OSError as error:
-                raise LinkError(f"the permit line {self._permit!r} failed ({error.strerror}): is its GPIO chip gone?") from error
+                raise _failure("permit", self._permit, error) from error
 
     def configured(self) -> bool:
         """Whether the FPGA is configured and out of reset; True if the board has no such line.
@@ -89,13 +89,17 @@ class GpioLines:
         try:
             return bool(self._request.get_value(self._configured) is Value.ACTIVE)
         except OSError as error:
-            raise LinkError(f"line {self._configured!r} (configured) failed ({error.strerror}): is its GPIO chip gone?") from error
+            raise _failure("configured", self._configured, error) from error
 
     def close(self) -> None:
         """Withdraw the permit and release the lines."""
         try:
             self.permit(False)
         except LinkError:
-            pass  # a chip that is gone drives nothing any more: the permit is pulled down
+            pass  # a chip that was removed drives nothing: the permit is pulled down
         finally:
             self._request.release()
+
+
+def _failure(role: str, line: str, error: OSError) -> LinkError:
+    return LinkError(f"the {role} line {line!r} failed ({error.strerror}): was its GPIO chip removed?")

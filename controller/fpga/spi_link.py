@@ -29,7 +29,7 @@ RD_MAX_SPEED_HZ: Final = 0x80046B04
 RD_MODE32: Final = 0x80046B05
 MODE: Final = 0  # SCK idle low, sampled on its rising edge; most significant bit first, chip select active low
 BITS_PER_WORD: Final = 8
-GONE: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device was removed
+REMOVED: Final = frozenset({errno.ESHUTDOWN, errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.EBADF})  # the device was removed
 
 
 def read_bufsiz() -> int:
@@ -231,14 +231,14 @@ class SpiLink:
         try:
             return self._opened()
         except LinkError as error:
-            if isinstance(error.__cause__, OSError) and error.__cause__.errno in GONE:
-                raise LinkError(self._gone) from error
+            if isinstance(error.__cause__, OSError) and error.__cause__.errno in REMOVED:
+                raise LinkError(self._removed) from error
             raise
 
     @property
-    def _gone(self) -> str:
+    def _removed(self) -> str:
         device = self._settings.device
-        return f"{device} has gone: was its driver unbound, or its adapter unplugged? It is opened again when it is back"
+        return f"{device} was removed: its driver was unbound, or its adapter unplugged; it is opened again when it is back"
 
     def _set_speed(self, spi: spidev.SpiDev) -> None:
         spi.max_speed_hz = self._asked_hz
@@ -252,12 +252,12 @@ class SpiLink:
         with contextlib.suppress(LinkError):
             self.lines.permit(False)
         self._permitted = False
-        if error.errno in GONE:
+        if error.errno in REMOVED:
             if self._spi is not None:
                 with contextlib.suppress(OSError):
                     self._spi.close()
             self._spi = None
-            return LinkError(self._gone)
+            return LinkError(self._removed)
         if error.errno == errno.ETIMEDOUT:
             return LinkError(
                 f"{device}: the SPI controller did not finish a transfer: its bus is stuck; restart the machine if it stays"

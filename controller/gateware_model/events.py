@@ -70,7 +70,7 @@ class Events:
             If its tick has passed.
         """
         if event.tick < self.now:
-            raise ValueError(f"{event.kind.name} for tick {event.tick} after the model has gone to tick {self.now}")
+            raise ValueError(f"{event.kind.name} for tick {event.tick} is in the past: the model is at tick {self.now}")
         insort(self._events, event, key=lambda entry: entry.tick)
 
     def pop(self, tick: int) -> Event | None:

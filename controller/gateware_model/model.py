@@ -95,7 +95,7 @@ class GatewareModel:
             If it begins in the past, or its timing is not what the pins allow.
         """
         if select_tick + INPUT_TICKS < self._events.now:
-            raise ValueError(f"a frame for tick {select_tick} after the model has gone to tick {self._events.now}")
+            raise ValueError(f"a frame for tick {select_tick} is in the past: the model is at tick {self._events.now}")
         self._timing.frame(select_tick, release_tick, len(mosi))
         self.advance(select_tick + INPUT_TICKS)
         answer = bytearray(max(FRAME_BYTES, len(miso)) + 1)

@@ -201,7 +201,7 @@ class Housekeeping:
         if self._scene_stays:
             log(self._scene_stays, Priority.WARNING)
         else:
-            log("the scene was loaded")
+            log("another scene is played, or the same read again")
         self._notifier.status(self._status)
         if not prepared.ticket:
             self._reloads += 1

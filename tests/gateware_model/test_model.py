@@ -430,11 +430,11 @@ def test_the_levels_of_the_input_pins_can_be_read(host):
 def test_inputs_in_the_past_are_refused():
     model = GatewareModel(PARAMETERS)
     model.advance(1000)
-    with pytest.raises(ValueError, match="TRIGGER for tick 504 after"):
+    with pytest.raises(ValueError, match="TRIGGER for tick 504 is in the past"):
         model.trigger(500)
-    with pytest.raises(ValueError, match="PERMIT for tick 501 after"):
+    with pytest.raises(ValueError, match="PERMIT for tick 501 is in the past"):
         model.permit(500, True)
-    with pytest.raises(ValueError, match="a frame for tick 900 after"):
+    with pytest.raises(ValueError, match="a frame for tick 900 is in the past"):
         model.exchange(900, 3000, bytes(36), memoryview(bytearray(36)))
 
 

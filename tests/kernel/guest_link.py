@@ -335,7 +335,7 @@ def test_a_device_that_is_unplugged_is_told_and_opened_again_when_it_is_back():
         (BIND / "unbind").write_text("spi0.0")
         try:
             error = there.lost()
-            assert "/dev/spidev0.0 has gone" in str(error), error
+            assert "/dev/spidev0.0 was removed" in str(error), error
             assert LINES.value("PERMIT") == 0
             assert there.far_end.pins()["hv"] == 0, "without the permit, at once"
             assert "there is no /dev/spidev0.0" in refusal(lambda: SpiLink(SETTINGS, CLOCK.now_s))
