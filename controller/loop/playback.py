@@ -205,7 +205,7 @@ class Playback:
         """Keep the waveforms of these points (x_m, y_m, amplitude) in their slots once they are there."""
         self._slots.pin(self._selection.key((point,)) for point in points)
 
-    def reselect(self, selection: Selection) -> None:
+    def change_bank(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.single_focus)
@@ -239,9 +239,9 @@ class Playback:
         trigger_s = self._session.trigger()
         self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.link.blocked_ns - blocked_ns))
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """The FPGA holds and plays nothing: after a fault."""
-        self._slots.forget()
+        self._slots.clear()
         self._prefetch.unplayed.clear()
         if self.accepted is not None:
             self._counters.skipped.outputs_off += len(self.accepted.batch.emissions)
