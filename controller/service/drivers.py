@@ -174,17 +174,8 @@ def tracked(
     return Tracker(source, board.touch, board.plate.length_m, board.plate.width_m, bridged, motion)
 
 
-def open_thermometer(board: Board) -> Thermometer | None:
-    """Thermometer of a board, whose sensor may be connected later; None if the board has none."""
-    if board.temperature is None:
-        return None
-    from controller.service.temperature import Thermometer
-
-    return Thermometer(board.temperature)
-
-
 def await_thermometer(board: Board) -> Thermometer | None:
-    """As `open_thermometer`, with the sensor read by a process of its own. Call it before the loop gets real-time priority."""
+    """Thermometer of a board, its sensor read by a separate process; None if it has none. Call it before real-time priority."""
     if board.temperature is None:
         return None
     from controller.service.temperature import Thermometer

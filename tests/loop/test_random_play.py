@@ -348,7 +348,7 @@ class Judge:
         cache = self._playback._slots
         residents = cache.held.items()
         assert sorted(slot for slot, _ in residents) == list(range(cache.slots))
-        buffers = self._link.gateware._buffers
+        buffers = self._link.gateware._commands.buffers
         keys = [key for _, key in residents if key is not None]
         assert len(set(keys)) == len(keys)
         for slot, key in residents:

@@ -9,9 +9,10 @@ from controller.board.devices import Temperature
 from controller.clocks import VirtualClock
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
-from controller.service.drivers import open_session, open_simulated, open_thermometer, tracked
+from controller.service.drivers import open_session, open_simulated, tracked
 from controller.service.housekeeping import Housekeeping
 from controller.service.systemd import Notifier, Watchdog
+from controller.service.temperature import Thermometer
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -41,7 +42,7 @@ def kept(board, bank_file, tmp_path, sensor, evemu_text, capsys):
         taps = [r for k in range(6) for r in ((0.5 * k, {0: (40.0 + 20 * k, 70.0)}), (0.5 * k + 0.1, {0: None}))]
         recording = Recording(evemu_text(*taps))
         notifier = Notifier("")
-        thermometer = open_thermometer(warm)
+        thermometer = Thermometer(temperature)
         housekeeping = Housekeeping(warm, session, notifier, Watchdog(notifier, float("inf")), thermometer)
         left = sorted(at.items())
 
