@@ -1,4 +1,4 @@
-"""`haptic-panel bank`: build, look at and check banks of precomputed waveforms."""
+"""`haptic-panel bank`: build, describe and verify banks of precomputed waveforms."""
 
 from __future__ import annotations
 
@@ -34,26 +34,30 @@ MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; 
 
 def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    bank = commands.add_parser("bank", help="build, look at and check banks of precomputed waveforms")
+    bank = commands.add_parser("bank", help="build, describe and verify banks of precomputed waveforms")
     actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
     build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
     build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
-    build.add_argument("--pitch-mm", type=float, metavar="P", help="distance of the cells (default: the board's bank.pitch_mm)")
+    build.add_argument(
+        "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
+    )
     build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
     build.set_defaults(command=bank_build)
     for name, action, text in (
-        ("info", bank_tell, "say what a bank holds and what it was computed from"),
-        ("verify", bank_check, "check every bit of a bank"),
+        ("info", bank_describe, "describe what a bank holds and what it was computed from"),
+        ("verify", bank_verify, "check every bit of a bank"),
     ):
         command = actions.add_parser(name, parents=[common], help=text, description=f"{text.capitalize()}.")
         command.add_argument("file", nargs="?", metavar="FILE", help="the bank (default: the board's own)")
         command.set_defaults(command=action)
         if name == "info":
-            command.add_argument("--power", action="store_true", help="edges, loss and power of the stages, and limits for them")
+            command.add_argument(
+                "--power", action="store_true", help="edges, loss and power of the driver stages, and the limits that follow"
+            )
 
 
 def bank_build(options: argparse.Namespace) -> int:
-    """Build a bank for a board: of the whole plate, or of the cells that a scene can reach."""
+    """Build a bank for a board: for the whole plate, or for the cells that a scene can reach."""
     board = load_board(find_board(options.board))
     scene_file = find_scene(board, options.scene) if options.scene else None
     scene = load_scene(scene_file, board) if scene_file else None
@@ -70,8 +74,8 @@ def bank_build(options: argparse.Namespace) -> int:
     return 0
 
 
-def bank_tell(options: argparse.Namespace) -> int:
-    """Say what a bank holds and what it was computed from, or what playing it costs the driver stages."""
+def bank_describe(options: argparse.Namespace) -> int:
+    """Describe what a bank holds and what it was computed from; with --power, the load on the driver stages."""
     if options.power:
         from controller.benchmark.power import power_report
 
@@ -83,7 +87,7 @@ def bank_tell(options: argparse.Namespace) -> int:
     return 0
 
 
-def bank_check(options: argparse.Namespace) -> int:
+def bank_verify(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
     file = _bank_file(options)
     try:
@@ -100,17 +104,17 @@ def _verify_table(figures: dict[str, Any]) -> str:
 
 
 def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_file: Path, *, keep: bool = False) -> Bank:
-    """Bank asked for, or the board's own: built where it is missing, built again where it does not serve.
+    """The bank of --bank, or the board's own, which is built if it is missing, and rebuilt if it does not fit.
 
     Parameters
     ----------
     keep : bool
-        Build only what is missing: a panel in the field does not replace its bank by itself.
+        Build only a missing bank: the service of a panel never replaces a bank.
 
     Raises
     ------
     BankError
-        If the bank does not fit the board, or cannot be built.
+        If the given bank does not fit the board, or the board's own cannot be built.
     """
     if options.bank:
         return Bank.open(Path(options.bank), board)

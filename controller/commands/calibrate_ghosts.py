@@ -1,4 +1,4 @@
-"""`haptic-panel calibrate-touch --ghosts`: what the panel's own emissions make it report, and the `ghost_ms` that follows."""
+"""`haptic-panel calibrate-touch --ghosts`: false contacts that emissions cause, and the `ghost_ms` that follows."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ SIMULATED_RATE, SIMULATED_LIVES, SIMULATED_SIZE_MM = 0.3, (1, 3), 6.0  # what th
 
 
 def calibrate_ghosts(options: argparse.Namespace) -> int:
-    """Play, watch the panel, and print or write what follows; or judge a recording of that."""
+    """Play, record the panel, and print or write `ghost_ms`; or determine it from such a recording."""
     return calibrate_value(options, "ghost_ms", _measured, ghost_figures, _figures, _table)
 
 

@@ -1,4 +1,4 @@
-"""`haptic-panel calibrate-touch --lag`: how late the panel tells where a finger is, against a mouse that moves with it."""
+"""`haptic-panel calibrate-touch --lag`: age of the panel's positions when reported, against a mouse that moves with the finger."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ SIMULATED_LAG_S = 12e-3  # of the simulated board's panel
 
 
 def calibrate_lag(options: argparse.Namespace) -> int:
-    """Watch finger and mouse, and print or write what follows; or judge a recording of that."""
+    """Record finger and mouse, and print or write `lag_ms`; or determine it from such a recording."""
     return calibrate_value(options, "lag_ms", _measured, lag_figures, _figures, _table)
 
 
 def _measured(options: argparse.Namespace, board: Board) -> str:
-    """All that the board's panel and the mouse said for some seconds, as a recording."""
+    """Events of the board's panel and of the mouse for some seconds, as a recording."""
     if options.reference is None:
         if not isinstance(board.touch, RecordingTouch):
             raise ConfigError(

@@ -1,4 +1,4 @@
-"""`haptic-panel calibrate-touch`: where the panel's axes lie on the plate, from touches at known places."""
+"""`haptic-panel calibrate-touch`: map of the touch panel's axes to the plate, from touches at known places."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     command = commands.add_parser(
         "calibrate-touch",
         parents=[common],
-        help="find where the touch panel's axes lie on the plate",
+        help="map the touch panel's axes to the plate",
         description="Ask for a touch on each of 3 to 5 targets in turn, with one finger held still for a moment, and print the two "
         "lines for [touch] of board.toml with their residual. Coordinates are in mm from the plate's corner, x along the length.",
     )
@@ -48,23 +48,19 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         "--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a target of your own; give each of them"
     )
     what = command.add_mutually_exclusive_group()
-    what.add_argument(
-        "--ghosts", action="store_true", help="instead: play while nobody touches the panel, and find the ghost_ms that it needs"
-    )
-    what.add_argument(
-        "--lag", action="store_true", help="instead: slide a finger together with a mouse, and find how late the panel tells it"
-    )
+    what.add_argument("--ghosts", action="store_true", help="instead: play while nobody touches the panel, and determine ghost_ms")
+    what.add_argument("--lag", action="store_true", help="instead: slide a finger together with a mouse, and determine lag_ms")
     command.add_argument("--bank", metavar="FILE", help="with --ghosts: play from this bank")
     command.add_argument("--reference", metavar="DEVICE", help="with --lag: the mouse, best by its path below /dev/input/by-id")
     command.add_argument("--seconds", type=_seconds, metavar="N", help="with --lag: for so long (default: 20)")
-    command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: keep what was measured, for --replay")
+    command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: store the measurement, for --replay")
     command.add_argument("--replay", metavar="FILE", help="take the touches from an evemu recording, not from the board's panel")
     command.add_argument("--write", action="store_true", help="change these lines of the board's board.toml")
     command.set_defaults(command=calibrate_touch)
 
 
 def calibrate_touch(options: argparse.Namespace) -> int:
-    """Ask for the touches and print, or write, what follows from them; or measure what else there is of a panel."""
+    """Ask for touches and print, or write, the map that follows; with --ghosts or --lag determine these values instead."""
     _refuse_what_makes_no_sense(options)
     if options.ghosts:
         from controller.commands.calibrate_ghosts import calibrate_ghosts
@@ -99,7 +95,7 @@ def calibrate_touch(options: argparse.Namespace) -> int:
 
 
 def _refuse_what_makes_no_sense(options: argparse.Namespace) -> None:
-    """Options of one measurement given with another."""
+    """Raise for an option that does not belong to the chosen measurement."""
     mode = "--ghosts" if options.ghosts else "--lag" if options.lag else ""
     belongs = {  # to what an option belongs; empty: to the axes
         "targets": ("",),
@@ -129,14 +125,14 @@ def _seconds(text: str) -> float:
 
 
 def _bare(board: Board) -> Board:
-    """The board with a panel that covers the plate exactly, so that places are shares of the axes and none is cut off."""
+    """The board with a panel that covers the plate exactly, so that positions are fractions of the axes and none is clipped."""
     plate = board.plate
     whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0)}
     return msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, **whole))
 
 
 def _touches(source: TouchSource, clock: Clock, targets: Sequence[Point], board: Board) -> list[Point]:
-    """Where the axes say each target was touched, 0 to 1."""
+    """Position of each touch on the panel's axes, 0 to 1."""
     found: list[Point] = []
     held = StationaryTouches()
     _ask(targets, 0)

@@ -1,4 +1,4 @@
-"""`haptic-panel doctor`: what of a panel works, what does not, and what to do."""
+"""`haptic-panel doctor`: check every device, file and permission of a panel, and say what to do."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     doctor = commands.add_parser(
         "doctor",
         parents=[common],
-        help="what of a panel works, what does not, and what to do",
-        description="Look at every device, file and permission that the board needs. With --link, also send random bits to the "
+        help="check every device, file and permission of a panel, and say what to do",
+        description="Check every device, file and permission that the board needs. With --link, also send random bits to the "
         "FPGA at several speeds, propose one, fill its memory and chirp on each channel: outputs are on meanwhile, if the "
         "permits are given. End the service first. Exit code 1 if anything is wrong.",
     )
@@ -37,7 +37,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 
 def examine(options: argparse.Namespace) -> int:
-    """Look, and examine the link if asked to; 1 if anything is wrong."""
+    """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
     board = load_board(find_board(options.board))
     real = MonotonicClock()
     findings = look(board, real.now_s)

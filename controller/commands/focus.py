@@ -1,4 +1,4 @@
-"""`haptic-panel focus`: focus on points of the model plate, and judge the focus."""
+"""`haptic-panel focus`: focus on points of the plate model, and measure the focus."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     point = commands.add_parser(
         "focus",
         parents=[common],
-        help="focus on given points of the model plate, and judge the focus",
-        description="Compute the waveform for one or several points without a bank and judge the focus on the plate model.",
+        help="focus on given points of the plate model, and measure the focus",
+        description="Compute the waveform for one or several points without a bank, and measure the focus on the plate model.",
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")
     point.add_argument("--figures", action="store_true", help="measure the figures of the README at random points instead")
@@ -39,7 +39,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 
 def focus(options: argparse.Namespace) -> int:
-    """Focus on points of the plate and say how good the focus is; or measure the figures of the README."""
+    """Focus on points of the plate and print figures of merit; or measure the figures of the README."""
     from controller.benchmark.focus_figures import figures, focus_on
 
     picture = picture_path(options)

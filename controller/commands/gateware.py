@@ -34,7 +34,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     check = gateware.add_parser(
         "check",
         parents=[common],
-        help="identity, link, memory and every channel of an FPGA",
+        help="check identity, link, memory and every channel of an FPGA",
         description="Read what the FPGA says of itself, send random bits and count those that come back wrong, fill and read "
         "back every slot, and chirp on one channel after the other. Outputs are on during the chirps, if the permits are given.",
     )
@@ -50,7 +50,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 
 def gateware_check(options: argparse.Namespace) -> int:
-    """Bring up an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
+    """Check an FPGA, simulated or at a serial port: identity, link, memory and every channel."""
     from controller.fpga import bring_up
 
     board = load_board(find_board(options.board))
@@ -82,7 +82,7 @@ def gateware_check(options: argparse.Namespace) -> int:
 
 
 def _expected(board: Board) -> dict[str, int]:
-    """What registers have to hold after bring-up, by their names: identity, the board's limits and settings, and no fault."""
+    """Values of registers after bring-up, by name: identity, the board's limits and settings, no fault."""
     built_in, settings = configuration.limits(board), configuration.settings(board)
     identity = {
         Register.IDENTITY: IDENTITY_MAGIC,
@@ -95,7 +95,7 @@ def _expected(board: Board) -> dict[str, int]:
 
 
 def _channels(options: argparse.Namespace, board: Board) -> list[int]:
-    """Channels to chirp on: those asked for, else all that the board has."""
+    """Channels to chirp on: those of --channel, else all of the board."""
     there = [actuator.channel for actuator in board.actuators]
     for channel in options.channel or []:
         if channel not in there:
@@ -104,7 +104,7 @@ def _channels(options: argparse.Namespace, board: Board) -> list[int]:
 
 
 def gateware_factory(options: argparse.Namespace) -> tuple[GatewareFactory, bool]:
-    """What computes the gateware's pins, and whether in real time."""
+    """Simulated gateware for --link, and whether it runs in real time."""
     if options.link != "rtl":
         return GatewareModel, getattr(options, "speed", "max") != "max"
     from controller.simulation.rtl_gateware import RtlGateware

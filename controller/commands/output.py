@@ -1,4 +1,4 @@
-"""What commands print: figures as a table or as JSON, progress, the picture asked for."""
+"""Output of commands: figures as a table or as JSON, progress bars, and the file of --plot."""
 
 from __future__ import annotations
 
@@ -18,9 +18,17 @@ def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[
 
 
 def progress_bar(what: str) -> Callable[[int, int], None]:
-    """A progress bar on stderr for work over 2 s, told of what is done and the total; silent when stderr is no terminal.
+    """A progress bar on stderr for work that takes more than 2 s; none if stderr is not a terminal, or without tqdm.
 
-    The package for it belongs to the offline tools, which a device may lack: without it there is none.
+    Parameters
+    ----------
+    what : str
+        Label of the bar.
+
+    Returns
+    -------
+    callable
+        To be called with the amount done and the total.
     """
     try:
         from tqdm import tqdm
@@ -39,7 +47,7 @@ def progress_bar(what: str) -> Callable[[int, int], None]:
 
 
 def picture_path(options: argparse.Namespace) -> Path | None:
-    """File asked for with --plot, refused before any work if it could not be written."""
+    """File given with --plot; checked before any work, so that it can be written later."""
     if not options.plot:
         return None
     from controller.physics.plot import check_picture

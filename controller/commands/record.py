@@ -1,4 +1,4 @@
-"""`haptic-panel record`: store what a touch panel sends as a recording that can be replayed."""
+"""`haptic-panel record`: store the events of a touch panel as a recording that can be replayed."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     command = commands.add_parser(
         "record",
         parents=[common],
-        help="store what a touch panel sends",
-        description="Store what the board's touch panel sends, with the description of its device, in evemu's text format, until "
+        help="store the events of a touch panel",
+        description="Store the events of the board's touch panel and the description of its device, in evemu's text format, until "
         "Ctrl-C or for some seconds. `haptic-panel run --replay FILE` replays it.",
     )
     command.add_argument(
@@ -36,7 +36,7 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 
 def store(options: argparse.Namespace) -> int:
-    """Record until told to stop, and say what was stored."""
+    """Record until Ctrl-C or for the given time, and print what was stored."""
     reader = open_input(options.device) if options.device else open_panel(load_board(find_board(options.board)))
     try:
         with open_recording(Path(options.out)) as file:

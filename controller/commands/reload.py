@@ -1,4 +1,4 @@
-"""`haptic-panel reload`: what the unit's ExecReload= runs."""
+"""`haptic-panel reload`: the command of ExecReload= in the service's unit."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ def add(commands: Subparsers, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = commands.add_parser(
         "reload",
-        help="have the service read its scene again, and say what became of it (for ExecReload=)",
-        description="Sends SIGHUP to the service and waits until the scene was taken over, or was refused: that is exit code 78.",
+        help="have the service read its scene again, and report the result (for ExecReload=)",
+        description="Send SIGHUP to the service and wait until the scene is in force, or refused (exit code 78).",
     )
     parser.add_argument("--pid", type=int, metavar="N", help="its main process (default: $MAINPID)")
     parser.set_defaults(command=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Reload."""
+    """Reload the scene of the service; raises if it is refused."""
     named = os.environ.get("MAINPID", "")
     if options.pid is None and not named.isdecimal():
         raise ConfigError("$MAINPID is not set: give --pid, or use systemctl reload haptic-panel")

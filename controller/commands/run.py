@@ -1,4 +1,4 @@
-"""`haptic-panel run`: a board's panel, or its simulation."""
+"""`haptic-panel run`: run a board's panel, or simulate it."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         "run",
         parents=[common],
         help="run a panel; without devices: replay a touch recording on the simulated panel",
-        description="On a board with devices: play on its FPGA what its touch panel's fingers ask for, until SIGTERM or Ctrl-C; "
+        description="On a board with devices: play the scene for the fingers on its touch panel, until SIGTERM or Ctrl-C; "
         "SIGHUP reads the scene again. On the simulated board, or with --link: replay a touch recording through the event loop, "
-        "the frame protocol and the gateware, let a simulated plate feel every emission, and print what the fingers felt. "
+        "the frame protocol and the gateware, apply every emission to a simulated plate, and print what the fingers felt. "
         "Builds the board's bank when it is missing or stale.",
     )
     play.add_argument(
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _serve(options: argparse.Namespace, board: Board) -> int:
-    """Play on the board's own devices."""
+    """Run the service with the board's devices."""
     from controller.service.run import serve
 
     if options.plot or options.speed == "max":
@@ -83,7 +83,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
 
 
 def _simulate(options: argparse.Namespace, board: Board) -> int:
-    """Replay a recording on the simulated panel and print what its fingers would have felt."""
+    """Replay a recording on the simulated panel, and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
     from controller.simulation import focus_evaluation, run_figures, simulated_run

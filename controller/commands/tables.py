@@ -1,4 +1,4 @@
-"""Figures as tables for people; machines ask for `--json`."""
+"""Figures of commands as tables of text; `--json` prints the same figures for programs."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def run_table(figures: dict[str, Any]) -> str:
     lines.append(_latency_line("copy + crc32 alone", reference))
 
     def worst(figure: dict[str, Any]) -> str:
-        """Not of a machine that was late: one emission of hundreds would tell of it, not of the panel."""
+        """The worst value, unless this machine was late: then it would be a figure of the machine, not of the panel."""
         return _number(None if figures["spoiled"] else figure["worst"])
 
     for title, key in (("focus at the finger", "focus"), ("untracked spots", "untracked_spots")):
@@ -57,7 +57,7 @@ def run_table(figures: dict[str, Any]) -> str:
 
 
 def _became(figures: dict[str, Any]) -> list[str]:
-    """What became of all that was due, and of what was sent ahead."""
+    """Emissions that were due, and waveforms sent ahead, by outcome."""
     return [
         f"due for fingers, spots and commands: {figures['due']}, of which {figures['foci']} played; "
         f"waveforms sent ahead: {figures['prefetched']}, of which {figures['prefetch_wasted']} not played",
@@ -66,7 +66,7 @@ def _became(figures: dict[str, Any]) -> list[str]:
 
 
 def service_table(figures: dict[str, Any]) -> str:
-    """Table of what a service did, from start to end."""
+    """Table of a run of the service."""
     latency = figures["latency_us"]
     lines = [
         f"board {figures['board']}: {figures['emissions']} emissions ({figures['uploads']} uploads, {figures['resident']} "
@@ -87,7 +87,7 @@ def service_table(figures: dict[str, Any]) -> str:
 
 
 def check_table(figures: dict[str, Any]) -> str:
-    """Table of a bring-up: each register beside what it should be, then what was tried, then the verdict."""
+    """Table of a bring-up: each register with its expected value, then the checks, then the verdict."""
     expected, errors = figures["expected"], figures["bit_errors"]
     lines = [f"{'register':<20}{'read':>12}{'expected':>13}"]
     for name, value in figures["registers"].items():
@@ -123,7 +123,7 @@ def plain_table(figures: dict[str, Any]) -> str:
 
 
 def amplitude_table(figures: dict[str, Any]) -> str:
-    """One line for each figure of composing; what each finger asked for and got is for machines."""
+    """One line for each figure of composing; the values of each finger are only in --json."""
     fingers = {number: found["error_percent"] for number, found in figures["fingers"].items()}
     return plain_table(
         {name: value for name, value in figures.items() if name != "fingers"} | {"error_percent_of_fingers": fingers}
@@ -131,7 +131,7 @@ def amplitude_table(figures: dict[str, Any]) -> str:
 
 
 def power_table(figures: dict[str, Any]) -> str:
-    """Table of what a bank's entries cost the driver stages."""
+    """Table of the load of a bank's waveforms on the driver stages."""
     duty, resistor, limits = figures["max_duty"], figures["resistor"], figures["limits"]
     rows = [
         ("edges of an emission", figures["edges"]),

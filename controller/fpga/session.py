@@ -187,7 +187,7 @@ class Session(Supervision):
 
     def trigger(self) -> float:
         """Start the play at the head of the queue; returns the time of the trigger's edge, on the loop's clock."""
-        return self._link.trigger()
+        return self.link.trigger()
 
     def set_bit_period(self, scale: float) -> bool:
         """Scale the bit clock, for example for the plate's temperature; kept over `bring_up`.

@@ -41,6 +41,8 @@ class Supervision:
 
     Attributes
     ----------
+    link : Link
+        As given.
     exchange : Exchange
         Messages over the link, for reading and writing registers.
     timing : EmissionTiming
@@ -57,7 +59,7 @@ class Supervision:
     def __init__(self, link: Link, board: Board, build_hash: int, now_s: Callable[[], float], *, bring_up: bool = True) -> None:
         self.exchange = Exchange(link, now_s, board.limits.heartbeat_timeout_ms * 1e-3 / HEARTBEATS_PER_TIMEOUT)
         self._sent = self.exchange.sent
-        self._link = link
+        self.link = link
         self._board = board
         self._build_hash = build_hash
         self._now_s = now_s
@@ -109,23 +111,13 @@ class Supervision:
         """When the next heartbeat is due, on the loop's clock."""
         return self.exchange.heartbeat_due_s
 
-    @property
-    def blocked_ns(self) -> int:
-        """Time in ns spent inside the link, which is not the host's own work."""
-        return self._link.blocked_ns
-
-    @property
-    def wire_ns(self) -> int:
-        """Time in ns that the bytes sent so far took on the wire."""
-        return self._link.wire_ns
-
     def wire_free_s(self) -> float:
         """When everything sent so far has left the wire, on the loop's clock."""
-        return self._link.wire_free_s()
+        return self.link.wire_free_s()
 
     def earliest_trigger_s(self) -> float:
         """Earliest time at which a trigger requested now would rise, on the loop's clock."""
-        return max(self._now_s(), self._link.wire_free_s())
+        return max(self._now_s(), self.link.wire_free_s())
 
     def arm(self) -> float:
         """Arm the outputs: the high voltage settles, then all channels ramp to their idle levels.
@@ -221,7 +213,7 @@ class Supervision:
         """
         before_s = self._now_s()
         status = self.exchange.retry(lambda _: self.exchange.send_short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
-        after_s = max(self._now_s(), self._link.wire_free_s())
+        after_s = max(self._now_s(), self.link.wire_free_s())
         least_ticks = (before_s - self._heartbeat_s) * self._board.link.clock_hz * (1 - CLOCK_TOLERANCE)
         if (self._armed and State.HV_ENABLE not in status.state) or status.timestamp_ticks - self._heartbeat_ticks < least_ticks:
             raise FpgaReset

@@ -176,7 +176,7 @@ class EventLoop:
 
     def _abandon(self) -> None:
         """Forget what was due, accepted or playing: none of it is resumed."""
-        self._playback.forget()
+        self._playback.reset()
         self._scheduler.reset(self._fpga_now_s())
         now_s = self._clock.now_s()
         self._source.emitted(now_s, now_s)  # what sounded has ended
@@ -244,7 +244,7 @@ class EventLoop:
             return
         if prepared.scene is not None:
             if prepared.selection is not None:
-                self._playback.reselect(prepared.selection)
+                self._playback.change_bank(prepared.selection)
             if self._playback.repeating:  # the spots of the scene before
                 self._playback.stop()
                 self._source.emitted(now_s, now_s)

@@ -116,7 +116,7 @@ class Playback:
             As the session says; nothing is left to play then.
         """
         decided_ns = time.perf_counter_ns()
-        session, wire_before_ns, blocked_before_ns = self._session, self._session.wire_ns, self._session.blocked_ns
+        session, wire_before_ns, blocked_before_ns = self._session, self._session.link.wire_ns, self._session.link.blocked_ns
         emissions, repetitions, period_s, at_s = batch
         plan = self._plan(batch, predicted)
         if self._prefetch.predicted is not None:
@@ -145,7 +145,7 @@ class Playback:
             self._counters.skipped.refused += len(emissions)
             return Attempt(Outcome.REFUSED)
         ready_s = session.earliest_trigger_s()
-        blocked_ns = session.blocked_ns - blocked_before_ns
+        blocked_ns = session.link.blocked_ns - blocked_before_ns
         accepted = Accepted(
             batch,
             plan,
@@ -154,7 +154,7 @@ class Playback:
             None if at_s is None else start_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - blocked_ns,
-            session.wire_ns - wire_before_ns,
+            session.link.wire_ns - wire_before_ns,
         )
         self.repeating = repetitions == ENDLESS
         if at_s is not None:
@@ -205,7 +205,7 @@ class Playback:
         """Keep the waveforms of these points (x_m, y_m, amplitude) in their slots once they are there."""
         self._slots.pin(self._selection.key((point,)) for point in points)
 
-    def reselect(self, selection: Selection) -> None:
+    def change_bank(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
         self._slots = SlotCache(self._slots.slots, selection.single_focus)
@@ -235,13 +235,13 @@ class Playback:
         if accepted is None:
             return
         self.accepted = None
-        called_ns, blocked_ns = time.perf_counter_ns(), self._session.blocked_ns
+        called_ns, blocked_ns = time.perf_counter_ns(), self._session.link.blocked_ns
         trigger_s = self._session.trigger()
-        self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.blocked_ns - blocked_ns))
+        self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.link.blocked_ns - blocked_ns))
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """The FPGA holds and plays nothing: after a fault."""
-        self._slots.forget()
+        self._slots.clear()
         self._prefetch.unplayed.clear()
         if self.accepted is not None:
             self._counters.skipped.outputs_off += len(self.accepted.batch.emissions)

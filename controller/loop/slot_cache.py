@@ -41,7 +41,7 @@ class SlotCache:
         self._slot_of: dict[Key, int] = {}
         self._single_focus_of: dict[int, tuple[Key, SingleFocus]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
-        self.forget()
+        self.clear()
 
     def find(self, key: Key) -> Key | None:
         """Key of a resident waveform that can be played for `key`: the same, or one for a place near by; None if there is none."""
@@ -112,7 +112,7 @@ class SlotCache:
         """Let the waveforms of these keys stay once they are resident: the first ones, as far as `MIN_UNPINNED` slots are left."""
         self._pinned = set(list(keys)[: max(self.slots - MIN_UNPINNED, 0)])
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Take note that the FPGA holds nothing: at the start, and after a fault."""
         self._slot_of.clear()
         self._single_focus_of.clear()

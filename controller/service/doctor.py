@@ -1,4 +1,4 @@
-"""What of a panel works, what does not, and what to do: everything that the board names, and the link to its FPGA."""
+"""Checks of a panel for `haptic-panel doctor`: each device, file and permission that the board needs, and what to do."""
 
 from __future__ import annotations
 
@@ -30,22 +30,34 @@ from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
 from controller.touch.recording import Recording
 
-MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and a scene's entries
+MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing looked at: what it is, whether it is as it should be, and what was found or is to be done."""
+    """Result of a check.
+
+    Attributes
+    ----------
+    about : str
+        What was checked.
+    good : bool
+        Whether it works.
+    said : str
+        What was found, or what to do.
+    warns : bool
+        Whether it works and is still not as one would expect.
+    """
 
     about: str
     good: bool
     said: str
-    warns: bool = False  # nothing is wrong, and yet it is not what one may expect
+    warns: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class _Allowed:
-    """What a user may ask of the kernel: the highest real-time priority, and bytes of memory to lock."""
+    """Limits of a user: highest real-time priority, and memory that may be locked, in bytes."""
 
     whose: str
     priority: float
@@ -53,9 +65,15 @@ class _Allowed:
 
 
 def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
-    """Look at everything that a board names, without moving anything or disturbing a service that runs.
+    """Check everything that a board needs, without outputs and without disturbing a running service.
 
-    Root, asking about the service's board, looks as the service's user: with its rights, and its unit's limits.
+    For the service's board, root checks with the rights of the service's user and the limits of its unit.
+
+    Parameters
+    ----------
+    board : Board
+    now_s : callable
+        The host's clock.
     """
     link = board.link
     user = service_user() if os.geteuid() == 0 and board.is_the_systems else None
@@ -80,7 +98,7 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         ]
     with _rights_of(user):
         findings = [_tried(about, check) for about, check in checks]
-    return [finding for finding in findings if finding.good or finding.about != "responses"]  # a bad bank is told once
+    return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
 
 
 def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
@@ -95,7 +113,7 @@ def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
 
 @contextlib.contextmanager
 def _rights_of(user: pwd.struct_passwd | None) -> Iterator[None]:
-    """This process with the rights of another user for a while; None: with its own."""
+    """Run with the rights of another user; None: with this process's own."""
     if user is None:
         yield
         return
@@ -112,7 +130,7 @@ def _rights_of(user: pwd.struct_passwd | None) -> Iterator[None]:
 
 
 def _user(board: Board, user: pwd.struct_passwd | None) -> str:
-    """As whom everything is looked at."""
+    """User whose rights are checked."""
     if user is not None:
         return f"looked at as {user.pw_name}, as which the service runs"
     if os.geteuid() == 0 and board.is_the_systems:
@@ -131,7 +149,7 @@ def _opened(link: Link, device: str) -> str:
 
 def _node(device: str) -> str:
     try:
-        mode = os.stat(device).st_mode  # noqa: PTH116 - a Path says the same in more words
+        mode = os.stat(device).st_mode  # noqa: PTH116 - os.stat takes the text as it is
     except OSError as error:
         raise LinkError(f"there is no {device} ({error.strerror}): switch SPI on, on a Raspberry Pi by dtparam=spi=on") from None
     if not stat.S_ISCHR(mode):
@@ -201,7 +219,7 @@ def _bank(board: Board) -> str:
 
 
 def _responses(board: Board) -> str | Finding:
-    """What the bank was computed from."""
+    """Whether the bank was computed from measured or modelled responses."""
     with Bank.open(bank_path(board)) as bank:
         source = bank.header.parameters.get("responses", MODELLED)
     if source != MODELLED:
@@ -231,7 +249,7 @@ def _this_process_may() -> _Allowed:
 
 
 def _unit_allows() -> _Allowed:
-    """As the service's unit says: its process has other limits than a shell."""
+    """Limits of the service's unit, which are not those of a shell."""
     names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
     asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
     try:

@@ -1,6 +1,6 @@
-"""Plays without fingers and lets the panel report what it will: the loop's ends that find out what emissions do to a panel.
+"""Measurement of ghosts: plays while nobody touches the panel, and records the contacts that emissions cause.
 
-To the loop this is a panel without touches, and a client that asks for one click after another at random places.
+For the event loop it is a panel without touches, and a client that plays one click after another at random places.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from controller.loop.commands import Outcome, PanelControl
 from controller.touch.ghost_figures import MAX_GHOST_LIFE_S, MIN_EMISSIONS, MIN_GHOSTS
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-KNOCK = "knock"  # the effect that is asked for
+KNOCK = "knock"  # name of the effect that is played
 MOST_EMISSIONS = 600
 # From the end of an emission to the next, at random within the panel's scans
 GAP_S = (MAX_GHOST_LIFE_S + 0.03, MAX_GHOST_LIFE_S + 0.08)
-SETTLED_S = 0.5  # what the ramp of arming has made is gone
-PATIENCE_S = 10.0  # for outputs that are off
-STAYS_S = 1.0  # no ghost: the rest need not be waited for
+SETTLED_S = 0.5  # after arming, until ghosts of the ramp have gone
+PATIENCE_S = 10.0  # longest wait for the outputs to be on
+STAYS_S = 1.0  # a contact that lasts longer is no ghost; the measurement ends
 
 
 class Overheard:
-    """A `TrackedTouch` that listens to a source and tells the loop of nothing.
+    """A `TrackedTouch` that counts the contacts of a source and passes none to the loop.
 
     Parameters
     ----------
     source : TouchSource
-        The panel.
+        Touches of the panel.
 
     Attributes
     ----------
     ghosts : int
         Contacts so far.
     since_s : float
-        When the one began that is down and was first; inf: none is down.
+        Start of the contact that has lasted longest, in s of the host's clock; inf: there is none.
     """
 
     def __init__(self, source: TouchSource) -> None:
@@ -71,7 +71,7 @@ class Overheard:
         self._source.close()
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
-        """Nothing; see `TouchSource.read`."""
+        """Count new contacts; returns none."""
         for sample in self._source.read(now_s):
             if not sample.contact:
                 self._down.pop(sample.finger, None)
@@ -82,51 +82,51 @@ class Overheard:
         return ()
 
     def predict(self, _finger: int, _at_s: float) -> None:
-        """No finger is anywhere."""
+        """None: there are no fingers."""
 
     @property
     def report_s(self) -> float:
-        """Of no use without fingers."""
+        """0: there are no fingers."""
         return 0.0
 
     def confirmed(self, _finger: int) -> bool:
-        """No finger is."""
+        """False: there are no fingers."""
         return False
 
     def emitted(self, start_s: float, end_s: float, period_s: float = 0.0) -> None:
-        """Nobody is suspected."""
+        """Ignored: every contact counts as a ghost."""
 
     def quiet_until_s(self, now_s: float, _next_s: float) -> float:
-        """No silence is asked for."""
+        """Now: no quiet time is needed."""
         return now_s
 
 
 class Knocks:
-    """A `CommandSource` that asks for clicks, far enough apart that each ghost has one that made it, and ends the loop.
+    """A `CommandSource` that plays clicks, far enough apart that each ghost belongs to one of them, and then ends the loop.
 
-    Hand `ready` to the loop's `run`.
+    Pass `ready` to the loop's `run`.
 
     Parameters
     ----------
     panel : Overheard
-        Tells how many ghosts there were.
+        Counts the ghosts.
     places : sequence of (x_m, y_m)
-        Where to knock.
+        Places of the clicks, in m.
     duration_s : float
         T.
     stop : callable
         Ends the loop.
     progress : callable
-        Told of knocks played and the most there will be.
+        Called with the clicks played and their largest number.
     seed : int
-        Of the places and times.
+        Seed of the random places and times.
 
     Attributes
     ----------
     error : ControllerError or None
-        Why it was given up.
+        Why the measurement was ended early.
     played : int
-        Knocks that sounded.
+        Clicks that were played.
     """
 
     def __init__(
@@ -150,22 +150,22 @@ class Knocks:
         self._next_s = -NEVER
         self._begin_s = NEVER
         self._on = False
-        self._wait = os.eventfd(0)  # the loop wants a file; it is never readable
+        self._wait = os.eventfd(0)  # the loop needs a file to wait on; this one is never readable
 
     def fileno(self) -> int:
-        """Never readable."""
+        """File that is never readable."""
         return self._wait
 
     def next_time_s(self) -> float:
-        """The next knock."""
+        """Time of the next click, in s of the host's clock."""
         return self._next_s
 
     def ready(self) -> None:
-        """The outputs are on."""
+        """Note that the outputs are on."""
         self._on = True
 
     def serve(self, now_s: float, control: PanelControl) -> None:
-        """Knock, if it is time."""
+        """Play the next click if it is due, or end the measurement."""
         if now_s < self._next_s:
             return
         if not self._on:
@@ -194,19 +194,19 @@ class Knocks:
         return self.played >= MIN_EMISSIONS and self._panel.ghosts >= MIN_GHOSTS
 
     def outcome(self, _ticket: int, outcome: Outcome, _age_s: float) -> None:
-        """A knock was played, or left out."""
+        """Count a click that was played."""
         self.played += outcome is Outcome.PLAYED
         self._progress(self.played, MOST_EMISSIONS)
 
     def touches(self, samples: Sequence[TouchSample]) -> None:
-        """There are none."""
+        """Ignored: there are no touches."""
 
     def loaded(self, ticket: int, reason: str) -> None:
-        """No scene is asked for."""
+        """Ignored: no scene is loaded."""
 
     def changed(self, condition: Condition) -> None:
-        """What matters comes with the next knock."""
+        """Ignored: outputs that go off refuse the next click."""
 
     def close(self) -> None:
-        """Give the file back."""
+        """Close the file."""
         os.close(self._wait)

@@ -25,7 +25,7 @@ SWEEP_SHARE = 0.1  # of the bits, at each speed of the sweep
 
 @dataclass(frozen=True, slots=True)
 class LinkExamined:
-    """What `doctor --link` found."""
+    """Results of `doctor --link`: findings, and figures for --json."""
 
     findings: list[Finding]
     figures: dict[str, Any]
@@ -40,16 +40,19 @@ def examine_link(
     channels: Sequence[int],
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> LinkExamined:
-    """Everything about the link: identity, bits there and back, memory, channels, and the SCK that its wires carry.
+    """Examine the link: identity, bit errors in both directions, memory, channels, and the highest SCK without errors.
 
     Parameters
     ----------
+    board : Board
+    link : Link
+        Open.
     open_session : callable
-        Brings up what is at the other end.
+        Brings up the FPGA at the other end.
     bits : float
-        Random bits to send at least.
+        Least number of random bits to send.
     channels : sequence of int
-        To chirp on; outputs are on meanwhile. Empty: they stay off.
+        Channels to chirp on, with outputs on; empty: they stay off.
     """
     findings: list[Finding] = []
     figures: dict[str, Any] = {}
@@ -94,7 +97,7 @@ def _swept(
     figures: dict[str, Any],
     progress: Callable[[int, int], None],
 ) -> Finding:
-    """Errors at each SCK; the link is left at the one that is proposed."""
+    """Measure bit errors at several SCK; the link is left at the proposed one."""
     speeds = sweep(session, link, board.link.sck_hz, bits, np.random.default_rng(bring_up.SEED), progress)
     proposal_hz = proposed_sck_hz(speeds)
     figures["sweep"] = [asdict(speed) for speed in speeds]

@@ -140,7 +140,7 @@ def test_an_upload_plays_bit_for_bit_on_the_32_pins_behind_the_trigger_line():
 
 
 def test_without_the_hosts_permit_it_is_off():
-    session()._link.close()
+    session().link.close()
     far_end().board("board_run", US)
     assert not high("hv_enable")
     assert not high("run permit")

@@ -20,7 +20,7 @@ from controller.bank.reader import Bank
 from controller.clocks import NEVER, MonotonicClock, VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
 from controller.fpga.frames import FRAME_BYTES
-from controller.fpga.session import Session
+from controller.gateware_model.simulated_link import SimulatedLink
 from controller.loop import wiring
 from controller.loop.dispatcher import PREFETCH_SLACK_S
 from controller.loop.occupancy import Repetition
@@ -175,7 +175,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
 
 def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
-    monkeypatch.setattr(Session, "blocked_ns", property(lambda _: next(ages_ns)))
+    monkeypatch.setattr(SimulatedLink, "blocked_ns", property(lambda _: next(ages_ns), lambda *_: None), raising=False)
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
     assert run.counters.upload_latency.host.count == 1
     assert run.counters.upload_latency.host.worst_ns == 0

@@ -316,7 +316,7 @@ def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s
     """Nor for a time of the FPGA that it may never reach: a reset has set its clock to 0."""
     playback, clock = by_hand.playback, by_hand.clock
     playback.prepare(focus(0.05), 0)
-    playback.forget()
+    playback.reset()
     asked_s = clock.now_s()
     playback.prepare(focus(0.1, at_s=at_s), 0)
     assert playback.accepted is None

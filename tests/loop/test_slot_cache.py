@@ -91,14 +91,14 @@ def test_a_waveform_that_is_kept_in_another_slot_leaves_the_one_before():
 def test_nothing_is_taken_for_resident_after_a_fault():
     cache = SlotCache(3, same)
     put(cache, 1)
-    cache.forget()
+    cache.clear()
     assert put(cache, 1)
 
 
 @given(
     st.integers(1, 16),
     st.sets(st.integers(0, 30), max_size=5),
-    st.lists(st.tuples(st.sampled_from(["play", "ahead", "refused", "damaged", "again", "forget"]), st.integers(0, 30))),
+    st.lists(st.tuples(st.sampled_from(["play", "ahead", "refused", "damaged", "again", "clear"]), st.integers(0, 30))),
 )
 def test_every_slot_is_used_by_one_waveform_at_most(slots, pinned, steps):
     """Tens of a key: its place in mm; so that ten of them serve for each other."""
@@ -107,8 +107,8 @@ def test_every_slot_is_used_by_one_waveform_at_most(slots, pinned, steps):
     holds, latest = {}, None
     for what, key in steps:
         resident = cache.find(key)
-        if what == "forget":
-            cache.forget()
+        if what == "clear":
+            cache.clear()
             holds.clear()
         elif resident is not None and what != "again":
             slot = cache.use(resident)
