@@ -3,9 +3,13 @@
 # usage: sh controller/set_up.sh offline | test | test,gateware
 set -eu
 cd "$(dirname "$0")/.."
-extra=${1:?"usage: sh controller/set_up.sh offline | test | test,gateware"}
+extra=${1:-}
 packages='build-essential python3-dev python3-venv' megabytes=80
-case $extra in test*) packages="$packages iverilog strace" megabytes=250 ;; esac
+case $extra in
+  offline) ;;
+  test | test,gateware) packages="$packages iverilog strace" megabytes=250 ;;
+  *) echo "usage: sh controller/set_up.sh offline | test | test,gateware" >&2 && exit 2 ;;
+esac
 echo "haptic-panel: Debian packages, then Python packages (about $megabytes MB): 1 to 4 minutes"
 if ! command -v apt-get >/dev/null; then
   echo "no apt-get here; needed are a C compiler, and Python 3.11 or later with its headers and venv" >&2

@@ -212,8 +212,9 @@ def test_a_system_without_apt_is_told_what_is_needed(tmp_path):
     assert done.stdout.endswith("pip install --disable-pip-version-check -e .[offline]\n")
 
 
-def test_set_up_without_an_extra_says_which_there_are(tmp_path):
-    done = set_up(tmp_path, [])
+@pytest.mark.parametrize("extra", [[], ["tests"], ["docs"]])
+def test_set_up_without_a_known_extra_says_which_there_are(tmp_path, extra):
+    done = set_up(tmp_path, extra)
     assert done.returncode == 2
     assert "usage: sh controller/set_up.sh offline | test" in done.stderr
     assert done.stdout == ""

@@ -23,7 +23,7 @@ from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
     from controller.commands.output import Subparsers
-    from controller.simulation.simulated_run import Judged
+    from controller.simulation.focus_evaluation import Judged
 
 
 def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -86,7 +86,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     """Replay a recording on the simulated panel, and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
-    from controller.simulation import simulated_run
+    from controller.simulation import focus_evaluation, run_figures, simulated_run
 
     picture = picture_path(options)
     board = simulated(board)
@@ -108,10 +108,10 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         for warning in overdone:
             print(f"haptic-panel: {warning}", file=sys.stderr)
         done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
-        judged = simulated_run.judge(done, progress_bar("plate"))
+        judged = focus_evaluation.judge(done, progress_bar("plate"))
     if judged.left_out:
         print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
-    figures = {"link": options.link or "model", "bank": str(bank.path)} | simulated_run.report(done, judged.foci)
+    figures = {"link": options.link or "model", "bank": str(bank.path)} | run_figures.report(done, judged.foci)
     for warning in figures["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
     figures["warnings"] = [*overdone, *figures["warnings"]]

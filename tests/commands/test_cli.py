@@ -19,9 +19,10 @@ from controller.board.paths import bank_path
 from controller.cli import main
 from controller.fpga import bring_up
 from controller.metrics import Counters
-from controller.simulation import simulated_run
+from controller.simulation import run_figures
+from controller.simulation.focus_evaluation import judge
 from controller.simulation.rtl_build import verilator_root
-from controller.simulation.simulated_run import judge, report, spoiled
+from controller.simulation.run_figures import report, spoiled
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -479,7 +480,7 @@ def test_the_table_of_a_spoiled_run_has_no_worst_figures_of_foci(capsys, small_b
     row = re.compile(r"^relative amplitude +(\S+) +(\S+)$", re.MULTILINE)
     median, worst = row.search(printed(capsys, *run).out).groups()
     assert float(median) == float(worst), "of its one emission"
-    monkeypatch.setattr(simulated_run, "spoiled", lambda *_: "the host was late by 40 ms")
+    monkeypatch.setattr(run_figures, "spoiled", lambda *_: "the host was late by 40 ms")
     out, _ = printed(capsys, *run)
     assert row.search(out).groups() == (median, "–")
     assert out.splitlines()[-1].endswith("left out: the host was late by 40 ms")

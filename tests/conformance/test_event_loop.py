@@ -6,7 +6,9 @@ from pin_script import MODEL, assert_same_capture, open_gateware
 
 from controller.bank.reader import Bank
 from controller.scene.scene import load_scene
-from controller.simulation.simulated_run import judge, play, report
+from controller.simulation.focus_evaluation import judge
+from controller.simulation.run_figures import report
+from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording
 
 SCENE = """

@@ -31,7 +31,7 @@ from controller.metrics import Counters
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
 from controller.simulation import simulated_run
-from controller.simulation.simulated_run import foci_meant
+from controller.simulation.focus_evaluation import foci_meant
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.waveforms.selection import Selection

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from controller.simulation.simulated_run import judge
+from controller.simulation.focus_evaluation import judge
 from controller.touch.recording import Track
 
 TEXTURE = '[[regions]]\nname = "all"\nshape = "plate"\neffects = [{ effect = "texture", spacing_mm = 20.0 }]\n'

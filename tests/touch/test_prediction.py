@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scripted_source import ScriptedSource, touch
 
-from controller.benchmark.prediction_error import HORIZONS_MS, METHODS, Kalman, main, measure, overshoot_m, rest_m
+from controller.benchmark.prediction_error import HORIZONS_MS, main, measure, overshoot_m, rest_m
+from controller.benchmark.predictors import METHODS, Kalman
 from controller.board.devices import TouchPanel
 from controller.touch.prediction import (
     MAX_EXTRAPOLATION_M,

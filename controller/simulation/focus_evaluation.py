@@ -1,0 +1,118 @@
+"""Evaluation of a simulated run: the plate twin plays the captured channel pins, and every focus is compared with its finger.
+
+The intended finger and point come from the loop's record of what it played; the finger's true place at T comes from the
+recording.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from controller.physics.field import OUTSIDE_M, Field, FocusMetrics
+from controller.physics.plate_twin import PlateTwin
+from controller.scene.emission import Emission
+from controller.simulation.simulated_run import Run
+from controller.touch.recording import Track
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Focus:
+    """One focus of one emission, evaluated where its finger was at T."""
+
+    time_s: float  # T, in the recording's time
+    emission: Emission
+    x_m: float  # true place of the finger at T; of an emission without a finger, its own place
+    y_m: float
+    relative_amplitude: float  # relative to a single focus at this point
+    exact_share: float  # relative to exact composition at the fingers' true places, times the amplitude asked for
+    metrics: FocusMetrics
+    distance_m: float  # from there to the maximum of the spot
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Every focus of a run, and the field and foci of the emission chosen for the picture."""
+
+    foci: list[Focus]
+    field: Field | None
+    shown: list[Focus]
+    left_out: int  # emissions not evaluated, because of Ctrl-C or SIGTERM
+
+
+def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judged:
+    """Play the captured pins on the plate twin and evaluate every focus where its finger was at T; Ctrl-C ends it early.
+
+    Parameters
+    ----------
+    run : Run
+    progress : callable, optional
+        Called with the number of emissions evaluated and of all emissions.
+
+    Returns
+    -------
+    Judged
+    """
+    twin = PlateTwin(run.board)
+    meant = foci_meant(run)
+    judged = Judged([], None, [], len(meant))
+    moments = zip(meant, twin.fields(run.capture, run.link.clock_hz), strict=True)
+    with contextlib.suppress(KeyboardInterrupt):
+        for done, ((tick, emissions), field) in enumerate(moments, 1):
+            together = _judge_moment(run, twin, field, run.link.time_s(tick) - run.start_s, emissions)
+            better = _worth_showing(together) > _worth_showing(judged.shown)
+            shown = (field, together) if better else (judged.field, judged.shown)
+            judged.foci.extend(together)
+            judged = Judged(judged.foci, *shown, len(meant) - done)
+            if progress:
+                progress(done, len(meant))
+    return judged
+
+
+def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
+    """Evaluate all foci of one emission, each where its finger was."""
+    places = [_place(run.tracks, emission, time_s) for emission in emissions]
+    exact_m = twin.exact_amplitudes(tuple(places))
+    together = []
+    for emission, (x_m, y_m), asked_m in zip(emissions, places, exact_m.tolist(), strict=True):
+        metrics = field.focus_metrics(x_m, y_m, places)
+        crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
+        reference_m = twin.reference_amplitude(x_m, y_m)
+        relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
+        exact_share = metrics.amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
+        distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
+        together.append(Focus(time_s, emission, x_m, y_m, relative, exact_share, metrics, distance_m))
+    return together
+
+
+def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
+    """(tick, emissions) of every focus in the run's capture: the emissions are those of the last start before it."""
+    starts_ticks = [run.link.tick(played.trigger_s) if played.at_ticks is None else played.at_ticks for played in run.played]
+    most_ticks = round(0.99 * run.board.waveform.duration_s * run.link.clock_hz)
+    meant = []
+    for tick in run.capture.focus_ticks.tolist():
+        meant.append((tick, run.played[bisect_right(starts_ticks, tick - most_ticks) - 1].emissions))
+    return meant
+
+
+def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
+    """Rank of an emission for the picture: number of separate fingers, then amplitude of its weakest focus."""
+    apart = [
+        focus.emission.finger is not None
+        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > OUTSIDE_M for other in foci if other is not focus)
+        for focus in foci
+    ]
+    return sum(apart), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
+
+
+def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:
+    """True place of the finger at `time_s`; without a finger, the emission's own place."""
+    if emission.finger is None:
+        return emission.x_m, emission.y_m
+    return tracks[emission.finger].position(time_s)
