@@ -2,6 +2,8 @@
 
 import os
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # two processes of tests keep two cores busy
+
 import pytest
 from hypothesis import HealthCheck, settings
 
