@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import mmap
 import os
 import weakref
@@ -37,6 +38,11 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
+
+    Attributes
+    ----------
+    scale_of_cell : list of float
+        m per V of one level of each cell's response; NaN where the bank has no entry.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -53,6 +59,7 @@ class Bank:
         self._fd = fd
         self.close = weakref.finalize(self, os.close, fd)
         self._entry_of, self._crc_of, self._scale_of = tables
+        self.scale_of_cell = [self._scale_of[entry] if entry >= 0 else math.nan for entry in self._entry_of]
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
@@ -206,10 +213,6 @@ class Bank:
         start = entry * self._response_stride
         levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
-
-    def scale(self, cell: int) -> float:
-        """Scale of a cell that `response_patch` gave, in m per V of one level."""
-        return self._scale_of[self._entry_of[cell]]
 
     def response_patch(self, cell: int, columns: int, rows: int) -> NDArray[np.int8]:
         """Responses of up to four neighbouring cells as one array, for one pass over all of them.

@@ -14,7 +14,7 @@ from controller.fpga.diagnosis import diagnose
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.link import Link
 from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
-from controller.fpga.status import DamagedStatus, Status, parse_status, status_ok
+from controller.fpga.status import DamagedStatus, Status, all_ok, parse_status, status_ok
 
 ATTEMPTS = 3
 COMMANDS = 8  # short frames that the buffers hold after an upload
@@ -118,7 +118,7 @@ class Exchange:
         answers = self._answers_to(tuple(lengths))
         start = 0
         try:
-            if not implied or not _all_ok(answers, sequence, implied):  # find the first bad answer, which has the reason
+            if not implied or not all_ok(answers, sequence, implied):  # find the first bad answer, which has the reason
                 for answer, start in answers:
                     if not status_ok(answer, sequence & 0xFF):
                         self._explain(parse_status(self.received, start), raise_faults)
@@ -235,11 +235,3 @@ class Exchange:
             raise Refused(status.result)
         if not status.faults:
             raise LinkError(f"a frame was lost: the last one that the FPGA received is number {status.sequence}")
-
-
-def _all_ok(answers: Answers, sequence: int, first: int) -> bool:
-    """Whether answers `first` and later are good; `sequence` is that of the first frame of the message."""
-    for index in range(first, len(answers)):  # noqa: SIM110 — a generator would cost as much as the answers
-        if not status_ok(answers[index][0], (sequence + index) & 0xFF):
-            return False
-    return True

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from controller.errors import LinkError
@@ -69,6 +70,24 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     if state not in _STATES:
         _STATES[state] = State(state)
     return Status(code, sequence, _STATES[state], Fault(faults) if faults else _NO_FAULT, *counters)
+
+
+def all_ok(answers: Sequence[tuple[ReadableBuffer, int]], sequence: int, first: int) -> bool:
+    """Whether answers `first` and later are good: `status_ok` of each.
+
+    Parameters
+    ----------
+    answers : sequence of (bytes-like, int)
+        The answers of a message; the second of each is not looked at.
+    sequence : int
+        Of the message's first frame.
+    first : int
+        Answers before it are not looked at.
+    """
+    for index in range(first, len(answers)):  # noqa: SIM110 — a generator would cost as much as the answers
+        if not status_ok(answers[index][0], (sequence + index) & 0xFF):
+            return False
+    return True
 
 
 def status_ok(answer: ReadableBuffer, sequence: int) -> bool:

@@ -11,6 +11,7 @@ contact: a slot keeps its position from one contact to the next.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from itertools import count
 
 from controller.touch.associate import FIRST_SERIAL, Contact, associate
@@ -35,6 +36,7 @@ from controller.touch.event_codes import (
     SYN_REPORT,
     Protocol,
 )
+from controller.touch.event_reader import Event
 from controller.touch.source import Counts, TouchSample
 
 MAX_PLAYED = 10
@@ -98,6 +100,14 @@ class Decoder:
         self._serials = count(FIRST_SERIAL)
         self._slot = slot
         self._current: Contact = self._contact_of(slot)
+
+    def feed_report(self, events: Sequence[Event], start: int, end: int, time_s: float) -> tuple[TouchSample, ...]:
+        """Take events `start` to `end` - 1, which all happened at `time_s`; the samples that the last of them gives."""
+        samples = None
+        for index in range(start, end):
+            kind, code, value, _ = events[index]
+            samples = self.feed(kind, code, value, time_s)
+        return samples or ()
 
     def feed(self, kind: int, code: int, value: int, time_s: float) -> tuple[TouchSample, ...] | None:
         """Take one event.

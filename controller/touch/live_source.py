@@ -72,12 +72,8 @@ class LiveSource:
         if self._reader.description is not self._description:
             self._decoder = self._renewed()
         assert self._decoder is not None
-        feed = self._decoder.feed
         time_s = self._clock.corrected_s(events[-1][3], now_s)
-        samples = None
-        for kind, code, value, _ in events:
-            samples = feed(kind, code, value, time_s)
-        return samples or ()
+        return self._decoder.feed_report(events, 0, len(events), time_s)
 
     def close(self) -> None:
         """Close the device."""

@@ -69,14 +69,9 @@ class RecordingSource:
             self._end_warnings["still_down_at_end"] += len(released)
             self._end_warnings["never_reported"] += len(self._events) - self._next
             return released
-        end = self._report_ends[self._report]
-        feed = self._decoder.feed
-        for index in range(self._next, end):
-            kind, code, value, _ = self._events[index]
-            feed(kind, code, value, due_s)
-        self._next = end + 1
+        start, self._next = self._next, self._report_ends[self._report] + 1
         self._report += 1
-        return feed(ev.EV_SYN, ev.SYN_REPORT, 0, due_s) or ()
+        return self._decoder.feed_report(self._events, start, self._next, due_s)
 
     def close(self) -> None:
         """End the replay."""

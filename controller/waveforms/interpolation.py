@@ -68,15 +68,15 @@ class Interpolation:
 
     def _weigh(self, cell: int, columns: int, rows: int, right: float, up: float) -> None:
         """Weights of the cells: bilinear, times each one's scale, in 256ths of all."""
-        scale = self._bank.scale
-        shares = [(1 - up) * (1 - right) * scale(cell)]
+        scale = self._bank.scale_of_cell
+        shares = [(1 - up) * (1 - right) * scale[cell]]
         if columns == 2:
-            shares.append((1 - up) * right * scale(cell + 1))
+            shares.append((1 - up) * right * scale[cell + 1])
         if rows == 2:
             above = cell + self._grid.nx
-            shares.append(up * (1 - right) * scale(above))
+            shares.append(up * (1 - right) * scale[above])
             if columns == 2:
-                shares.append(up * right * scale(above + 1))
+                shares.append(up * right * scale[above + 1])
         total = sum(shares)
         unit = WEIGHT_SUM / total if total else 0.0
         for weight, share in zip(self._weights, shares, strict=False):
