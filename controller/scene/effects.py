@@ -15,11 +15,12 @@ from controller.board.records import NotNegative, Record
 
 MIN_AMPLITUDE = 0.25  # below it the plate's response is not proportional to the amplitude any more
 ROUNDING = 1e-9
+LONGEST_MS = 3.6e6  # an hour: of a train, and so of its envelope
 
 When = Literal["press", "release", "enter", "leave", "move", "always", "command"]
 Amplitude = Annotated[float, Meta(ge=MIN_AMPLITUDE, le=1)]
 Rate = Annotated[float, Meta(ge=0.1, le=1000)]  # the FPGA counts periods in 32 bits of its clock
-EnvelopePoint = tuple[NotNegative, Annotated[float, Meta(ge=0, le=1)]]
+EnvelopePoint = tuple[Annotated[float, Meta(ge=0, le=LONGEST_MS)], Annotated[float, Meta(ge=0, le=1)]]
 
 
 class EffectTable(Record, frozen=True):
@@ -57,7 +58,7 @@ class EffectTable(Record, frozen=True):
     amplitude: Amplitude | None = None
     rate_hz: Rate | None = None
     count: Annotated[int, Meta(ge=1, le=1_000_000)] | None = None
-    duration_ms: Annotated[float, Meta(gt=0, le=3.6e6)] | None = None
+    duration_ms: Annotated[float, Meta(gt=0, le=LONGEST_MS)] | None = None
     phase: Annotated[float, Meta(ge=0, lt=1)] | None = None
     spacing_mm: Annotated[float, Meta(ge=0.1, le=1000)] | None = None
     along: Literal["path", "x", "y"] | None = None

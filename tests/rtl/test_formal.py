@@ -21,7 +21,7 @@ GATE = ("output_gate.sby", "output_gate.v")
 BREAKS = {
     "one synchroniser flip-flop less": ("count_sync_q != odd_q;", "count_meta_q != odd_q;", "byte_is_still"),
     "no synchroniser": ("count_sync_q != odd_q;", "count_q[3] != odd_q;", "byte_is_still"),
-    "the answer into the register in use": ("take_next_q && odd_q", "take_next_q && !odd_q", "answer_is_still"),
+    "the answer into the register in use": ("take_next_q && odd_q", "take_next_q && !odd_q", "answer_is_still|(even|odd)_was_used"),
 }
 GATE_BREAKS = {
     "causes that count only in a state": ("on || on_later_q != 3'd0 || hv_enable_q", "on", "(stopped|hot|silent|beyond)_is_off"),
@@ -72,4 +72,4 @@ def test_the_proof_fails_with(tmp_path, what):
     old, new, promise = BREAKS[what]
     code, log = prove(tmp_path, CROSSING, old, new)
     assert code != 0
-    assert f"failed assertion spi_peripheral.{promise}" in log, log
+    assert re.search(rf"failed assertion spi_peripheral\.({promise})", log), log

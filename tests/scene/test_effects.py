@@ -151,6 +151,7 @@ BUZZ = f"{PRESS}, rate_hz = 100"
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [0, 0.5]] }}", ".envelope[1] = [0.0, 0.5] is not later than the point before"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [9, 0.5], [8, 1]] }}", ".envelope[2] = [8.0, 1.0] is not later"),
         (f"{{ {BUZZ}, count = 3, envelope = [[-1, 1]] }}", ".envelope[0][0] = -1"),
+        (f"{{ {BUZZ}, count = 3, envelope = [[0, 1], [3.7e6, 1]] }}", ".envelope[1][0] = 3700000"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 1.5]] }}", ".envelope[0][1] = 1.5"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 0.1]] }}", ".envelope[0] = [0.0, 0.1]: an amplitude is 0 (silence) or 0.25 to 1"),
         (f"{{ {BUZZ}, count = 3, envelope = [[0, 0], [20, 0]] }}", ".envelope is silent throughout"),
