@@ -26,16 +26,27 @@ def one_entry_bank(board, tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize("run", RUNS)
-def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
+def perform(run, simulator, bank, folder, **variables):
+    """One bench, in a process of its own; it must pass."""
     environment = os.environ | {
-        "HAPTIC_PANEL_TEST_BANK": str(one_entry_bank),
+        "HAPTIC_PANEL_TEST_BANK": str(bank),
         "PYTHONPATH": os.pathsep.join(sys.path),
         "MAKEFLAGS": make_variables(run),
+        **variables,
     }
-    command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, tmp_path]
+    command = [sys.executable, Path(__file__).parent / "benches.py", run, simulator, folder]
     done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     assert done.returncode == 0, done.stdout[-10_000:]
+
+
+@pytest.mark.slow
+def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(simulator, one_entry_bank, tmp_path):
+    perform("haptic_core", simulator, one_entry_bank, tmp_path, HAPTIC_PANEL_RANDOM_FRAMES="1000")
+
+
+@pytest.mark.parametrize("run", RUNS)
+def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
+    perform(run, simulator, one_entry_bank, tmp_path)
     if simulator == "verilator" and run in BENCHES:
         verilog_coverage[run] = read(tmp_path / "coverage.dat")
 
