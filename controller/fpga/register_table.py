@@ -18,7 +18,7 @@ from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Kind, Register, Result, Start, State
 

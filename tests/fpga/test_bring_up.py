@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.errors import LinkError

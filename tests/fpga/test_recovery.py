@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from restarting_gateware import RestartingGateware
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError

@@ -5,7 +5,7 @@ from enum import IntEnum
 
 import pytest
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga.register_table import main, rewritten, table, with_table
 from controller.fpga.registers import Kind, Register
 

@@ -1,6 +1,7 @@
 import re
 
-from controller.board.board import MIN_BIT_TICKS, data_folder
+from controller.board.board import MIN_BIT_TICKS
+from controller.board.lookup import data_folder
 from controller.fpga import registers
 from controller.fpga.register_table import main, rewritten
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Register, Result, Start, State

@@ -13,7 +13,8 @@ from cobs import cobs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link

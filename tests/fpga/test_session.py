@@ -8,7 +8,8 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames

@@ -11,8 +11,9 @@ from typing import get_args, get_type_hints
 
 import pytest
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
 from controller.board.devices import RecordingTouch, Touch
+from controller.board.lookup import data_folder
 from controller.errors import TouchError
 from controller.service import drivers
 from controller.touch.panels import PANELS, driver_of, open_panel
