@@ -6,7 +6,8 @@ from enum import IntEnum
 import pytest
 
 from controller.board.lookup import data_folder
-from controller.fpga.register_table import main, rewritten, table, with_table
+from controller.fpga.register_lines import table
+from controller.fpga.register_table import main, rewritten, with_table
 from controller.fpga.registers import Kind, Register
 
 

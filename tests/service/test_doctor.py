@@ -14,9 +14,10 @@ import pytest
 from controller.bank_builder.build import build_bank
 from controller.board import lookup
 from controller.board.board import load_board
-from controller.board.devices import Ft5x06Touch, LinkSettings, LinuxInputTouch, Realtime, SerialTouch, Temperature
+from controller.board.devices import LinkSettings, Realtime, Temperature
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.board.touch_panels import Ft5x06Touch, LinuxInputTouch, SerialTouch
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
