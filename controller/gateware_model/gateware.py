@@ -9,6 +9,7 @@ from collections.abc import Callable
 from enum import IntEnum
 from typing import Protocol
 
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS
 

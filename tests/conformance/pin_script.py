@@ -14,6 +14,7 @@ from cobs import cobs
 from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.registers import Control, Register
 from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit

@@ -5,6 +5,7 @@ import zlib
 import numpy as np
 
 from controller.fpga import frames
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
 from controller.fpga.status import parse_status
