@@ -1,0 +1,44 @@
+"""The innermost loops: compiled where the package was built with a C compiler, else in NumPy, with the same integers.
+
+`HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.errors import UsageError
+
+_SOURCE = Path(__file__).with_name("kernel.c")  # there in a checkout only
+
+
+def _has_compiled(wanted: str) -> bool:
+    """Whether the compiled kernel is used: it is there, and in a checkout not older than its source."""
+    if wanted not in ("", "compiled", "numpy"):
+        raise UsageError(f"HAPTIC_PANEL_KERNEL={wanted}: compiled, numpy, or unset for what is there")
+    if wanted == "numpy":
+        return False
+    try:
+        compiled = importlib.import_module("controller.kernel._kernel").__file__
+    except ImportError as error:
+        if wanted:
+            raise UsageError(f"HAPTIC_PANEL_KERNEL=compiled, but the package was built without a C compiler: {error}") from error
+        return False
+    if compiled and _SOURCE.exists() and _SOURCE.stat().st_mtime > Path(compiled).stat().st_mtime:
+        if wanted:
+            raise UsageError(f"{compiled} is older than kernel.c: pip install -e . again")
+        return False
+    return True
+
+
+COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
+
+if TYPE_CHECKING or not COMPILED:
+    from controller.kernel.twin import crc32
+else:
+    from controller.kernel._kernel import crc32
+
+__all__ = ["COMPILED", "crc32"]
