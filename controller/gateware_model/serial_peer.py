@@ -16,7 +16,8 @@ from collections.abc import Callable
 
 from cobs import cobs
 
-from controller.board.board import data_folder, find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder, find_board
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board.board import Board, data_folder
+from controller.board.board import Board
+from controller.board.lookup import data_folder
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.board.board import data_folder, find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder, find_board
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
 from controller.simulation.rtl_build import verilator_root

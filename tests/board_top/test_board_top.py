@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from compiled_top import BOARD, PS, CompiledTop, channel_pins, channels_of, inputs, parameters, signal_pins, wires
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters

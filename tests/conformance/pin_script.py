@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from cobs import cobs
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters

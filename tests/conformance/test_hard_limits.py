@@ -9,7 +9,8 @@ import pytest
 from hard_limits import broken_limits
 from pin_script import BUILD_HASH, PARAMETERS, Script, readable
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.fpga import frames
 from controller.fpga.build_parameters import Parameters
 from controller.fpga.frames import FRAME_BYTES

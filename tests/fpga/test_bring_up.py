@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
@@ -84,7 +84,7 @@ def test_dead_swapped_and_shorted_channels_are_named(board, pins, wrong):
     assert f"channels {wrong} moved other pins than their own" in checked(board, pins=pins).complaints[0]
 
 
-def test_wrong_bits_on_the_way_back_are_counted(board):
+def test_bit_errors_in_answers_are_counted(board):
     def turn_a_bit(miso):
         if len(miso) > 100:
             miso[100] ^= 4
@@ -96,7 +96,7 @@ def test_wrong_bits_on_the_way_back_are_counted(board):
     assert "damages bits" in done.complaints[0]
 
 
-def test_wrong_bits_on_the_way_there_are_counted_and_the_frames_refused(board):
+def test_bit_errors_in_commands_are_counted_and_the_frames_refused(board):
     def turn_a_bit(mosi):
         return mosi[:200] + bytes([mosi[200] ^ 128]) + mosi[201:] if len(mosi) > 200 and mosi[2] == 6 else mosi
 
@@ -104,7 +104,7 @@ def test_wrong_bits_on_the_way_there_are_counted_and_the_frames_refused(board):
     assert done.bit_errors.frames_refused == done.bit_errors.frames == done.bit_errors.wrong_bits
 
 
-def test_a_slot_that_does_not_keep_its_words_is_noticed(board):
+def test_a_slot_that_loses_its_words_is_reported(board):
     _, _, session = opened(board)
     rng = np.random.default_rng(3)
     assert bring_up.memory_errors(session, board, rng) == 0

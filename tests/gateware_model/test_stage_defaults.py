@@ -5,7 +5,8 @@ import selectors
 import numpy as np
 import pytest
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError
 from controller.fpga.build_parameters import Parameters

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from restarting_gateware import RestartingGateware
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import Parameters
 from controller.gateware_model.gateware import Permit

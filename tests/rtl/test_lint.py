@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.fpga.build_parameters import Parameters
 from controller.simulation.rtl_build import verilator_root
 

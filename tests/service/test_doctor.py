@@ -12,10 +12,12 @@ import msgspec
 import pytest
 
 from controller.bank_builder.build import build_bank
-from controller.board import board as boards
-from controller.board.board import find_board, load_board
-from controller.board.devices import Ft5x06Touch, LinkSettings, LinuxInputTouch, Realtime, SerialTouch, Temperature
+from controller.board import lookup
+from controller.board.board import load_board
+from controller.board.devices import LinkSettings, Realtime, Temperature
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.board.touch_panels import Ft5x06Touch, LinuxInputTouch, SerialTouch
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
@@ -138,7 +140,7 @@ def panel(board, tmp_path, monkeypatch):
     (folder / "board.toml").write_text(
         text.replace("../simulated/scene.toml", "scene.toml").replace("pitch_mm = 2.5", "pitch_mm = 40")
     )
-    monkeypatch.setattr(boards, "SYSTEM_BOARDS", folder.parent)
+    monkeypatch.setattr(lookup, "SYSTEM_BOARDS", folder.parent)
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))
     monkeypatch.setattr(doctor, "service_user", lambda: pwd.getpwnam("nobody"))
     for place in (tmp_path, *tmp_path.parents):
