@@ -1,5 +1,6 @@
-"""The innermost loops: compiled where the package was built with a C compiler, else in NumPy, with the same integers.
+"""Inner loops of the device on buffers that the caller owns: waveforms to frames.
 
+They are compiled where the package was built with a C compiler, else `twin` serves, with the same integers.
 `HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
 """
 
@@ -11,6 +12,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.errors import UsageError
+from controller.kernel.twin import (
+    SHORT_FRAME_BYTES,
+    load_frames_bytes,
+    pack_loads,
+    renumber_loads,
+    seal_short_frames,
+    unpack_loads,
+)
+
+__all__ = [
+    "COMPILED",
+    "SHORT_FRAME_BYTES",
+    "load_frames_bytes",
+    "pack_loads",
+    "renumber_loads",
+    "seal_short_frames",
+    "unpack_loads",
+]
 
 _SOURCE = Path(__file__).with_name("kernel.c")  # there in a checkout only
 
@@ -36,9 +55,5 @@ def _has_compiled(wanted: str) -> bool:
 
 COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
 
-if TYPE_CHECKING or not COMPILED:
-    from controller.kernel.twin import crc32
-else:
-    from controller.kernel._kernel import crc32
-
-__all__ = ["COMPILED", "crc32"]
+if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
+    from controller.kernel._kernel import seal_short_frames
