@@ -16,7 +16,7 @@ from typing import Final
 
 import evdev
 
-from controller.board.devices import LinuxInputTouch
+from controller.board.touch_panels import LinuxInputTouch
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
 from controller.touch.event_codes import EV_SYN, SYN_DROPPED, SYN_REPORT, Protocol, protocol_of_device
