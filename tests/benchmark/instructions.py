@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from controller.bank.reader import Bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.loop.event_loop import EventLoop
 from controller.loop.playback import Playback
 from controller.metrics import Counters
