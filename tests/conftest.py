@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, settings
 
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.scene.scene import load_scene
 from controller.simulation.simulated_run import play
 from controller.touch.recording import Recording

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board.board import Plate
+from controller.board.panel import Plate
 from controller.errors import ConfigError
 
 Four = tuple[int, int, int, int]

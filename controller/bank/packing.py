@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board.board import CHANNELS
+from controller.board.panel import CHANNELS
 
 __all__ = ["CHANNELS", "WORD", "WordPacker", "channel_bits", "drive_words", "edges", "quantise"]
 

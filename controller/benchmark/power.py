@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from controller.bank.packing import CHANNELS, WORD, channel_bits
 from controller.bank.reader import Bank
-from controller.board.board import Board, Driver
+from controller.board.board import Board
+from controller.board.panel import Driver
 from controller.physics.driver import DriverResponse
 
 Floats = NDArray[np.float64]

@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.benchmark.predictors import METHODS
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.errors import ControllerError
 from controller.physics.plot import check_picture
 from controller.service.drivers import tracked

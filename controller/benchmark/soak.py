@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from controller.bank.reader import Bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, fit, verify_bank, wrong_pitch
 from controller.bank.reader import Bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
 from controller.commands.tables import plain_table, power_table

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.errors import CalibrationError, UsageError

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.commands.output import show
 from controller.touch.event_capture import write_recording
 from controller.touch.recording import Recording

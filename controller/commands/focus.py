@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.commands.output import picture_path, show
 from controller.commands.tables import amplitude_table, plain_table
 from controller.errors import ConfigError

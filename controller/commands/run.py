@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board.board import Board, find_board, load_board, simulated
-from controller.board.devices import RecordingTouch
+from controller.board.board import Board, load_board, simulated
+from controller.board.lookup import find_board
+from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
 from controller.commands.tables import run_table, service_table

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.board.board import Driver
+from controller.board.panel import Driver
 
 Complex = NDArray[np.complex128]
 

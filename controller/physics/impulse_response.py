@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.bank.file_format import REST_SAMPLES
-from controller.board.board import CHANNELS, Board
+from controller.board.board import Board
+from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_response import band_limited_response, pulse_response
 from controller.physics.plate import PlateModes

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from controller.board.board import Plate
+from controller.board.panel import Plate
 from controller.errors import ConfigError
 
 Floats = NDArray[np.float64]

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.bank.packing import channel_bits
-from controller.board.board import CHANNELS, Board
+from controller.board.board import Board
+from controller.board.panel import CHANNELS
 from controller.fpga.capture import Capture
 from controller.physics.driver import DriverResponse
 from controller.physics.field import AROUND_S, Field

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board.board import CHANNELS
+from controller.board.panel import CHANNELS
 from controller.physics.plate import PlateModes
 
 Reals = NDArray[np.floating[Any]]

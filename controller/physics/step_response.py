@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board.board import CHANNELS, Board
+from controller.board.board import Board
+from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.plate import PlateModes
 

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board.board import Board, data_folder
+from controller.board.board import Board
+from controller.board.lookup import data_folder
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
@@ -56,7 +57,7 @@ def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareF
     from controller.gateware_model.model import GatewareModel
     from controller.gateware_model.simulated_link import SimulatedLink
 
-    return SimulatedLink(board.link, now_s, (gateware or GatewareModel)(Parameters.of(board, gateware_hash())))
+    return SimulatedLink(board.link, now_s, (gateware or GatewareModel)(BuildParameters.of(board, gateware_hash())))
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:

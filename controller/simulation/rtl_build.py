@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.board.paths import state_folder
 from controller.errors import LinkError
 from controller.service.installation import install_line

@@ -23,8 +23,9 @@ from threadpoolctl import threadpool_limits
 from controller.application_socket.command_socket import CommandSocket
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
 from controller.board.devices import ApplicationSocket
+from controller.board.lookup import find_board
 from controller.board.records import as_record
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError

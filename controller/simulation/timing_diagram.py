@@ -17,7 +17,7 @@ from typing import Any, Final
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga.frames import CRC, HEADER
 from controller.fpga.registers import LOAD_PAYLOAD_MIN_BYTES, SHORT_PAYLOAD_BYTES
 from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, frame_ticks

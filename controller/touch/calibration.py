@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.board.board import Plate
+from controller.board.panel import Plate
 from controller.errors import CalibrationError
 from controller.touch.source import TouchSample
 

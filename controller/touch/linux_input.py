@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
-from controller.board.devices import LinuxInputTouch
+from controller.board.touch_panels import LinuxInputTouch
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
 from controller.touch.evdev_library import evdev

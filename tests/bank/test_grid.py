@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.bank.grid import Grid
-from controller.board.board import Plate
+from controller.board.panel import Plate
 from controller.errors import ConfigError
 
 

@@ -12,7 +12,8 @@ from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.errors import BankError, ConfigError
 from controller.physics.impulse_response import ResponseModel
 
@@ -106,7 +107,8 @@ def test_refuses_a_folder_that_cannot_be(board, tmp_path):
 BUILD = """
 import dataclasses, json, sys
 from pathlib import Path
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.bank_builder.build import build_bank
 print(json.dumps(dataclasses.asdict(build_bank(load_board(find_board("simulated")), Path(sys.argv[1]), 5e-3))))
 """

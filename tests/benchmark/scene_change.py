@@ -19,7 +19,8 @@ from pathlib import Path
 
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.service.realtime import enter_realtime
 from controller.service.scene_reload import SceneChanger
 

@@ -3,7 +3,8 @@
 import pytest
 
 from controller.benchmark.focus_figures import MARGIN_M, figures, random_points, spread
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 
 BOARD = load_board(find_board("simulated"))
 

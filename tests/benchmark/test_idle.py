@@ -8,7 +8,8 @@ from controller.bank.packing import channel_bits
 from controller.benchmark.focus_figures import figures as focus_figures
 from controller.benchmark.idle import first_order_bits, idle_figures, ramp_samples, ramp_words
 from controller.benchmark.plot_idle import plot_idle
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.gateware_model.pins import ramp_bits
 from controller.physics.audible import surface_energy
 

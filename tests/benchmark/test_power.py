@@ -16,7 +16,7 @@ from controller.benchmark.power import (
     stage_limits,
     worst_edge_j,
 )
-from controller.board.board import Driver
+from controller.board.panel import Driver
 from controller.gateware_model.pins import ramp_bits
 
 PAPER = Driver(supply_v=60.0, resistance_ohm=2000.0, inductance_h=6.8e-3, capacitance_f=2e-9, moment_n_per_v=1e-3)

@@ -20,7 +20,8 @@ from typing import Any
 
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import Board, find_board, load_board
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.loop.event_loop import EventLoop
 from controller.loop.wiring import assemble

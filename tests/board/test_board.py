@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.errors import ConfigError
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import recording_path

@@ -9,9 +9,9 @@ import pytest
 
 from controller.bank.grid import Grid
 from controller.bank.inspection import fit
-from controller.board import board as boards
-from controller.board import paths
-from controller.board.board import find_board, load_board
+from controller.board import lookup, paths
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, make_folder, state_folder
 
 ROOT_ONLY = pytest.mark.skipif(os.geteuid() != 0, reason="only root gives files away")
@@ -29,7 +29,7 @@ def panel(tmp_path, monkeypatch):
     folder.mkdir(parents=True)
     text = (find_board("ulx3s") / "board.toml").read_text()
     (folder / "board.toml").write_text(text)
-    monkeypatch.setattr(boards, "SYSTEM_BOARDS", folder.parent)
+    monkeypatch.setattr(lookup, "SYSTEM_BOARDS", folder.parent)
     monkeypatch.setattr(paths, "SERVICE_STATE", tmp_path / "var" / "haptic-panel")
     return load_board(find_board("panel"))
 

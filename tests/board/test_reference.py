@@ -11,7 +11,8 @@ import pytest
 from msgspec import Meta
 
 import controller.board
-from controller.board.board import Board, data_folder, find_board
+from controller.board.board import Board
+from controller.board.lookup import data_folder, find_board
 from controller.board.records import Record
 from controller.board.reference import attributes, reference, schema
 from controller.commands.board import NAMED

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.application_socket.messages import AnyRequest
-from controller.board.board import Board, find_board
+from controller.board.board import Board
+from controller.board.lookup import find_board
 from controller.board.records import as_record
 from controller.board.validation import explain
 from controller.errors import ConfigError

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.simulation.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent

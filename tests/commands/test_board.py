@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.cli import main
 
 

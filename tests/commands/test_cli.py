@@ -14,7 +14,8 @@ from patience import communicate
 from controller.bank.inspection import bank_info
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path
 from controller.cli import main
 from controller.fpga import bring_up

@@ -37,7 +37,7 @@ def test_what_needs_no_board_imports_next_to_nothing(imported, arguments, code):
 
 
 def test_the_client_needs_neither_numpy_nor_a_board(imported):
-    modules = imported("from controller.application_socket.client import main; sys.exit(main(sys.argv[1:]))", "--help")
+    modules = imported("import runpy; runpy.run_module('controller.application_socket.client', run_name='__main__')", "--help")
     assert not (HEAVY - {"msgspec"}) & modules
     assert not {name for name in modules if name.startswith(("controller.board", "controller.loop", "controller.bank"))}
 

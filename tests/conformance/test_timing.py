@@ -7,7 +7,7 @@ import pytest
 from pin_script import BIT_TICKS, FRAME_TICKS, JUDGED_TICKS, Script, open_gateware
 from timing_case import expected, script_of, seen
 
-from controller.board.board import data_folder
+from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control
 from controller.simulation.timing_diagram import picture_digest

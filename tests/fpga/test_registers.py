@@ -1,6 +1,7 @@
 import re
 
-from controller.board.board import MIN_BIT_TICKS, data_folder
+from controller.board.board import MIN_BIT_TICKS
+from controller.board.lookup import data_folder
 from controller.fpga import registers
 from controller.fpga.register_table import main, rewritten
 from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Register, Result, Start, State
@@ -8,7 +9,7 @@ from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Regi
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
 
 
-def test_what_is_generated_lies_in_the_tree():
+def test_the_generated_text_is_committed():
     """`.venv/bin/python -m controller.fpga.register_table` writes it."""
     said = []
     assert main(["--check"], said.append) == 0, "".join(said)
@@ -61,7 +62,7 @@ def test_the_readme_describes_every_register():
     assert rows == [(str(int(register)), register.name, register.access) for register in Register]
 
 
-def test_what_can_be_read_besides_registers_does_not_meet_them_or_each_other():
+def test_readable_memory_does_not_overlap_registers_or_itself():
     slots = 16
     addresses = [*map(int, Register)]
     addresses += [registers.READ_SLOT_CRC + slot for slot in range(slots)]

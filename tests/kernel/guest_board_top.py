@@ -20,7 +20,8 @@ from far_end_spi import HEADER, REQUEST_BYTES, GpioTrace
 from gpio_lines import GpioLines
 from host_gateware import ask
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.registers import Register, State

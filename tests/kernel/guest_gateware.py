@@ -14,8 +14,9 @@ from host_gateware import HostGateware
 
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import data_folder, find_board, load_board
+from controller.board.board import load_board
 from controller.board.devices import LinkSettings
+from controller.board.lookup import data_folder, find_board
 from controller.errors import ControllerError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.exchange import HostSilent, Refused

@@ -14,8 +14,9 @@ import numpy as np
 from far_end_spi import FarEnd, GpioTrace
 from gpio_lines import GpioLines
 
-from controller.board.board import data_folder, find_board, load_board
+from controller.board.board import load_board
 from controller.board.devices import LinkSettings, Temperature
+from controller.board.lookup import data_folder, find_board
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.clock_estimate import ClockEstimate

@@ -12,7 +12,8 @@ import sys
 from pathlib import Path
 
 from controller.bank.reader import Bank
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from physics.steps import step_voltage
 from scipy.linalg import expm
 
-from controller.board.board import Driver
+from controller.board.panel import Driver
 from controller.physics.driver import DriverResponse
 
 PAPER = Driver(supply_v=60.0, resistance_ohm=2000.0, inductance_h=6.8e-3, capacitance_f=2e-9, moment_n_per_v=1e-3)

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from controller.bank.packing import channel_bits
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
 

@@ -5,7 +5,8 @@ from physics.steps import step_displacement
 from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits, drive_words
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.modal_response import band_gain, pulse_response
 from controller.physics.row_responses import in_rows

@@ -2,7 +2,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from controller.board.board import Plate
+from controller.board.panel import Plate
 from controller.errors import ConfigError
 from controller.physics.plate import PlateModes, bending_stiffness
 

@@ -6,7 +6,8 @@ from scipy.linalg import expm
 
 from controller.bank.packing import channel_bits
 from controller.benchmark.idle import ramp_words
-from controller.board.board import find_board, load_board
+from controller.board.board import load_board
+from controller.board.lookup import find_board
 from controller.fpga.capture import Capture
 from controller.gateware_model.pins import ramp_bits
 from controller.physics.audible import surface_energy

@@ -2,7 +2,8 @@
 
 from hypothesis import strategies as st
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import Region, Scene, load_scene
 from controller.scene.shapes import Circle, Polygon, Rectangle

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scene.scenes import BOARD, CLICK, square
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import ConfigError
 from controller.scene.effects import EffectTable, When
 from controller.scene.fingers import ActiveEffects

@@ -12,14 +12,16 @@ import msgspec
 import pytest
 
 from controller.bank_builder.build import build_bank
-from controller.board import board as boards
-from controller.board.board import find_board, load_board
-from controller.board.devices import Ft5x06Touch, LinkSettings, LinuxInputTouch, Realtime, SerialTouch, Temperature
+from controller.board import lookup
+from controller.board.board import load_board
+from controller.board.devices import LinkSettings, Realtime, Temperature
+from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.board.touch_panels import Ft5x06Touch, LinuxInputTouch, SerialTouch
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -138,7 +140,7 @@ def panel(board, tmp_path, monkeypatch):
     (folder / "board.toml").write_text(
         text.replace("../simulated/scene.toml", "scene.toml").replace("pitch_mm = 2.5", "pitch_mm = 40")
     )
-    monkeypatch.setattr(boards, "SYSTEM_BOARDS", folder.parent)
+    monkeypatch.setattr(lookup, "SYSTEM_BOARDS", folder.parent)
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path / "state"))
     monkeypatch.setattr(doctor, "service_user", lambda: pwd.getpwnam("nobody"))
     for place in (tmp_path, *tmp_path.parents):
@@ -201,7 +203,7 @@ def examined(board, model, channels=range(32)):
 
 
 def model_of(board, build=5):
-    return GatewareModel(Parameters.of(board, build))
+    return GatewareModel(BuildParameters.of(board, build))
 
 
 def test_a_good_link_has_a_proposal_a_bound_and_no_complaint(board):

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.touch.axes import Axes, AxisRange
 
 BOARD = load_board(data_folder("boards") / "simulated")

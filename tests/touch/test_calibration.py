@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.cli import main
 from controller.errors import CalibrationError, ConfigError, TouchError
 from controller.touch.axes import Axes, AxisRange

@@ -2,7 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.contact_events import MAX_CONTACTS, Contact, ContactEvents, describe
 from controller.touch.decoder import Decoder

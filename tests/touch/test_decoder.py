@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.touch.associate import assignment
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import MAX_PLAYED, MAX_SLOTS, MAX_UNNAMED, Decoder

@@ -4,7 +4,8 @@ import random
 
 import pytest
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import CalibrationError
 from controller.simulation.ghostly_panel import GhostlyPanel
 from controller.touch.event_capture import EventCapture, emission_event, recording_text

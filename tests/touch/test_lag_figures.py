@@ -5,7 +5,8 @@ import random
 
 import pytest
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import CalibrationError
 from controller.simulation.simulated_strokes import simulated_strokes
 from controller.touch.lag_figures import lag_figures

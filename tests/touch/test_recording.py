@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from controller.board.board import data_folder, load_board
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
 from controller.errors import ConfigError, TouchError
 from controller.touch.axes import AxisRange
 from controller.touch.event_codes import Protocol

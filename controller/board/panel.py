@@ -1,0 +1,222 @@
+"""The tables of board.toml that describe the panel itself: plate, actuators, driver stages, waveform, bank and limits."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from controller.board.records import NotNegative, PlaceMm, Positive, Record, Share, SizeMm
+
+CHANNELS = 32
+
+
+class Plate(Record, frozen=True):
+    """The plate: size, material and support; its origin is a corner, x runs along the length.
+
+    Attributes
+    ----------
+    length_mm
+        Extent along x.
+    width_mm
+        Extent along y.
+    thickness_mm
+        Thickness.
+    young_modulus_pa
+        Young's modulus.
+    poisson_ratio
+        Poisson's ratio.
+    density_kg_m3
+        Density.
+    edge
+        How the edge is supported.
+    decay_time_ms
+        Time in which a free vibration falls to 1/e.
+    theory
+        Plate theory that the model uses.
+    """
+
+    length_mm: Annotated[float, Meta(ge=20, le=2000)]
+    width_mm: Annotated[float, Meta(ge=20, le=2000)]
+    thickness_mm: Annotated[float, Meta(ge=0.05, le=20)]
+    young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)]
+    poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
+    density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)]
+    edge: Literal["simply_supported"]
+    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10)]
+    theory: Literal["kirchhoff"] = "kirchhoff"
+
+    @property
+    def length_m(self) -> float:
+        """Extent along x in m."""
+        return self.length_mm * 1e-3
+
+    @property
+    def width_m(self) -> float:
+        """Extent along y in m."""
+        return self.width_mm * 1e-3
+
+    @property
+    def thickness_m(self) -> float:
+        """Thickness in m."""
+        return self.thickness_mm * 1e-3
+
+    @property
+    def decay_time_s(self) -> float:
+        """Time in which a free vibration falls to 1/e, in s."""
+        return self.decay_time_ms * 1e-3
+
+
+class Actuator(Record, frozen=True):
+    """A square piezo patch and the output that drives it.
+
+    Attributes
+    ----------
+    channel
+        Output of the FPGA, and bit of a drive word.
+    x_mm, y_mm
+        Centre of the patch.
+    size_mm
+        Edge length of the patch.
+    idle
+        Level, 0 or 1, at which its output rests while the panel is armed.
+    """
+
+    channel: Annotated[int, Meta(ge=0, lt=CHANNELS)]
+    x_mm: PlaceMm
+    y_mm: PlaceMm
+    size_mm: SizeMm
+    idle: Annotated[int, Meta(ge=0, le=1)]
+
+
+class Driver(Record, frozen=True):
+    """The push-pull stage of one channel, with the series R and L into the piezo's C (paper, fig. 4).
+
+    Attributes
+    ----------
+    supply_v
+        Supply of the stages.
+    resistance_ohm
+        Series resistance.
+    inductance_h
+        Series inductance.
+    capacitance_f
+        Capacitance of a patch.
+    moment_n_per_v
+        Bending moment per length of a patch's edge, per volt.
+    """
+
+    supply_v: Annotated[float, Meta(gt=0, le=60)]
+    resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)]
+    inductance_h: Annotated[float, Meta(ge=1e-5, le=1)]
+    capacitance_f: Annotated[float, Meta(ge=1e-12, le=1e-6)]
+    moment_n_per_v: Annotated[float, Meta(ge=1e-6, le=1)]
+
+
+class Waveform(Record, frozen=True):
+    """The waveform of one emission.
+
+    Attributes
+    ----------
+    band_low_hz
+        Lower edge of the band.
+    band_high_hz
+        Upper edge of the band, below half of `bit_clock_hz`.
+    duration_ms
+        T, the length of one emission: 1 to 1000 samples of `bit_clock_hz`.
+    bit_clock_hz
+        Drive words a second.
+    """
+
+    band_low_hz: Positive
+    band_high_hz: Positive
+    duration_ms: Annotated[float, Meta(gt=0, le=10)]
+    bit_clock_hz: Annotated[float, Meta(ge=100e3, le=2e6)]
+
+    def __post_init__(self) -> None:
+        if self.band_high_hz <= self.band_low_hz:
+            raise ValueError(f"band_high_hz = {self.band_high_hz} is not above band_low_hz = {self.band_low_hz}")
+        if self.band_high_hz >= self.bit_clock_hz / 2:
+            raise ValueError(f"band_high_hz = {self.band_high_hz} is not below half of bit_clock_hz = {self.bit_clock_hz}")
+        if not 1 <= round(self.duration_ms * 1e-3 * self.bit_clock_hz) <= 1000:
+            raise ValueError(f"duration_ms = {self.duration_ms} is not 1 to 1000 samples of bit_clock_hz = {self.bit_clock_hz}")
+
+    @property
+    def samples(self) -> int:
+        """Drive words in one emission."""
+        return round(self.duration_ms * 1e-3 * self.bit_clock_hz)
+
+    @property
+    def bit_period_s(self) -> float:
+        """Time for which one drive word is output, in s."""
+        return 1 / self.bit_clock_hz
+
+    @property
+    def duration_s(self) -> float:
+        """T: one emission, in s."""
+        return self.samples / self.bit_clock_hz
+
+
+class Bank(Record, frozen=True):
+    """How the board's bank of precomputed waveforms is built and used.
+
+    Attributes
+    ----------
+    pitch_mm
+        Distance of the bank's cells.
+    snap_mm
+        A single finger at most this far from a cell's centre plays that cell without interpolation.
+    """
+
+    pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
+    snap_mm: NotNegative
+
+
+class Limits(Record, frozen=True):
+    """Limits of what the panel plays, and the resistor ratings they follow from. The FPGA enforces those of time and edges.
+
+    Attributes
+    ----------
+    heartbeat_timeout_ms
+        The FPGA switches its outputs off when the host was silent for this long.
+    ramp_ms
+        Time in which outputs ramp up on arming and down on disarming.
+    max_duty
+        Largest share of time with emissions.
+    duty_budget_ms
+        Emission time that may run ahead of `max_duty`.
+    longest_emission_ms
+        Longest single emission.
+    hv_settle_us
+        From switching the supply on (hv_enable) to the first edge of a ramp.
+    min_pulse_us
+        Shortest pulse of an output; at most one sample of the waveform.
+    max_channel_edge_rate_hz
+        Edges a second of one channel that the FPGA allows.
+    max_total_edge_rate_hz
+        Edges a second of all channels together that the FPGA allows; protects the supply.
+    max_edge_rate_hz
+        Largest edge rate of a channel within any waveform of the bank; a bank with more is not built.
+    resistor_rating_w
+        Power rating of a stage's resistor.
+    derating
+        Share of that rating that may be used.
+    """
+
+    heartbeat_timeout_ms: Annotated[float, Meta(ge=1, le=250)]
+    ramp_ms: Annotated[float, Meta(gt=0, le=100)]
+    max_duty: Share
+    duty_budget_ms: Annotated[float, Meta(ge=20, le=1000)]
+    longest_emission_ms: Annotated[float, Meta(gt=0, le=10)]
+    hv_settle_us: Annotated[float, Meta(ge=1, le=100e3)]
+    min_pulse_us: Annotated[float, Meta(ge=0.4, le=10)]
+    max_channel_edge_rate_hz: Annotated[float, Meta(gt=0, le=500e3)]
+    max_total_edge_rate_hz: Annotated[float, Meta(gt=0, le=16e6)]
+    max_edge_rate_hz: Positive
+    resistor_rating_w: Annotated[float, Meta(gt=0, le=100)]
+    derating: Share
+
+    @property
+    def arming_s(self) -> float:
+        """From ARM to the idle levels, in s."""
+        return self.hv_settle_us * 1e-6 + self.ramp_ms * 1e-3
