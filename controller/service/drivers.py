@@ -14,7 +14,7 @@ from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
@@ -55,7 +55,7 @@ def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareF
     gateware : GatewareFactory
         Makes the simulated gateware: the model, or the compiled Verilog.
     """
-    return SimulatedLink(board.link, now_s, gateware(Parameters.of(board, gateware_hash())))
+    return SimulatedLink(board.link, now_s, gateware(BuildParameters.of(board, gateware_hash())))
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:
