@@ -587,12 +587,12 @@ static uint8_t *seal(uint8_t *start, int size)
     return start + size + 4;
 }
 
-static int frames(const uint8_t *payload, uint32_t crc, int sequence, int slot, int stop, int shorts, int count, int start,
+static int frames(const uint8_t *payload, int64_t stride, uint32_t crc, int sequence, int slot, int stop, int shorts, int count, int start,
                   uint32_t period_ticks, uint64_t when_ticks)
 {
     uint8_t *at = sent;
     for (int k = 0; k < CHUNKS; k++) {
-        memcpy(frame(at, 3, sequence++, CHUNK_BYTES, k), payload + k * CHUNK_BYTES, CHUNK_BYTES);
+        memcpy(frame(at, 3, sequence++, CHUNK_BYTES, k), payload + k * stride, CHUNK_BYTES);
         at = seal(at, 8 + CHUNK_BYTES);
     }
     uint8_t *p = frame(at, 4, sequence++, 24, slot);
@@ -654,6 +654,7 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
     int64_t began_ns = now_ns();
     double points[POINTS][2];
     const uint8_t *payload = (const uint8_t *)words;
+    int64_t stride = CHUNK_BYTES;
     struct key key = {0};
     uint32_t crc = 0;
     if (take_due(fingers, count)) return -1;
@@ -678,7 +679,8 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
             key.cell = (int)(iy * c.nx + ix);
             key.x_m = c.x0_m + ix * c.pitch_m;
             key.y_m = c.y0_m + iy * c.pitch_m;
-            payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
+            payload = c.drive + c.entry_of[key.cell] * c.drive_stride + 8; /* the bank has frames; their headers and CRCs are made anew */
+            stride = CHUNK_BYTES + 12;
             crc = c.crc_of[c.entry_of[key.cell]];
         } else {
             key.x_m = rint(x_m / c.lattice_m) * c.lattice_m;
@@ -706,7 +708,7 @@ int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int
     }
     resident[slot] = key;
     if (payload == (const uint8_t *)words) crc = c.crc32(0, payload, 4 * SAMPLES); /* a cell's is that of the bank's table */
-    frames(payload, crc, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
+    frames(payload, stride, crc, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
     return now_ns() - began_ns;
 }
 
