@@ -19,6 +19,7 @@ from controller.bank.packing import CHANNELS
 from controller.board.board import Board
 from controller.board.paths import build_line
 from controller.errors import BankError
+from controller.kernel import unpack_loads
 
 Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
 
@@ -66,6 +67,7 @@ class Bank:
         self._response_good = bytearray(header.entries)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
+        self._checked_words = bytearray(4 * header.samples)  # room for a check
         self._response_stride = sections["response"].stride
         self._response_bytes = sections["response"].row_bytes
 
@@ -143,8 +145,10 @@ class Bank:
         """Copy `size` bytes of the file from `offset` on; fewer at its end."""
         return os.pread(self._fd, size, offset)
 
-    def words(self, cell: int) -> memoryview:
-        """Drive words of a cell, as the bytes that go to the wire: 4 a sample, not copied.
+    def frames(self, cell: int) -> tuple[memoryview, int]:
+        """Drive words of a cell as LOAD frames numbered from 0 on, a read-only view of the file, and the words' CRC-32.
+
+        The CRC-32 is that of the bank's table, whatever the file holds by now: with it the FPGA finds what changed.
 
         Raises
         ------
@@ -161,25 +165,42 @@ class Bank:
         view = self._drive[start : start + self._drive_bytes]
         if not self._drive_good[entry]:
             self.counters.drive_checked += 1
-            if zlib.crc32(view) != self._crc_of[entry][0]:
-                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, view, entry, cell)
             self._drive_good[entry] = 1
-        return view
+        return view, self._crc_of[entry][0]
 
-    def drive_crc(self, cell: int) -> int:
-        """CRC-32 of the drive words of a cell that has an entry, from the bank's table, whatever the file holds by now."""
-        return self._crc_of[self._entry_of[cell]][0]
-
-    def recheck(self, cell: int) -> None:
-        """Check the drive words of a cell again, after the FPGA has refused them for a wrong CRC.
+    def words(self, cell: int) -> memoryview:
+        """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
         Raises
         ------
         BankError
-            If they differ from the CRC-32 in the bank's table, as in a file that was written over in place.
+            If the cell has no entry, or a damaged one.
+        """
+        view, _ = self.frames(cell)
+        words = bytearray(4 * self.samples)
+        self._unpack(words, view, self._entry_of[cell], cell)
+        return memoryview(words).toreadonly()
+
+    def recheck(self, cell: int) -> None:
+        """Check the drive words of a cell that has an entry again, after the FPGA has refused them or one of their frames.
+
+        Raises
+        ------
+        BankError
+            If they are not as they were built, as in a file that was written over in place.
         """
         self._drive_good[self._entry_of[cell]] = 0
-        self.words(cell)
+        self.frames(cell)
+
+    def _unpack(self, words: bytearray, frames: memoryview, entry: int, cell: int) -> None:
+        """Take the words out of an entry's frames, each byte of which is checked."""
+        try:
+            sound = unpack_loads(words, frames) == self._crc_of[entry][0]
+        except ValueError:
+            sound = False
+        if not sound:
+            raise self._bad("drive", entry, cell)
 
     def require_unchanged(self) -> None:
         """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.

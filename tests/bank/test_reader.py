@@ -40,11 +40,12 @@ def test_hands_out_the_words_and_responses_of_the_cells_it_has(path, make_bank, 
                 bank.response(missing)
 
 
-def test_words_are_the_mapped_file_itself_and_cannot_be_written(path, make_bank):
+def test_frames_are_the_mapped_file_itself_and_cannot_be_written(path, make_bank):
     make_bank(path)
     with Bank.open(path) as bank:
-        first, again = np.frombuffer(bank.words(2), "<u4"), np.frombuffer(bank.words(2), "<u4")
+        first, again = (np.frombuffer(bank.frames(2)[0], np.uint8) for _ in range(2))
         assert np.shares_memory(first, again)  # no copy
+        assert bank.frames(2)[0].readonly
         assert bank.words(2).readonly
         assert not bank.response(2)[0].flags.writeable
 
@@ -65,7 +66,7 @@ def test_an_entry_s_checksum_is_computed_on_its_first_use_only(path, make_bank):
     make_bank(path)
     with Bank.open(path) as bank:
         for _ in range(3):
-            bank.words(1), bank.words(2), bank.response(1)
+            bank.frames(1), bank.frames(2), bank.response(1)
         assert (bank.counters.lookups, bank.counters.drive_checked, bank.counters.response_checked) == (6, 2, 1)
         assert bank.counters.bad == 0
 
@@ -77,7 +78,7 @@ def test_a_damaged_entry_is_refused_and_counted_and_the_others_still_serve(path,
         damaged, sound = bank.sections[section], {"drive": "response", "response": "drive"}[section]
     flip(path, damaged.offset + 3 * damaged.stride + damaged.row_bytes - 1, 0x80)
     with Bank.open(path) as bank:
-        use = {"drive": bank.words, "response": bank.response}
+        use = {"drive": bank.frames, "response": bank.response}
         for count in (1, 2):
             with pytest.raises(
                 BankError, match=rf"{section} of entry 3 \(cell 3\) is damaged; rebuild it: haptic-panel bank build"
@@ -108,7 +109,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         (lambda data: data[:4096], "is truncated"),
         (lambda data: data[:-1], "is truncated"),
         (lambda data: data + b"\0", "has grown"),
-        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 2"),
+        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 3"),
         (lambda data: data[:12] + b"\x01" + data[13:], "header of 4097 bytes"),
         (lambda data: data[:30] + b"!" + data[31:], "CRC-32 of the header"),
         (lambda data: data[:4096] + b"\x07" + data[4097:], "CRC-32 of section 'index'"),
