@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import mmap
 import os
@@ -21,6 +22,7 @@ from controller.board.paths import build_line
 from controller.errors import BankError
 from controller.kernel import unpack_loads
 
+AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
 
 
@@ -276,12 +278,30 @@ class Bank:
         if not self._response_good[entry]:
             if not self._response:
                 self._response = self._map("response")
+            self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
             if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry
+
+    def _read_ahead(self, cell: int) -> None:
+        """Have the kernel read the responses around a cell: a finger between cells needs four of them now, and the next ones soon.
+
+        A finger that moves then finds them in memory, and none are read of places that nobody touches.
+        """
+        if not self.close.alive:
+            return
+        row, column = divmod(cell, self.grid.nx)
+        section, stride = self.sections["response"], self._response_stride
+        left, right = max(column - AHEAD, 0), min(column + 1 + AHEAD, self.grid.nx)
+        for y in range(max(row - AHEAD, 0), min(row + 1 + AHEAD, self.grid.ny)):
+            here = [entry for entry in self._entry_of[y * self.grid.nx + left : y * self.grid.nx + right] if entry >= 0]
+            if here:
+                size = (here[-1] + 1 - here[0]) * stride
+                with contextlib.suppress(OSError):  # a file system that cannot: they are read when they are used
+                    os.posix_fadvise(self._fd, section.offset + here[0] * stride, size, os.POSIX_FADV_WILLNEED)
 
     def _missing(self, cell: int) -> BankError:
         return BankError(f"{self.path}: no entry for cell {cell} of {self.grid.nx} x {self.grid.ny}; rebuild it: {self.rebuild}")
