@@ -18,7 +18,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from controller.board.lookup import data_folder
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.register_lines import (
     INPUTS,
     SETTINGS,
@@ -57,7 +57,7 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
     """
     registers = list(registers)
     _check(registers)
-    names = [field.name.upper() for field in fields(Parameters) if field.name not in OTHER_PARAMETERS]
+    names = [field.name.upper() for field in fields(BuildParameters) if field.name not in OTHER_PARAMETERS]
     parameters = [f"parameter [31:0] {name:<19} = 32'd0," for name in names]
     built_in = [f".{name}({name})," for name in names]
     tops = {str(path): {"parameters": parameters, "built_in": built_in} for path in (folder.parent / "boards").glob("*/top.v")}

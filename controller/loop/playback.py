@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.exchange import Refused
+from controller.fpga.exchange import DAMAGED, Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.loop.commands import Outcome
@@ -199,9 +199,13 @@ class Playback:
         if not likely or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
-            words = self._selection.words(key)
+            waveform = self._selection.waveform(key)
             slot = self._take()
-            self._session.upload(slot, words, self._selection.crc(key, words))
+            try:
+                self._session.upload(slot, waveform)
+            except Refused as refusal:
+                self._recheck(key, refusal)
+                raise
         except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
@@ -321,23 +325,27 @@ class Playback:
 
     def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
-        words = self._selection.words(key)
+        waveform = self._selection.waveform(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
-        slot, crc = self._take(), self._selection.crc(key, words)
+        slot = self._take()
         stop = self.occupancy.repetition is not None
         try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=start_ticks, crc=crc)
+            self._session.upload_and_play(slot, waveform, count, period_s, stop=stop, start=start, when_ticks=start_ticks)
         except Refused as refusal:
-            if refusal.result is Result.SLOT_DAMAGED:
-                self._selection.recheck(key)
-            elif refusal.result is Result.TOO_LATE:  # stored, not played
+            self._recheck(key, refusal)
+            if refusal.result is Result.TOO_LATE:  # stored, not played
                 self._slots.keep(key, slot)
             raise
         finally:
             self._stopped()
         self._last_slot = slot
         self._slots.keep(key, slot)
+
+    def _recheck(self, key: Key, refusal: Refused) -> None:
+        """Ask the bank about an upload that the FPGA found damaged, frame by frame or as a whole: it may come from the file."""
+        if refusal.result in DAMAGED or refusal.result is Result.SLOT_DAMAGED:
+            self._selection.recheck(key)
 
     def _take(self) -> int:
         """A slot to upload to: not that of the newest play, which sounds, waits or is repeated, while there is another."""

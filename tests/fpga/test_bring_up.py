@@ -12,7 +12,7 @@ from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import bring_up, frames
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
@@ -47,7 +47,7 @@ class Wired:
 
 def opened(board, **wires):
     clock = VirtualClock()
-    model = GatewareModel(Parameters.of(board, BUILD))
+    model = GatewareModel(BuildParameters.of(board, BUILD))
     link = SimulatedLink(board.link, clock.now_s, Wired(model, **wires))
     return clock, link, Session(link, board, BUILD, clock.now_s)
 
@@ -180,7 +180,7 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, mon
     figures = json.loads(capsys.readouterr().out)
     assert figures["complaints"] == []
     assert figures["channels_moved"][31] == [31]
-    model = GatewareModel(Parameters.of(board, BUILD))
+    model = GatewareModel(BuildParameters.of(board, BUILD))
     clock = VirtualClock()
     monkeypatch.setattr("controller.commands.gateware.MonotonicClock", lambda: clock)
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)

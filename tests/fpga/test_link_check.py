@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
 from controller.fpga.bit_errors import BitErrors, bit_errors
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.link_check import (
     MARGIN,
@@ -49,7 +49,7 @@ class LongWires(SimulatedLink):
 @pytest.fixture
 def wired(board):
     clock = VirtualClock()
-    link = LongWires(board.link, clock.now_s, GatewareModel(Parameters.of(board, BUILD)))
+    link = LongWires(board.link, clock.now_s, GatewareModel(BuildParameters.of(board, BUILD)))
     return link, Session(link, board, BUILD, clock.now_s)
 
 

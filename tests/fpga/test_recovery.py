@@ -14,7 +14,7 @@ from controller.board.lookup import find_board
 from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
@@ -66,7 +66,7 @@ class Panel:
 
     def __init__(self):
         self.clock = VirtualClock()
-        parameters = Parameters.of(BOARD, BUILD)
+        parameters = BuildParameters.of(BOARD, BUILD)
         self.gateware = RestartingGateware(GatewareModel, parameters)
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
@@ -158,7 +158,7 @@ def test_a_reset_between_two_frames_is_still_detected(panel):
 def test_a_reset_before_arming_never_arms_without_the_boards_limits(ran_s, away_s):
     clock = VirtualClock()
     clock._now_s = 5.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     clock._now_s += ran_s
     session = Session(link, BOARD, BUILD, clock.now_s)
@@ -378,7 +378,7 @@ def test_a_permit_is_asked_for_ten_times_a_second():
 def test_another_fpga_ends_the_program_and_is_never_armed():
     clock = VirtualClock()
     clock._now_s = 1.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
     outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), Counters())
     clock._now_s += 1.0
@@ -433,7 +433,7 @@ def test_a_late_fpga_and_a_later_permit_are_each_waited_for_and_named(permit):
 
 def simulated(clock, dark_s):
     """A link to an FPGA that is without supply at first."""
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     link.reset(dark_s)
     return link

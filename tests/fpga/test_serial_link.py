@@ -18,7 +18,7 @@ from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
@@ -111,7 +111,7 @@ class CountingLink(SerialLink):
 
 
 def model(board):
-    return GatewareModel(Parameters.of(board, BUILD))
+    return GatewareModel(BuildParameters.of(board, BUILD))
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
@@ -28,7 +28,7 @@ WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.
 
 
 def gateware(board, build_hash=BUILD, **other):
-    return GatewareModel(replace(Parameters.of(board, build_hash), **other))
+    return GatewareModel(replace(BuildParameters.of(board, build_hash), **other))
 
 
 class NoisyLink(SimulatedLink):
@@ -110,7 +110,7 @@ def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, cl
 @pytest.mark.parametrize(("register", "key"), LIMITS.items())
 def test_a_bitstream_with_another_limit_is_refused_by_its_name_and_the_boards_key(board, clock, register, key, by):
     name = register.name.lower()
-    built = getattr(Parameters.of(board, BUILD), name) + by
+    built = getattr(BuildParameters.of(board, BUILD), name) + by
     if register is Register.CHANNEL_MASK_MAX:
         built = 0xFFFFFFFF - (1 << 5) + by
     link = SimulatedLink(board.link, clock.now_s, gateware(board, **{name: built}))

@@ -14,7 +14,8 @@ from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, ReadyFrames
+from controller.kernel import pack_loads
 from controller.loop.commands import Outcome
 from controller.loop.host_timing import BEAT_LEAD_S, HANDOVER_S, HostTiming
 from controller.loop.occupancy import MARGIN_S, Occupancy
@@ -326,14 +327,14 @@ def test_after_a_fault_nothing_waits_for_former_plays(by_hand, at_s):
 
 def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_one(by_hand, monkeypatch):
     by_hand.place = (0.15, 0.05)
-    words = Selection.words
+    waveform = Selection.waveform
 
     def damaged(selection, key):
         if key == selection.key(((*by_hand.place, 1.0),)):
             raise BankError("damaged")
-        return words(selection, key)
+        return waveform(selection, key)
 
-    monkeypatch.setattr(Selection, "words", damaged)
+    monkeypatch.setattr(Selection, "waveform", damaged)
     assert by_hand.playback.prepare(focus(0.05, finger=0), 0).outcome is Outcome.PLAYED
     assert [emission.x_m for played in by_hand.played for emission in played.emissions] == [0.05]
     assert by_hand.counters.skipped.bad_entries == 0
@@ -341,9 +342,16 @@ def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_on
 
 def test_a_prefetched_waveform_damaged_in_its_slot_is_sent_again(by_hand, monkeypatch):
     playback, clock, places_m = by_hand.playback, by_hand.clock, (0.05, 0.08, 0.11)
+    waveform = Selection.waveform
+
+    def with_a_wrong_crc(selection, key):
+        page = bytearray(UPLOAD_BYTES)
+        pack_loads(page, 0, waveform(selection, key))
+        return ReadyFrames(memoryview(page), 1)
+
     for place_m in places_m:
         if place_m == places_m[-1]:
-            monkeypatch.setattr(Selection, "crc", lambda *_: 1)
+            monkeypatch.setattr(Selection, "waveform", with_a_wrong_crc)
         sent = playback.prefetch(0, place_m, 0.05, 1.0)
         monkeypatch.undo()
         clock._now_s += 0.03

@@ -21,7 +21,7 @@ from controller.board.touch_panels import Ft5x06Touch, LinuxInputTouch, SerialTo
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -203,7 +203,7 @@ def examined(board, model, channels=range(32)):
 
 
 def model_of(board, build=5):
-    return GatewareModel(Parameters.of(board, build))
+    return GatewareModel(BuildParameters.of(board, build))
 
 
 def test_a_good_link_has_a_proposal_a_bound_and_no_complaint(board):

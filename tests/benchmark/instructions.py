@@ -1,0 +1,133 @@
+"""Instructions of the host for an upload and for a play from a slot, from the begin of the turn to the trigger call.
+
+    python -m tests.benchmark.host_latency --instructions [--bank FILE] [--emissions 500]
+
+The loop of `host_latency.py` runs under `valgrind --tool=callgrind` (Debian: package valgrind); what the link does is not
+counted. The same on every machine of one kind, whatever else it does. An emission that was handed over while the
+one before still sounded is counted to the end of that turn: its trigger, in a later turn, is one call.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import re
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from controller.bank.reader import Bank
+from controller.board.board import Board, load_board
+from controller.board.lookup import find_board
+from controller.fpga.registers import FrameType
+from controller.metrics import Counters
+from tests.benchmark import host_latency
+from tests.benchmark.null_link import NullLink
+
+SOURCE = Path(__file__).with_name("marks.c")
+SHORTEST_UPLOAD = 8  # frames; a play alone has three at most
+WARM_UP = 100  # emissions that fill caches
+COUNTED = re.compile(r"^desc: Trigger: Client Request: (\w+)$.*?^(?:summary|totals): (\d+)", re.MULTILINE | re.DOTALL)
+
+
+def count(bank: Path, emissions: int, folder: Path) -> dict[str, Any]:
+    """Instructions by kind ("uploads", "resident"): how many were counted, median, 99 %, most."""
+    marks, out = folder / "marks.so", folder / "callgrind"
+    subprocess.run(["cc", "-O2", "-Wall", "-shared", "-fPIC", "-o", marks, SOURCE], check=True)
+    valgrind = ["valgrind", "-q", "--tool=callgrind", "--collect-atstart=no", "--instr-atstart=no", f"--callgrind-out-file={out}"]
+    loop = [sys.executable, "-m", "tests.benchmark.instructions", str(bank), str(emissions), str(marks)]
+    subprocess.run([*valgrind, *loop], check=True, cwd=Path(__file__).parents[2])
+    found: dict[str, list[int]] = {"uploads": [], "resident": []}
+    for dump in folder.glob("callgrind.*"):
+        for kind, instructions in COUNTED.findall(dump.read_text()):
+            found[kind].append(int(instructions))
+    return {kind: _summary(sorted(counts)) for kind, counts in found.items()}
+
+
+def _summary(counts: Sequence[int]) -> dict[str, int]:
+    return {"count": len(counts), "p50": counts[len(counts) // 2], "p99": counts[len(counts) * 99 // 100], "most": counts[-1]}
+
+
+class Marks:
+    """Counts a turn from its begin to its trigger, or to its end if an emission was handed over before its time.
+
+    Works from outside of the loop, which may be a compiled one: by what is called in each turn, and by the link.
+    """
+
+    def __init__(self, library: str) -> None:
+        self._marks = ctypes.CDLL(library)
+        self._on = False
+        self._emissions = 0
+        self._kind = ""  # of what was handed over in this turn
+
+    def turn(self) -> None:
+        """A turn begins, and the one before has ended."""
+        self.end()
+        if self._emissions == WARM_UP:
+            self._marks.marks_begin()
+        if self._emissions >= WARM_UP:
+            self._marks.marks_forget()
+            self._toggle()
+
+    @contextlib.contextmanager
+    def exchanging(self, sent: memoryview, lengths: Sequence[int]) -> Iterator[None]:
+        """What the link does is not counted."""
+        counting = self._on
+        if counting:
+            self._toggle()
+        yield
+        if sent[sum(lengths[:-2]) + 2] == FrameType.PLAY:  # its answer comes with the NOP behind it
+            self._kind = "uploads" if len(lengths) > SHORTEST_UPLOAD else "resident"
+        if counting:
+            self._toggle()
+
+    def end(self) -> None:
+        """Nothing more of this turn is counted."""
+        if self._on:
+            self._toggle()
+        if self._kind:
+            self._emissions += 1
+            if self._emissions > WARM_UP:
+                self._marks.marks_end(self._kind.encode())
+        self._kind = ""
+
+    def _toggle(self) -> None:
+        self._marks.marks_toggle()
+        self._on = not self._on
+
+
+class CountedLink(NullLink):
+    """A link whose own instructions are not counted."""
+
+    marks: Marks
+
+    def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
+        """As `NullLink`."""
+        with self.marks.exchanging(sent, lengths):
+            super().exchange(sent, lengths, received)
+
+    def trigger(self) -> float:
+        """As `NullLink`; what follows is not counted."""
+        self.marks.end()
+        return super().trigger()
+
+
+def play(board: Board, bank: Bank, emissions: int, marks: Marks) -> Counters:
+    """The loop, with marks."""
+    CountedLink.marks = marks
+    host_latency.NullLink = CountedLink  # type: ignore[misc]
+    return host_latency.play(board, bank, emissions, turn=marks.turn)[0]
+
+
+def main() -> None:
+    """The process under valgrind."""
+    file, emissions, library = sys.argv[1:]
+    board = load_board(find_board("simulated"))
+    with Bank.open(Path(file), board) as bank:
+        play(board, bank, WARM_UP + int(emissions), Marks(library))
+
+
+if __name__ == "__main__":
+    main()
