@@ -27,7 +27,7 @@ from controller.board.board import Board, load_board
 from controller.board.devices import LinkSettings
 from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.gateware_model.gateware import Gateware
 from controller.gateware_model.model import GatewareModel
@@ -169,7 +169,7 @@ def run_slow(board: Board, scene: Scene, bank: Bank, recording: Recording, p50_s
     Beats
     """
     clock = HostClock()
-    link = SlowLink(board.link, clock.now_s, GatewareModel(Parameters.of(board, gateware_hash())))
+    link = SlowLink(board.link, clock.now_s, GatewareModel(BuildParameters.of(board, gateware_hash())))
     link.clock = clock
     session = open_session(link, board, clock.now_s)
     source = SlowSource(recording, recording.axes(board), session.earliest_trigger_s() + board.limits.arming_s + SETTLE_S)
