@@ -18,6 +18,7 @@ from controller.kernel.twin import (
     pack_loads,
     renumber_loads,
     seal_short_frames,
+    statuses_good,
     unpack_loads,
 )
 
@@ -28,6 +29,7 @@ __all__ = [
     "pack_loads",
     "renumber_loads",
     "seal_short_frames",
+    "statuses_good",
     "unpack_loads",
 ]
 
@@ -56,4 +58,4 @@ def _has_compiled(wanted: str) -> bool:
 COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
 
 if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
-    from controller.kernel._kernel import seal_short_frames
+    from controller.kernel._kernel import seal_short_frames, statuses_good
