@@ -11,9 +11,10 @@ from controller.fpga.status import DONE, Status, pack_status
 from controller.kernel import twin
 
 SEQUENCE, START = 254, 12  # numbers go on with 0 behind 255
+NONE = Fault(0)
 
 
-def statuses(count, result=Result.OK, faults=Fault(0)):
+def statuses(count, result=Result.OK, faults=NONE):
     buffer = bytearray(b"\xee" * (START + count * FRAME_BYTES + 5))
     end = START
     for number in range(count):
@@ -22,7 +23,7 @@ def statuses(count, result=Result.OK, faults=Fault(0)):
             result if last else Result.OK,
             SEQUENCE + number & 0xFF,
             State.ARMED,
-            faults if last else Fault(0),
+            faults if last else NONE,
             7,
             number,
             10**12 + number,
