@@ -562,6 +562,8 @@ enum {
     ABREAST = 4, /* frames whose CRCs are computed together: one waits for each of its lookups */
 };
 
+static const uint32_t CRC_OF_INTACT = 0x2144DF1Cu; /* of any message with its own CRC behind it */
+
 static uint32_t crc_table[8][256]; /* [n]: a byte, then n zero bytes */
 static uint32_t chunk_table[4][256]; /* [n]: byte n of a state, then as many zero bytes as a chunk has */
 static uint32_t number_change[256]; /* of a full frame's CRC, by number ^ number */
@@ -839,7 +841,34 @@ static PyObject *seal_short_frames(PyObject *module, PyObject *const *arguments,
     Py_RETURN_NONE;
 }
 
+static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize_t given) {
+    (void)module;
+    if (given != 5) return PyErr_Format(PyExc_TypeError, "statuses_good takes 5 arguments, not %zd", given);
+    Py_ssize_t start = PyLong_AsSsize_t(args[1]);
+    Py_ssize_t count = PyLong_AsSsize_t(args[2]);
+    unsigned long head = PyLong_AsUnsignedLongMask(args[3]);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(args[4]);
+    if (PyErr_Occurred()) return NULL;
+    Py_buffer answers;
+    if (PyObject_GetBuffer(args[0], &answers, PyBUF_SIMPLE)) return NULL;
+    if (start < 0 || count < 0 || start > answers.len || count > (answers.len - start) / SHORT_FRAME_BYTES) {
+        PyErr_Format(PyExc_ValueError, "%zd statuses from byte %zd on are not within %zd bytes", count, start, answers.len);
+        PyBuffer_Release(&answers);
+        return NULL;
+    }
+    const uint8_t *status = (const uint8_t *)answers.buf + start;
+    int good = 1;
+    for (Py_ssize_t number = 0; good && number < count; number++, status += SHORT_FRAME_BYTES) {
+        uint32_t first = status[0] | status[1] << 8 | status[2] << 16 | (uint32_t)status[3] << 24;
+        good = first == ((uint32_t)head | (uint32_t)(uint8_t)(sequence + number) << 24) && !(status[6] | status[7]) &&
+               crc32(status, SHORT_FRAME_BYTES) == CRC_OF_INTACT;
+    }
+    PyBuffer_Release(&answers);
+    return PyBool_FromLong(good);
+}
+
 static PyMethodDef methods[] = {
+    {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
     {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
     {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},

@@ -56,7 +56,7 @@ def test_short_frames_are_sealed_alike(start, count, sequence, random):
     same("seal_short_frames", random.randbytes(400), start, count, sequence)
 
 
-@pytest.mark.parametrize("name", ["pack_loads", "renumber_loads", "unpack_loads", "seal_short_frames", "compose"])
+@pytest.mark.parametrize("name", ["pack_loads", "renumber_loads", "unpack_loads", "seal_short_frames", "statuses_good", "compose"])
 def test_it_refuses_arguments_of_another_number_or_kind(name):
     function = getattr(compiled, name)
     for arguments in ((), (1,), (None, None), (bytearray(9), None, None), ("", "", ""), (bytearray(9), 1.5, b"", b""), (1,) * 8):
