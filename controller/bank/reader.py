@@ -64,7 +64,7 @@ class Bank:
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
-        self._response_good = bytearray(header.entries)
+        self._response_good = mmap.mmap(-1, max(header.entries, 1))  # shared with forked processes (`check_response`)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
         self._checked_words = bytearray(4 * header.samples)  # room for a check
@@ -268,14 +268,31 @@ class Bank:
         shape = (rows, columns, self._response_bytes)
         return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
 
+    def check_response(self, cell: int) -> None:
+        """Read and check the response of a cell that has an entry, without mapping it.
+
+        A process that was forked from one that has the bank open can do this beside it: what it finds good, the other one uses
+        without another check.
+
+        Raises
+        ------
+        BankError
+            If it is damaged.
+        """
+        entry = self._entry_of[cell]
+        offset = self.sections["response"].offset + entry * self._response_stride
+        if zlib.crc32(self.read(offset, self._response_bytes)) != self._crc_of[entry][1]:
+            raise self._bad("response", entry, cell)
+        self._response_good[entry] = 1
+
     def _checked_response(self, cell: int) -> int:
         """Entry of a cell whose response is mapped and good."""
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
+        if not self._response:
+            self._response = self._map("response")
         if not self._response_good[entry]:
-            if not self._response:
-                self._response = self._map("response")
             start = entry * self._response_stride
             self.counters.response_checked += 1
             if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:

@@ -12,7 +12,6 @@ from controller.board.lookup import find_board
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
-from controller.commands.tables import run_table, service_table
 from controller.errors import ConfigError
 from controller.log import Priority, line
 from controller.scene.edge_rate import edge_warnings
@@ -63,6 +62,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Run the service with the board's devices."""
+    from controller.commands.tables import service_table
     from controller.service.run import serve
 
     if options.plot or options.speed == "max":
@@ -85,6 +85,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.commands.gateware import gateware_factory
+    from controller.commands.tables import run_table
     from controller.simulation import focus_evaluation, run_figures, simulated_run
 
     picture = picture_path(options)

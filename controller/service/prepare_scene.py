@@ -31,7 +31,7 @@ def prepare(board: Board, name: str, bank_file: Path) -> Scene:
 
 
 def populate(bank: Bank, scene: Scene, called: str) -> int:
-    """Read and check all of a bank that a scene can ask for, so that nothing is read or checked while it plays.
+    """Read and check all of a bank that a scene can ask for.
 
     Returns
     -------
@@ -43,12 +43,23 @@ def populate(bank: Bank, scene: Scene, called: str) -> int:
     BankError
         If the bank lacks one, or one is damaged.
     """
+    cells = cells_of(bank, scene, called)
+    for cell in cells:
+        bank.frames(cell)
+        bank.response(cell)
+    return len(cells)
+
+
+def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
+    """Cells that a scene can ask for.
+
+    Raises
+    ------
+    BankError
+        If the bank lacks one.
+    """
     wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m)
     missing = int((wanted & ~bank.cells).sum())
     if missing:
         raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")
-    cells = wanted.nonzero()[0].tolist()
-    for cell in cells:
-        bank.words(cell)
-        bank.response(cell)
-    return len(cells)
+    return list(wanted.nonzero()[0].tolist())

@@ -218,7 +218,13 @@ def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
 def test_nothing_of_the_working_directory_is_run_or_read(board, bank, folder, tmp_path, monkeypatch):
     here = tmp_path / "here"
     (here / "controller" / "service").mkdir(parents=True)
-    for name in ("controller/__init__.py", "controller/service/scene_helper.py", "msgspec.py", "numpy.py", "sitecustomize.py"):
+    for name in (
+        "controller/__init__.py",
+        "controller/service/scene_helper_process.py",
+        "msgspec.py",
+        "numpy.py",
+        "sitecustomize.py",
+    ):
         (here / name).write_text(f"open({str(here / 'was run')!r}, 'w')\nraise SystemExit('the wrong {name}')\n")
     (here / "drums").write_text(CLICK)
     monkeypatch.chdir(here)
