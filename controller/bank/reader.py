@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import contextlib
 import mmap
 import os
 import weakref
@@ -21,6 +21,7 @@ from controller.board.paths import build_line
 from controller.errors import BankError
 from controller.kernel import unpack_loads
 
+AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
 
 
@@ -39,11 +40,6 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
-
-    Attributes
-    ----------
-    scale_of_cell : list of float
-        m per V of one level of each cell's response; NaN where the bank has no entry.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -60,11 +56,10 @@ class Bank:
         self._fd = fd
         self.close = weakref.finalize(self, os.close, fd)
         self._entry_of, self._crc_of, self._scale_of = tables
-        self.scale_of_cell = [self._scale_of[entry] if entry >= 0 else math.nan for entry in self._entry_of]
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
-        self._response_good = mmap.mmap(-1, max(header.entries, 1))  # shared with forked processes (`check_response`)
+        self._response_good = memoryview(mmap.mmap(-1, max(header.entries, 1)))  # shared with forked processes (`verify_response`)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
         self._checked_words = bytearray(4 * header.samples)  # room for a check
@@ -232,47 +227,44 @@ class Bank:
         """
         entry = self._checked_response(cell)
         start = entry * self._response_stride
-        levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
+        levels: NDArray[np.int8] = np.frombuffer(self.responses, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
-    def response_patch(self, cell: int, columns: int, rows: int) -> NDArray[np.int8]:
-        """Responses of up to four neighbouring cells as one array, for one pass over all of them.
+    @property
+    def responses(self) -> memoryview:
+        """The response section, in which entry n begins at n strides; mapped when it is first asked for."""
+        if not self._response:
+            self._response = self._map("response")
+        return self._response
 
-        Parameters
-        ----------
-        cell : int
-            The one with the lowest x and y.
-        columns, rows : int
-            1 or 2 each.
+    def response_tables(self) -> tuple[list[int], list[float], memoryview]:
+        """What is needed to find responses in their section.
 
         Returns
         -------
-        (rows, columns, (samples + rest_rows) * 32) int8 array
-            In drive order, then the rest outside the band; a read-only view of the file.
+        entries : list of int
+            Entry of each cell, -1 for none.
+        scales : list of float
+            m per V of one level of each entry's response.
+        good : memoryview
+            For each entry, one byte: whether its response was found good. The bank's own, which changes with `check_response`.
+        """
+        return self._entry_of, self._scale_of, self._response_good
+
+    def check_response(self, cell: int) -> None:
+        """Map the responses and check a cell's, if that was not done.
 
         Raises
         ------
         BankError
-            If a cell has no entry, or a damaged one.
+            If the cell has no entry, or a damaged one.
         """
-        checked, stride = self._checked_response, self._response_stride
-        first = checked(cell)
-        if columns == 2:
-            checked(cell + 1)  # entries are numbered as cells are: the next one in the file
-        up = 0
-        if rows == 2:
-            above = cell + self.grid.nx
-            up = checked(above) - first
-            if columns == 2:
-                checked(above + 1)
-        shape = (rows, columns, self._response_bytes)
-        return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
+        self._checked_response(cell)
 
-    def check_response(self, cell: int) -> None:
+    def verify_response(self, cell: int) -> None:
         """Read and check the response of a cell that has an entry, without mapping it.
 
-        A process that was forked from one that has the bank open can do this beside it: what it finds good, the other one uses
-        without another check.
+        A process forked from one that has the bank open does this beside it: what it finds good, the other one uses unchecked.
 
         Raises
         ------
@@ -290,15 +282,31 @@ class Bank:
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
-        if not self._response:
-            self._response = self._map("response")
         if not self._response_good[entry]:
+            self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
-            if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
+            if zlib.crc32(self.responses[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry
+
+    def _read_ahead(self, cell: int) -> None:
+        """Have the kernel read the responses around a cell: a finger between cells needs four of them now, and the next ones soon.
+
+        A finger that moves then finds them in memory, and none are read of places that nobody touches.
+        """
+        if not self.close.alive:
+            return
+        row, column = divmod(cell, self.grid.nx)
+        section, stride = self.sections["response"], self._response_stride
+        left, right = max(column - AHEAD, 0), min(column + 1 + AHEAD, self.grid.nx)
+        for y in range(max(row - AHEAD, 0), min(row + 1 + AHEAD, self.grid.ny)):
+            here = [entry for entry in self._entry_of[y * self.grid.nx + left : y * self.grid.nx + right] if entry >= 0]
+            if here:
+                size = (here[-1] + 1 - here[0]) * stride
+                with contextlib.suppress(OSError):  # a file system that cannot: they are read when they are used
+                    os.posix_fadvise(self._fd, section.offset + here[0] * stride, size, os.POSIX_FADV_WILLNEED)
 
     def _missing(self, cell: int) -> BankError:
         return BankError(f"{self.path}: no entry for cell {cell} of {self.grid.nx} x {self.grid.ny}; rebuild it: {self.rebuild}")

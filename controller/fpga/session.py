@@ -129,7 +129,8 @@ class Session(Supervision):
     ) -> None:
         """Send drive words, store them as a slot's waveform and queue its play, in one message.
 
-        The words are copied once, into the frames. A message sent again may be too late for `when_ticks`: it is refused then.
+        The words are copied once, into the frames. A message sent again may be too late for `when_ticks`: it is refused then,
+        with the waveform stored.
 
         Parameters
         ----------
@@ -165,7 +166,8 @@ class Session(Supervision):
             self.exchange.retry(send)
         except Refused as refusal:
             self._raise_if_reset(refusal)
-            self.exchange.stop()  # if the STORE was refused, the PLAY after it may have queued the slot's old waveform
+            if refusal.result is not Result.TOO_LATE:
+                self.exchange.stop()  # if the STORE was refused, the PLAY after it may have queued the slot's old waveform
             raise
 
     def stop(self) -> None:

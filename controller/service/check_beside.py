@@ -46,7 +46,7 @@ def _check(bank: Bank, cells: Iterable[int]) -> None:
     first: BankError | None = None
     for cell in cells:
         try:
-            bank.check_response(cell)
+            bank.verify_response(cell)
         except BankError as error:
             first = first or error
     if first is not None:

@@ -1,6 +1,6 @@
 """Preparation of a scene before it is played: at the start of the service, and for a reload in a process of its own.
 
-Reads and checks the file, and reads the waveforms that the scene can need, so that they are in the page cache.
+Reads and checks the file, and the waveforms that the scene can need.
 """
 
 from __future__ import annotations
@@ -26,12 +26,22 @@ def prepare(board: Board, name: str, bank_file: Path) -> Scene:
     scene_file = find_scene(board, name)
     scene = load_scene(scene_file, board)
     with Bank.open(bank_file, board) as bank:
-        populate(bank, scene, str(scene_file))
+        populate(bank, scene, str(scene_file), responses=True)
     return scene
 
 
-def populate(bank: Bank, scene: Scene, called: str) -> int:
-    """Read and check all of a bank that a scene can ask for.
+def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) -> int:
+    """Read and check what a scene can ask of a bank.
+
+    Parameters
+    ----------
+    bank : Bank
+    scene : Scene
+    called : str
+        Name of the scene, for errors.
+    responses : bool
+        Also the responses from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when they
+        are used.
 
     Returns
     -------
@@ -46,12 +56,13 @@ def populate(bank: Bank, scene: Scene, called: str) -> int:
     cells = cells_of(bank, scene, called)
     for cell in cells:
         bank.frames(cell)
-        bank.response(cell)
+        if responses:
+            bank.response(cell)
     return len(cells)
 
 
 def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
-    """Cells that a scene can ask for.
+    """Cells that a scene can ask for; parameters as of `populate`.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Loading of another scene, or of a replaced bank, while the loop runs: a helper process prepares it, the loop takes it over.
 
-Nothing here blocks. The helper (`scene_helper_process`) is started before the loop gets real-time priority: starting a program waits until
-the new process was scheduled, which can take long for one of ordinary priority.
+Nothing here blocks. The helper (`scene_helper_process`) is started before the loop gets real-time priority: starting a program
+waits until the new process was scheduled, which can take long for one of ordinary priority.
 """
 
 from __future__ import annotations

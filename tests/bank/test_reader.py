@@ -1,3 +1,4 @@
+import errno
 import os
 import zlib
 from pathlib import Path
@@ -6,6 +7,7 @@ import numpy as np
 import pytest
 
 from controller.bank.file_format import PAGE
+from controller.bank.grid import Grid
 from controller.bank.packing import drive_words
 from controller.bank.reader import Bank, map_bytes
 from controller.errors import BankError
@@ -87,6 +89,46 @@ def test_a_damaged_entry_is_refused_and_counted_and_the_others_still_serve(path,
             assert bank.counters.bad == count
         use[section](2)
         use[sound](3)
+
+
+def test_responses_around_a_cell_are_read_ahead_when_it_is_first_used(path, make_bank, monkeypatch):
+    grid = Grid(5e-3, 9, 7, 5e-3, 6e-3)
+    cells = [number % 9 != 3 for number in range(63)]  # a column is missing
+    make_bank(path, grid, cells)
+    asked = []
+    monkeypatch.setattr(os, "posix_fadvise", lambda *given: asked.append(given[1:]))
+    with Bank.open(path) as bank:
+        bank.frames(40)
+        assert asked == []
+        section, entry_of = bank.sections["response"], bank._entry_of
+
+        def span(first, last):
+            offset = section.offset + entry_of[first] * section.stride
+            return offset, (entry_of[last] + 1 - entry_of[first]) * section.stride, os.POSIX_FADV_WILLNEED
+
+        for cell, rows in (
+            (40, [(20, 24), (29, 33), (38, 42), (47, 51), (56, 60)]),  # 5 x 5 around column 4, row 4
+            (0, [(0, 2), (9, 11), (18, 20)]),
+            (62, [(42, 44), (51, 53), (60, 62)]),
+        ):
+            asked.clear()
+            bank.response(cell)
+            assert asked == [span(*row) for row in rows]
+            asked.clear()
+            bank.response(cell)
+            assert asked == []
+    bank.response(20)  # closed: the number of its file may be another's by now
+    assert asked == []
+
+
+def test_a_file_system_that_cannot_read_ahead_is_read_all_the_same(path, make_bank, monkeypatch):
+    def cannot(*_):
+        raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+
+    make_bank(path)
+    monkeypatch.setattr(os, "posix_fadvise", cannot)
+    with Bank.open(path) as bank:
+        assert bank.response(0)[0].shape == (9, 32)
 
 
 def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank, board):

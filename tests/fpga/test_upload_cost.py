@@ -15,6 +15,7 @@ from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.frames import ReadyFrames
 from controller.kernel import pack_loads, twin
 from controller.loop.commands import Outcome
+from controller.loop.host_timing import HostTiming
 from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.loop.records import Batch
@@ -88,8 +89,8 @@ def test_an_entry_that_was_used_before_is_sent_without_reading_its_payload_for_a
         selection = Selection(bank, 1e-3, board.idle_word)
         estimate = ClockEstimate(link.clock_hz)
         playback = Playback(
-            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4, upload_s=1.4e-3, command_s=1e-5,
-            counters=counters,
+            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4,
+            timing=HostTiming(1.4e-3, 1e-5, 2e-3), counters=counters,
         )  # fmt: skip
         checked = count_crcs(monkeypatch)
         passes = []

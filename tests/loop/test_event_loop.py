@@ -719,7 +719,7 @@ def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
     assert counters.emissions > 80
     during = [at_s for at_s in ahead_s if at_s < 1.0]  # the train goes on
     assert len(during) > 5
-    assert min(during) > loop._dispatcher.lead_s + PREFETCH_SLACK_S
+    assert min(during) > loop._timing.lead_s + PREFETCH_SLACK_S
     assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
 
 
