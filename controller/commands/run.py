@@ -18,7 +18,6 @@ from controller.scene.edge_rate import edge_warnings
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import recording_path
-from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
@@ -71,6 +70,8 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     scene = load_scene(scene_file, board)
     replay = None
     if options.replay or isinstance(board.touch, RecordingTouch):
+        from controller.touch.recording import Recording
+
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
@@ -87,6 +88,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     from controller.commands.gateware import gateware_factory
     from controller.commands.tables import run_table
     from controller.simulation import focus_evaluation, run_figures, simulated_run
+    from controller.touch.recording import Recording
 
     picture = picture_path(options)
     board = simulated(board)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from controller.application_socket.command_socket import CommandSocket
 from controller.bank.reader import Bank
@@ -22,10 +22,12 @@ from controller.service.reloading import ReloadFile
 from controller.service.scene_reload import SceneChanger
 from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
-from controller.touch.recording import Recording
 from controller.touch.reports import describe_warnings
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
+
+if TYPE_CHECKING:
+    from controller.touch.recording import Recording
 
 REPLAY_AFTER_S = 0.3  # from the end of the ramp to the start of a recording
 
