@@ -9,7 +9,9 @@ import signal
 import socket
 from collections.abc import Callable, Iterator, Mapping
 
-FREE_TUPLES, TUPLE_LENGTHS = 2000, 20  # CPython keeps so many freed tuples of each length below, 5 MB in all
+# CPython keeps so many freed tuples of each length. Those made of a generator are taken with room for ten and returned shorter, so
+# that the shorter ones would grow to as many: 2 MB in all.
+FREE_TUPLES, TUPLE_LENGTHS = 2000, 11
 
 
 class Wakeup:

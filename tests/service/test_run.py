@@ -20,6 +20,8 @@ import pytest
 from patience import communicate
 
 from controller.application_socket.client import PanelClient
+from controller.bank.reader import Bank
+from controller.bank_builder.build import build_bank
 from controller.board.board import load_board
 from controller.errors import ControllerError
 from controller.fpga.build_parameters import BuildParameters
@@ -259,6 +261,42 @@ def test_the_memory_for_composing_is_taken_before_the_outputs_are_on(service):
         assert [client.wait(number).outcome for number in numbers] == ["played"] * 3
     assert virtual_bytes(service.process.pid) - before < 16 << 20, "the linear algebra alone takes 32 MB at its first sum"
     assert service.end()[0]["emissions"] < 3, "some were composed"
+
+
+def resident_kib(pid, file=""):
+    """Resident, and of it locked, in KiB: in all, or of the mappings of a file."""
+    resident = locked = 0
+    counts = not file
+    with open(f"/proc/{pid}/smaps") as mappings:  # noqa: PTH123 - the kernel's
+        for line in mappings:
+            name, *values = line.split()
+            if "-" in name and not name.endswith(":"):
+                counts = not file or line.rstrip().endswith(file)
+            elif counts and name in ("Rss:", "Locked:"):
+                resident += int(values[0]) * (name == "Rss:")
+                locked += int(values[0]) * (name == "Locked:")
+    return resident, locked
+
+
+def test_after_the_start_the_bank_takes_the_memory_of_its_waveforms_alone(folder, panel, board, tmp_path):
+    """Of the board's own bank, 193 MB, the waveforms are resident, 4 kB a cell, and of the responses what `prepare` composed from.
+
+    64 MiB: 19 of waveforms, 13 of NumPy, 12 of Python, 12 of the modules, 2 of tuples kept for the loop, 3 of room to compose.
+    """
+    file = folder / "board.toml"
+    file.write_text(file.read_text().replace("lock_memory = false", "lock_memory = true"))  # if this user may
+    bank = tmp_path / "whole.bank"
+    build_bank(board, bank, measure_sgemm=False)
+    with Bank.open(bank) as opened:
+        waveforms_kib = opened.sections["drive"].size // 1024
+    with an_fpga(at_a_serial_port(folder), folder / "fpga"):  # its model is in another process, as the FPGA is
+        service = Service(folder, bank, before=PATIENT_LINK)
+        service.says("the outputs are on")
+        in_all, locked = resident_kib(service.process.pid)
+        of_bank, _ = resident_kib(service.process.pid, "whole.bank")
+        service.end()
+    assert waveforms_kib <= of_bank < waveforms_kib + 1024
+    assert locked <= in_all <= 64 * 1024
 
 
 def test_a_command_is_played_and_answered(service):

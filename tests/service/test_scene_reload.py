@@ -246,6 +246,23 @@ def test_the_helper_is_ordinary_nice_and_has_no_file_of_ours_but_its_socket(chan
     assert set(opened) == {0, 1, 2}, opened
 
 
+def test_until_the_first_request_the_helper_has_imported_nothing_of_it(changer):
+    def numpy_is_mapped():
+        return "_multiarray_umath" in Path(f"/proc/{changer.pid}/maps").read_text()
+
+    while os.getpriority(os.PRIO_PROCESS, changer.pid) < 5:
+        os.sched_yield()
+    assert not numpy_is_mapped()
+    works(changer)
+    assert numpy_is_mapped()
+
+
+def test_it_ends_with_the_loop_though_nothing_was_asked(changer):
+    pid = changer.pid
+    changer._socket.close()
+    assert os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT).si_status == 0
+
+
 def test_it_ends_with_the_loop(changer):
     works(changer)
     pid = changer.pid
