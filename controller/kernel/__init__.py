@@ -76,4 +76,4 @@ def _has_compiled(wanted: str) -> bool:
 COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
 
 if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
-    from controller.kernel._kernel import compose, seal_short_frames, statuses_good
+    from controller.kernel._kernel import compose, pack_loads, renumber_loads, seal_short_frames, statuses_good, unpack_loads

@@ -546,43 +546,287 @@ static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_
     return answer;
 }
 
-/* ---- frames ---- */
+/* ---- frames: numbers of twin.py ---- */
 
-enum { SHORT_FRAME_BYTES = 36, NUMBER_AT = 3, CRC_BYTES = 4 };
+enum {
+    FRAME_SYNC = 0xA55A,
+    LOAD = 3,
+    CHUNK_BYTES = 500,
+    PADDED_BYTES = 20,
+    CHUNKS = 8,
+    SHORT_FRAME_BYTES = 36,
+    HEADER_BYTES = 8,
+    NUMBER_AT = 3,
+    CRC_BYTES = 4,
+    FULL_FRAME_BYTES = HEADER_BYTES + CHUNK_BYTES + CRC_BYTES,
+    ABREAST = 4, /* frames whose CRCs are computed together: one waits for each of its lookups */
+};
 
 static const uint32_t CRC_OF_INTACT = 0x2144DF1Cu; /* of any message with its own CRC behind it */
 
-static uint32_t crc_of_byte[256];
+static uint32_t crc_table[8][256]; /* [n]: a byte, then n zero bytes */
+static uint32_t chunk_table[4][256]; /* [n]: byte n of a state, then as many zero bytes as a chunk has */
+static uint32_t number_change[256]; /* of a full frame's CRC, by number ^ number */
+
+/* States are CRCs without the inversions before and after: linear in the bytes. */
+INLINE uint32_t crc_eight(uint32_t state, uint64_t bytes) {
+    bytes ^= state;
+    return crc_table[7][bytes & 255] ^ crc_table[6][bytes >> 8 & 255] ^ crc_table[5][bytes >> 16 & 255] ^ crc_table[4][bytes >> 24 & 255] ^
+           crc_table[3][bytes >> 32 & 255] ^ crc_table[2][bytes >> 40 & 255] ^ crc_table[1][bytes >> 48 & 255] ^ crc_table[0][bytes >> 56];
+}
+
+INLINE uint64_t get_eight(const uint8_t *from) {
+    uint64_t bytes;
+    memcpy(&bytes, from, sizeof bytes);
+    return bytes;
+}
+
+INLINE uint32_t get_u32(const uint8_t *from) {
+    uint32_t value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+INLINE void put_u32(uint8_t *to, uint32_t value) { memcpy(to, &value, sizeof value); }
+
+static uint32_t crc_state(uint32_t state, const uint8_t *bytes, Py_ssize_t length) {
+    for (; length >= 8; length -= 8, bytes += 8) state = crc_eight(state, get_eight(bytes));
+    for (; length > 0; length--, bytes++) state = state >> 8 ^ crc_table[0][(uint8_t)(state ^ *bytes)];
+    return state;
+}
+
+static uint32_t crc32(const uint8_t *bytes, Py_ssize_t length) { return ~crc_state(~0u, bytes, length); }
+
+static uint32_t crc_of_zeros(uint32_t state, Py_ssize_t length) {
+    for (; length >= 8; length -= 8) state = crc_eight(state, 0);
+    for (; length > 0; length--) state = state >> 8 ^ crc_table[0][(uint8_t)state];
+    return state;
+}
+
+INLINE uint32_t after_chunk(uint32_t state) {
+    return chunk_table[0][state & 255] ^ chunk_table[1][state >> 8 & 255] ^ chunk_table[2][state >> 16 & 255] ^ chunk_table[3][state >> 24];
+}
+
+static uint32_t change_of(uint8_t numbers, Py_ssize_t frame_bytes) {
+    return crc_of_zeros(crc_table[0][numbers], frame_bytes - CRC_BYTES - NUMBER_AT - 1);
+}
 
 static void fill_tables(void) {
     for (uint32_t byte = 0; byte < 256; byte++) {
-        uint32_t crc = byte;
-        for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (0xEDB88320u & -(crc & 1));
-        crc_of_byte[byte] = crc;
+        uint32_t state = byte;
+        for (int bit = 0; bit < 8; bit++) state = state >> 1 ^ (0xEDB88320u & -(state & 1));
+        crc_table[0][byte] = state;
+    }
+    for (int n = 1; n < 8; n++)
+        for (int byte = 0; byte < 256; byte++)
+            crc_table[n][byte] = crc_table[n - 1][byte] >> 8 ^ crc_table[0][(uint8_t)crc_table[n - 1][byte]];
+    for (int n = 0; n < 4; n++)
+        for (uint32_t byte = 0; byte < 256; byte++) chunk_table[n][byte] = crc_of_zeros(byte << 8 * n, CHUNK_BYTES);
+    for (int numbers = 0; numbers < 256; numbers++) number_change[numbers] = change_of((uint8_t)numbers, FULL_FRAME_BYTES);
+}
+
+/* Full frames, and bytes of the shorter one behind them: with header, payload and CRC. */
+struct loads {
+    Py_ssize_t full, rest;
+};
+
+static Py_ssize_t frames_bytes(struct loads loads) { return loads.full * FULL_FRAME_BYTES + loads.rest; }
+
+static int loads_of_words(Py_ssize_t words_bytes, struct loads *loads) {
+    if (words_bytes < 4 || words_bytes > CHUNKS * CHUNK_BYTES || words_bytes % 4) {
+        PyErr_Format(PyExc_ValueError, "a waveform has 4 to %d bytes, a multiple of 4, not %zd", (int)(CHUNKS * CHUNK_BYTES), words_bytes);
+        return 0;
+    }
+    Py_ssize_t rest = words_bytes % CHUNK_BYTES;
+    loads->full = words_bytes / CHUNK_BYTES;
+    loads->rest = rest ? HEADER_BYTES + (rest < PADDED_BYTES ? PADDED_BYTES : rest) + CRC_BYTES : 0;
+    return 1;
+}
+
+static int loads_of_frames(Py_ssize_t total, struct loads *loads) {
+    Py_ssize_t full = total / FULL_FRAME_BYTES, rest = total % FULL_FRAME_BYTES;
+    if (!total || full + !!rest > CHUNKS || (rest && (rest < HEADER_BYTES + PADDED_BYTES + CRC_BYTES || rest % 4))) {
+        PyErr_Format(PyExc_ValueError, "%zd bytes are not the LOAD frames of a waveform", total);
+        return 0;
+    }
+    *loads = (struct loads){full, rest};
+    return 1;
+}
+
+static int fits(const Py_buffer *out, Py_ssize_t total) {
+    if (out->len >= total) return 1;
+    PyErr_Format(PyExc_ValueError, "%zd bytes of frames do not fit into %zd", total, out->len);
+    return 0;
+}
+
+INLINE uint64_t load_header(uint8_t number, Py_ssize_t frame_bytes, Py_ssize_t chunk) {
+    uint64_t payload_bytes = (uint64_t)(frame_bytes - HEADER_BYTES - CRC_BYTES);
+    return FRAME_SYNC | LOAD << 16 | (uint64_t)number << 24 | payload_bytes << 32 | (uint64_t)chunk << 48;
+}
+
+INLINE void put_header(uint8_t *frame, uint64_t header) { memcpy(frame, &header, sizeof header); }
+
+/* States of full frames that lie back to back. */
+static void crc_of_full_frames(const uint8_t *frames, Py_ssize_t count, uint32_t *state) {
+    enum { COVERED = FULL_FRAME_BYTES - CRC_BYTES, EIGHTS = COVERED / 8 * 8 };
+    for (; count >= ABREAST; count -= ABREAST, frames += ABREAST * FULL_FRAME_BYTES, state += ABREAST) {
+        uint32_t a = ~0u, b = ~0u, c = ~0u, d = ~0u;
+        const uint8_t *bytes = frames;
+        for (int at = 0; at < EIGHTS; at += 8, bytes += 8) {
+            a = crc_eight(a, get_eight(bytes));
+            b = crc_eight(b, get_eight(bytes + FULL_FRAME_BYTES));
+            c = crc_eight(c, get_eight(bytes + 2 * FULL_FRAME_BYTES));
+            d = crc_eight(d, get_eight(bytes + 3 * FULL_FRAME_BYTES));
+        }
+        state[0] = crc_state(a, bytes, COVERED - EIGHTS);
+        state[1] = crc_state(b, bytes + FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[2] = crc_state(c, bytes + 2 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[3] = crc_state(d, bytes + 3 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+    }
+    for (; count; count--, frames += FULL_FRAME_BYTES, state++) *state = crc_state(~0u, frames, COVERED);
+}
+
+/* State of all words, from those of the full frames that have them: what the header and the words before leave behind is added at
+   the end of a frame's words. */
+static uint32_t crc_of_words(const uint8_t *frame, Py_ssize_t count, const uint32_t *state) {
+    uint32_t all = ~0u;
+    for (; count; count--, frame += FULL_FRAME_BYTES, state++) all = *state ^ after_chunk(all ^ crc_eight(~0u, get_eight(frame)));
+    return all;
+}
+
+/* Pack words of a length that was checked; returns their CRC. */
+static uint32_t pack_chunks(uint8_t *out, uint8_t sequence, const uint8_t *words, Py_ssize_t words_bytes, struct loads loads) {
+    uint32_t state[CHUNKS], all;
+    Py_ssize_t chunk;
+    uint8_t *frame = out;
+    for (chunk = 0; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES) {
+        put_header(frame, load_header((uint8_t)(sequence + chunk), FULL_FRAME_BYTES, chunk));
+        memcpy(frame + HEADER_BYTES, words + chunk * CHUNK_BYTES, CHUNK_BYTES);
+    }
+    crc_of_full_frames(out, loads.full, state);
+    all = crc_of_words(out, loads.full, state);
+    for (chunk = 0, frame = out; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES)
+        put_u32(frame + FULL_FRAME_BYTES - CRC_BYTES, ~state[chunk]);
+    if (loads.rest) {
+        Py_ssize_t rest = words_bytes - loads.full * CHUNK_BYTES, covered = loads.rest - CRC_BYTES;
+        put_header(frame, load_header((uint8_t)(sequence + chunk), loads.rest, chunk));
+        memcpy(frame + HEADER_BYTES, words + loads.full * CHUNK_BYTES, (size_t)rest);
+        memset(frame + HEADER_BYTES + rest, 0, (size_t)(covered - HEADER_BYTES - rest));
+        put_u32(frame + covered, crc32(frame, covered));
+        all = crc_state(all, frame + HEADER_BYTES, rest);
+    }
+    return ~all;
+}
+
+static void renumber(uint8_t *out, uint8_t sequence, const uint8_t *ready, struct loads loads) {
+    memcpy(out, ready, (size_t)frames_bytes(loads));
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, out += FULL_FRAME_BYTES) {
+        Py_ssize_t size = chunk < loads.full ? FULL_FRAME_BYTES : loads.rest;
+        uint8_t number = (uint8_t)(sequence + chunk), numbers = (uint8_t)(number ^ chunk);
+        uint8_t *crc = out + size - CRC_BYTES;
+        put_header(out, load_header(number, size, chunk));
+        put_u32(crc, get_u32(crc) ^ (size == FULL_FRAME_BYTES ? number_change[numbers] : change_of(numbers, size)));
     }
 }
 
-static uint32_t crc32(const uint8_t *bytes, Py_ssize_t length) {
-    uint32_t crc = ~0u;
-    for (Py_ssize_t at = 0; at < length; at++) crc = crc >> 8 ^ crc_of_byte[(uint8_t)(crc ^ bytes[at])];
-    return ~crc;
+/* Take the words out of frames; the chunk of one that is damaged, or -1. */
+static Py_ssize_t unpack_chunks(uint8_t *words, Py_ssize_t words_bytes, const uint8_t *frames, struct loads loads, uint32_t *crc) {
+    uint32_t state[CHUNKS], all;
+    const uint8_t *frame = frames;
+    crc_of_full_frames(frames, loads.full, state);
+    all = crc_of_words(frames, loads.full, state);
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, frame += FULL_FRAME_BYTES) {
+        int full = chunk < loads.full;
+        Py_ssize_t frame_bytes = full ? FULL_FRAME_BYTES : loads.rest, covered = frame_bytes - CRC_BYTES;
+        Py_ssize_t size = full ? CHUNK_BYTES : words_bytes - chunk * CHUNK_BYTES;
+        uint32_t found = full ? ~state[chunk] : crc32(frame, covered);
+        if (get_eight(frame) != load_header((uint8_t)chunk, frame_bytes, chunk) || get_u32(frame + covered) != found) return chunk;
+        for (Py_ssize_t at = HEADER_BYTES + size; at < covered; at++)
+            if (frame[at]) return chunk;
+        memcpy(words + chunk * CHUNK_BYTES, frame + HEADER_BYTES, (size_t)size);
+        if (!full) all = crc_state(all, frame + HEADER_BYTES, size);
+    }
+    *crc = ~all;
+    return -1;
 }
 
-static void put_u32(uint8_t *to, uint32_t value) {
-    for (int at = 0; at < 4; at++) to[at] = (uint8_t)(value >> 8 * at);
+/* ---- frames: from Python ---- */
+
+/* Buffers to write and to read, or an exception. */
+static int take_two(PyObject *written, PyObject *read, Py_buffer *to, Py_buffer *from) {
+    if (PyObject_GetBuffer(written, to, PyBUF_WRITABLE)) return 0;
+    if (!PyObject_GetBuffer(read, from, PyBUF_SIMPLE)) return 1;
+    PyBuffer_Release(to);
+    return 0;
 }
 
-static PyObject *seal_short_frames(PyObject *module, PyObject *const *args, Py_ssize_t given) {
+static PyObject *pack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, words;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "pack_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &words)) return NULL;
+    if (loads_of_words(words.len, &loads) && fits(&out, frames_bytes(loads)))
+        answer = PyLong_FromUnsignedLong(pack_chunks(out.buf, (uint8_t)sequence, words.buf, words.len, loads));
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&words);
+    return answer;
+}
+
+static PyObject *renumber_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, ready;
+    struct loads loads;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "renumber_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &ready)) return NULL;
+    int good = loads_of_frames(ready.len, &loads) && fits(&out, ready.len);
+    if (good) renumber(out.buf, (uint8_t)sequence, ready.buf, loads);
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&ready);
+    if (!good) return NULL;
+    Py_RETURN_NONE;
+}
+
+static PyObject *unpack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer words, ready;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 2) return PyErr_Format(PyExc_TypeError, "unpack_loads takes 2 arguments, not %zd", given);
+    if (!take_two(arguments[0], arguments[1], &words, &ready)) return NULL;
+    if (loads_of_words(words.len, &loads)) {
+        if (ready.len != frames_bytes(loads)) {
+            PyErr_Format(PyExc_ValueError, "%zd bytes are not the frames of %zd bytes of words", ready.len, words.len);
+        } else {
+            uint32_t crc;
+            Py_ssize_t damaged = unpack_chunks(words.buf, words.len, ready.buf, loads, &crc);
+            if (damaged >= 0)
+                PyErr_Format(PyExc_ValueError, "frame %zd is damaged", damaged);
+            else
+                answer = PyLong_FromUnsignedLong(crc);
+        }
+    }
+    PyBuffer_Release(&words);
+    PyBuffer_Release(&ready);
+    return answer;
+}
+
+static PyObject *seal_short_frames(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
     (void)module;
     if (given != 4) return PyErr_Format(PyExc_TypeError, "seal_short_frames takes 4 arguments, not %zd", given);
-    Py_ssize_t start = PyLong_AsSsize_t(args[1]);
+    Py_ssize_t start = PyLong_AsSsize_t(arguments[1]);
     if (start == -1 && PyErr_Occurred()) return NULL;
-    Py_ssize_t count = PyLong_AsSsize_t(args[2]);
+    Py_ssize_t count = PyLong_AsSsize_t(arguments[2]);
     if (count == -1 && PyErr_Occurred()) return NULL;
-    unsigned long sequence = PyLong_AsUnsignedLongMask(args[3]);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[3]);
     if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
     Py_buffer out;
-    if (PyObject_GetBuffer(args[0], &out, PyBUF_WRITABLE)) return NULL;
+    if (PyObject_GetBuffer(arguments[0], &out, PyBUF_WRITABLE)) return NULL;
     if (start < 0 || count < 0 || start > out.len || count > (out.len - start) / SHORT_FRAME_BYTES) {
         PyErr_Format(PyExc_ValueError, "%zd frames from byte %zd on do not fit into %zd bytes", count, start, out.len);
         PyBuffer_Release(&out);
@@ -590,7 +834,7 @@ static PyObject *seal_short_frames(PyObject *module, PyObject *const *args, Py_s
     }
     uint8_t *frame = (uint8_t *)out.buf + start;
     for (Py_ssize_t number = 0; number < count; number++, frame += SHORT_FRAME_BYTES) {
-        frame[NUMBER_AT] = (uint8_t)(sequence + number);
+        frame[NUMBER_AT] = (uint8_t)(sequence + (unsigned long)number);
         put_u32(frame + SHORT_FRAME_BYTES - CRC_BYTES, crc32(frame, SHORT_FRAME_BYTES - CRC_BYTES));
     }
     PyBuffer_Release(&out);
@@ -626,6 +870,9 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
     {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
+    {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
+    {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
+    {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},
     {"seal_short_frames", (PyCFunction)(void (*)(void))seal_short_frames, METH_FASTCALL, "seal_short_frames(out, start, count, sequence)"},
     {NULL, NULL, 0, NULL},
 };
