@@ -7,11 +7,10 @@ import mmap
 import os
 import weakref
 import zlib
-from array import array
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,7 @@ from controller.errors import BankError
 from controller.kernel import unpack_loads
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
-Tables: TypeAlias = "tuple[list[int], array[int], list[float]]"  # entry of each cell; two CRC-32s of each entry in turn; its scale
+Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
 
 
 @dataclass(slots=True)
@@ -136,8 +135,7 @@ class Bank:
     @property
     def checksums(self) -> list[list[int]]:
         """CRC-32 of the drive words and of the response of each entry."""
-        crcs = iter(self._crc_of)
-        return [[drive, response] for drive, response in zip(crcs, crcs, strict=True)]
+        return self._crc_of
 
     def read(self, offset: int, size: int) -> bytes:
         """Copy `size` bytes of the file from `offset` on; fewer at its end."""
@@ -165,7 +163,32 @@ class Bank:
             self.counters.drive_checked += 1
             self._unpack(self._checked_words, view, entry, cell)
             self._drive_good[entry] = 1
-        return view, self._crc_of[2 * entry]
+        return view, self._crc_of[entry][0]
+
+    def check_frames(self, cells: Iterable[int]) -> None:
+        """Check the frames of cells that have an entry, so that their first use need not.
+
+        They are read, not mapped: then they are in the page cache, but no memory of this process, which may be locked.
+
+        Raises
+        ------
+        BankError
+            If one is damaged, or cannot be read.
+        """
+        self._require_open()
+        row = memoryview(bytearray(self._drive_bytes))
+        offset = self.sections["drive"].offset
+        for cell in cells:
+            entry = self._entry_of[cell]
+            self.counters.drive_checked += 1
+            try:
+                whole = os.preadv(self._fd, [row], offset + entry * self._drive_stride) == len(row)
+            except OSError as error:
+                raise BankError(f"{self.path}: cannot be read ({error.strerror}); rebuild it: {self.rebuild}") from error
+            if not whole:
+                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, row, entry, cell)
+            self._drive_good[entry] = 1
 
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
@@ -194,7 +217,7 @@ class Bank:
     def _unpack(self, words: bytearray, frames: memoryview, entry: int, cell: int) -> None:
         """Take the words out of an entry's frames, each byte of which is checked."""
         try:
-            sound = unpack_loads(words, frames) == self._crc_of[2 * entry]
+            sound = unpack_loads(words, frames) == self._crc_of[entry][0]
         except ValueError:
             sound = False
         if not sound:
@@ -276,7 +299,7 @@ class Bank:
         """
         entry = self._entry_of[cell]
         offset = self.sections["response"].offset + entry * self._response_stride
-        if zlib.crc32(self.read(offset, self._response_bytes)) != self._crc_of[2 * entry + 1]:
+        if zlib.crc32(self.read(offset, self._response_bytes)) != self._crc_of[entry][1]:
             raise self._bad("response", entry, cell)
         self._response_good[entry] = 1
 
@@ -289,7 +312,7 @@ class Bank:
             self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
-            if zlib.crc32(self.responses[start : start + self._response_bytes]) != self._crc_of[2 * entry + 1]:
+            if zlib.crc32(self.responses[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry
@@ -318,19 +341,19 @@ class Bank:
         self.counters.bad += 1
         return BankError(f"{self.path}: {section} of entry {entry} (cell {cell}) is damaged; rebuild it: {self.rebuild}")
 
-    def _map(self, name: str) -> memoryview:
+    def _require_open(self) -> None:
         if not self.close.alive:
             raise ValueError("the bank is closed")
+
+    def _map(self, name: str) -> memoryview:
+        self._require_open()
         section = self.sections[name]
         self.counters.mapped_bytes[name] = section.size
         return map_bytes(self._fd, section.offset, section.size)
 
 
 def _tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
-    """Read the three small sections whole; as lists, whose elements are read five times faster than an array's.
-
-    The CRC-32s, of which an emission needs one, stay an array: as a list they would take 1 MB.
-    """
+    """Read the three small sections whole; as lists, whose elements are read five times faster than an array's."""
     data = {}
     for name in ("index", "checksums", "scale"):
         data[name] = os.pread(fd, sections[name].size, sections[name].offset)
@@ -339,8 +362,8 @@ def _tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
     index = np.frombuffer(data["index"], "<i4")
     if not np.array_equal(index[index != -1], np.arange(header.entries)):
         raise BankError("has an index that does not name every entry once, in the order of the cells")
-    checksums, scale = np.frombuffer(data["checksums"], "<u4"), np.frombuffer(data["scale"], "<f4")
-    return index.tolist(), array("I", checksums.tolist()), scale.tolist()
+    checksums = np.frombuffer(data["checksums"], "<u4").reshape(-1, 2)
+    return index.tolist(), checksums.tolist(), np.frombuffer(data["scale"], "<f4").tolist()
 
 
 def map_bytes(fd: int, offset: int, size: int, granularity: int = mmap.ALLOCATIONGRANULARITY) -> memoryview:

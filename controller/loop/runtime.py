@@ -9,9 +9,7 @@ import signal
 import socket
 from collections.abc import Callable, Iterator, Mapping
 
-# CPython keeps so many freed tuples of each length. Those made of a generator are taken with room for ten and returned shorter, so
-# that the shorter ones would grow to as many: 2 MB in all.
-FREE_TUPLES, TUPLE_LENGTHS = 2000, 11
+FREE_TUPLES, TUPLE_LENGTHS = 2000, 20  # CPython keeps so many freed tuples of each length below, 5 MB in all
 
 
 class Wakeup:

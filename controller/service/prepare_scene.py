@@ -54,9 +54,9 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
         If the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
-    for cell in cells:
-        bank.frames(cell)
-        if responses:
+    bank.check_frames(cells)
+    if responses:
+        for cell in cells:
             bank.response(cell)
     return len(cells)
 

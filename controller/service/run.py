@@ -65,8 +65,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         change = SceneChanger(board, scene_name, bank)
         stack.callback(change.close)
         cells = cells_of(bank, scene, scene_name)
-        for cell in cells:
-            bank.frames(cell)  # mapped and checked before memory is locked and anything is armed
+        bank.check_frames(cells)  # before memory is locked and anything is armed
         check_responses_beside(bank, cells)
         link, session = await_session(board, clock.now_s)
         stack.callback(link.close)

@@ -20,7 +20,6 @@ import pytest
 from patience import communicate
 
 from controller.application_socket.client import PanelClient
-from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.board.board import load_board
 from controller.errors import ControllerError
@@ -278,24 +277,23 @@ def resident_kib(pid, file=""):
     return resident, locked
 
 
-def test_after_the_start_the_bank_takes_the_memory_of_its_waveforms_alone(folder, panel, board, tmp_path):
-    """Of the board's own bank, 193 MB, the waveforms are resident, 4 kB a cell, and of the responses what `prepare` composed from.
+def test_after_the_start_next_to_nothing_of_the_bank_is_in_memory(folder, panel, board, tmp_path):
+    """Of the board's own bank, 193 MB, the responses that `prepare` composed from; the rest is checked, and in the page cache.
 
-    64 MiB: 19 of waveforms, 13 of NumPy, 12 of Python, 12 of the modules, 2 of tuples kept for the loop, 3 of room to compose.
+    In all 64 MiB, so that a computer of 512 MB has room for a user interface: 13 are NumPy, 12 Python, 12 the modules, 5 tuples
+    kept for the loop, 3 room to compose; 19 are left for waveforms, which come as they are played.
     """
     file = folder / "board.toml"
     file.write_text(file.read_text().replace("lock_memory = false", "lock_memory = true"))  # if this user may
     bank = tmp_path / "whole.bank"
     build_bank(board, bank, measure_sgemm=False)
-    with Bank.open(bank) as opened:
-        waveforms_kib = opened.sections["drive"].size // 1024
     with an_fpga(at_a_serial_port(folder), folder / "fpga"):  # its model is in another process, as the FPGA is
         service = Service(folder, bank, before=PATIENT_LINK)
         service.says("the outputs are on")
         in_all, locked = resident_kib(service.process.pid)
         of_bank, _ = resident_kib(service.process.pid, "whole.bank")
         service.end()
-    assert waveforms_kib <= of_bank < waveforms_kib + 1024
+    assert of_bank < 1024
     assert locked <= in_all <= 64 * 1024
 
 
