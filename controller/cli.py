@@ -1,6 +1,7 @@
 """The command line: arguments, exit codes, errors as one line. Each command is a module of `commands` and one call into a room.
 
-Physics, simulation and benchmarks are imported only by the commands that need them: a device may lack their packages.
+Only the module of the command that is called is imported: `--version`, `--help` and completion need none, and no NumPy. Physics,
+simulation and benchmarks are imported only by the commands that need them: a device may lack their packages.
 """
 
 from __future__ import annotations
@@ -8,20 +9,32 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
+from functools import partial
+from importlib import import_module
 
 from controller import __version__
-from controller.commands import bank, board, calibrate_touch, completion, doctor, focus, gateware, record, reload, run
 from controller.errors import ConfigError, ControllerError
 from controller.log import Priority, line
-from controller.service.installation import missing_package
 
-COMMANDS = (run, doctor, board, gateware, bank, focus, record, calibrate_touch, reload, completion)  # in the order of --help
+COMMANDS = {  # in the order of --help, which prints these texts; each is a module of `commands`
+    "run": "run a panel; without devices: replay a touch recording on the simulated panel",
+    "doctor": "check every device, file and permission of a panel, and say what to do",
+    "board": "check a board and its scene; describe the keys of both files",
+    "gateware": "bring up an FPGA",
+    "bank": "build, describe and verify banks of precomputed waveforms",
+    "focus": "focus on given points of the plate model, and measure the focus",
+    "record": "store the events of a touch panel",
+    "calibrate-touch": "map the touch panel's axes to the plate",
+    "reload": "have the service read its scene again, and report the result (for ExecReload=)",
+    "completion": "print a shell's completion of this command line",
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code (0, or 2 usage, 78 configuration, 69 device missing, 1 otherwise)."""
-    options = parser().parse_args(arguments)
+    arguments = sys.argv[1:] if arguments is None else arguments
+    options = parser(arguments).parse_args(arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # outside the event loop it ends a command as Ctrl-C does
     command: Callable[[argparse.Namespace], int] = options.command
     try:
@@ -30,6 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(line(str(error), Priority.ERROR), file=sys.stderr)
         return error.exit_code
     except ModuleNotFoundError as error:
+        from controller.service.installation import missing_package
+
         missing = missing_package(error.name)
         if missing is None:
             raise
@@ -49,8 +64,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def parser() -> argparse.ArgumentParser:
-    """The parser of the whole command line."""
+def parser(named: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
+    """The parser of the command line.
+
+    Parameters
+    ----------
+    named : collection of str
+        Commands whose modules are imported to declare their arguments; of the others only name and help text are known. Words
+        that are no commands are ignored.
+    """
     main_parser = argparse.ArgumentParser(
         prog="haptic-panel",
         description="Controller of a glass panel that pushes back under each finger.",
@@ -61,6 +83,10 @@ def parser() -> argparse.ArgumentParser:
     common.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
     common.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
     commands = main_parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        command.add(commands, common)
+    for name, text in COMMANDS.items():
+        declare = partial(commands.add_parser, name, help=text)
+        if name in named:
+            import_module(f"controller.commands.{name.replace('-', '_')}").add(declare, common)
+        else:
+            declare()
     return main_parser

@@ -82,10 +82,10 @@ module register_file #(
     output wire        stop_o,
     output wire        trigger_o
 );
-    localparam [31:0] FEWEST           = CLOCK_HZ / `BIT_CLOCK_HZ_MAX;
-    localparam [31:0] BIT_TICKS_LOW    = FEWEST < `BIT_TICKS_MIN ? `BIT_TICKS_MIN : FEWEST;
-    localparam [31:0] MOST             = CLOCK_HZ / `BIT_CLOCK_HZ_MIN;
-    localparam [31:0] BIT_TICKS_HIGH   = MOST < BIT_TICKS_LOW ? BIT_TICKS_LOW : MOST;
+    localparam [31:0] BIT_TICKS_FASTEST = CLOCK_HZ / `BIT_CLOCK_HZ_MAX;
+    localparam [31:0] BIT_TICKS_LOW     = BIT_TICKS_FASTEST < `BIT_TICKS_MIN ? `BIT_TICKS_MIN : BIT_TICKS_FASTEST;
+    localparam [31:0] BIT_TICKS_SLOWEST = CLOCK_HZ / `BIT_CLOCK_HZ_MIN;
+    localparam [31:0] BIT_TICKS_HIGH    = BIT_TICKS_SLOWEST < BIT_TICKS_LOW ? BIT_TICKS_LOW : BIT_TICKS_SLOWEST;
     localparam [31:0] BIT_PERIOD_LOW   = {BIT_TICKS_LOW[15:0], 16'd0};
     localparam [31:0] BIT_PERIOD_HIGH  = {BIT_TICKS_HIGH[15:0], 16'd0};
     localparam [31:0] GEOMETRY         = {`CHANNELS, 5'd0, `WAVEFORM_WORDS, SLOTS[7:0]};

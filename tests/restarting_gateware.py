@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import Gateware, GatewareFactory, Permit
 from controller.gateware_model.pin_timing import READY_TICKS, TRIGGER_HIGH_TICKS
@@ -19,11 +19,11 @@ class RestartingGateware:
     ----------
     factory : GatewareFactory
         Makes each gateware.
-    parameters : Parameters
+    parameters : BuildParameters
         Of each.
     """
 
-    def __init__(self, factory: GatewareFactory, parameters: Parameters) -> None:
+    def __init__(self, factory: GatewareFactory, parameters: BuildParameters) -> None:
         self._factory = factory
         self._parameters = parameters
         self._origin = 0

@@ -6,7 +6,6 @@ zero. Tables are covered by a CRC-32 in the header, entries by one each.
 
 from __future__ import annotations
 
-import importlib.metadata
 import json
 import math
 import struct
@@ -15,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from controller import __version__
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS
 from controller.errors import BankError
@@ -155,7 +155,7 @@ def creator() -> str:
     model = 0
     for name in MODEL_CODE:
         model = zlib.crc32((package / name).read_bytes(), model)
-    return f"haptic-panel {importlib.metadata.version('haptic-panel')}, model {model:08x}"
+    return f"haptic-panel {__version__}, model {model:08x}"
 
 
 def begins_as_bank(start: bytes) -> bool:

@@ -14,10 +14,11 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
-from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature, Touch
+from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, in_system_folder
 from controller.board.panel import CHANNELS, Actuator, Bank, Driver, Limits, Plate, Waveform
 from controller.board.records import Record, load_toml
+from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
 
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES

@@ -20,22 +20,21 @@ from controller.errors import BankError, ConfigError
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
-from controller.service.installation import missing_package
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from controller.bank_builder.build import BuildReport
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 SMALLEST_PITCH_MM = 0.5
 MET_AHEAD_M = 5e-3  # beyond its region, a moving finger is met this far ahead; farther, where it was
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    bank = commands.add_parser("bank", help="build, describe and verify banks of precomputed waveforms")
+    bank = declare()
     actions = bank.add_subparsers(title="actions", metavar="ACTION", required=True)
     build = actions.add_parser("build", parents=[common], help="compute a bank from the board's plate model")
     build.add_argument("--scene", metavar="S", help="only cells that this scene can reach (default: the whole plate)")
@@ -156,6 +155,8 @@ def _build(
     try:
         from controller.bank_builder.build import build_bank
     except ModuleNotFoundError as error:
+        from controller.service.installation import missing_package
+
         missing = missing_package(error.name)
         if missing is None:
             raise

@@ -17,14 +17,14 @@ from controller.scene.scene_tables import SceneTable
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 NAMED = {"effects": EffectTable}  # tables of scene.toml by names of the user's choice
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    board = commands.add_parser("board", help="check a board and its scene; describe the keys of both files")
+    board = declare()
     actions = board.add_subparsers(title="actions", metavar="ACTION", required=True)
     check = actions.add_parser(
         "check",

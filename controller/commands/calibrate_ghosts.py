@@ -8,7 +8,7 @@ from typing import Any
 
 from controller.bank.reader import Bank
 from controller.board.board import Board
-from controller.board.devices import RecordingTouch
+from controller.board.touch_panels import RecordingTouch
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.bank import open_bank
 from controller.commands.calibrate_value import calibrate_value

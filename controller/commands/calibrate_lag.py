@@ -8,7 +8,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from controller.board.board import Board
-from controller.board.devices import RecordingTouch
+from controller.board.touch_panels import RecordingTouch
 from controller.clocks import MonotonicClock
 from controller.commands.calibrate_value import calibrate_value
 from controller.errors import ConfigError

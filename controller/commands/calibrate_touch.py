@@ -32,15 +32,13 @@ from controller.touch.source import TouchSource
 from controller.touch.touch_table import board_lines, check_writable, write_calibration
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    command = commands.add_parser(
-        "calibrate-touch",
+    command = declare(
         parents=[common],
-        help="map the touch panel's axes to the plate",
         description="Ask for a touch on each of 3 to 5 targets in turn, with one finger held still for a moment, and print the two "
         "lines for [touch] of board.toml with their residual. Coordinates are in mm from the plate's corner, x along the length.",
     )

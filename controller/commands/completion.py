@@ -7,17 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 SHELL_FILES = Path(__file__).with_name("shell")
 COMPLETIONS = {"bash": "haptic-panel.bash", "zsh": "_haptic-panel", "tcsh": "haptic-panel.tcsh"}
 
 
-def add(commands: Subparsers, _: argparse.ArgumentParser) -> None:
+def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    command = commands.add_parser(
-        "completion",
-        help="print a shell's completion of this command line",
+    command = declare(
         description="Print the completion for a shell. For one session: source <(haptic-panel completion bash). The wheel also "
         "installs it below share/bash-completion and share/zsh, and the manual page below share/man.",
     )

@@ -16,17 +16,15 @@ from controller.service.drivers import open_link, open_session
 from controller.service.link_examination import LinkExamined, examine_link
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 BITS = 1e6
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    doctor = commands.add_parser(
-        "doctor",
+    doctor = declare(
         parents=[common],
-        help="check every device, file and permission of a panel, and say what to do",
         description="Check every device, file and permission that the board needs. With --link, also send random bits to the "
         "FPGA at several speeds, propose one, fill its memory and chirp on each channel: outputs are on meanwhile, if the "
         "permits are given. End the service first. Exit code 1 if anything is wrong.",

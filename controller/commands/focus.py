@@ -12,15 +12,13 @@ from controller.commands.tables import amplitude_table, plain_table
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    point = commands.add_parser(
-        "focus",
+    point = declare(
         parents=[common],
-        help="focus on given points of the plate model, and measure the focus",
         description="Compute the waveform for one or several points without a bank, and measure the focus on the plate model.",
     )
     point.add_argument("--at", nargs=2, type=float, action="append", metavar=("X_MM", "Y_MM"), help="a point; may be repeated")

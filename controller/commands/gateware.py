@@ -26,12 +26,12 @@ from controller.gateware_model.model import GatewareModel
 from controller.service.drivers import gateware_hash, open_link, open_session, open_simulated
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    gateware = commands.add_parser("gateware", help="bring up an FPGA").add_subparsers(metavar="COMMAND", required=True)
+    gateware = declare().add_subparsers(metavar="COMMAND", required=True)
     check = gateware.add_parser(
         "check",
         parents=[common],

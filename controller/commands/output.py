@@ -6,10 +6,10 @@ import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]  # the type has no public name
+Declare = Callable[..., argparse.ArgumentParser]
+"""Makes the parser of a command, by the arguments of `argparse.ArgumentParser`; `cli` has given name and help text."""
 
 
 def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[dict[str, Any]], str]) -> None:

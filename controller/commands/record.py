@@ -16,15 +16,13 @@ from controller.service.drivers import open_input, open_panel
 from controller.touch.recorder import open_recording, record
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    command = commands.add_parser(
-        "record",
+    command = declare(
         parents=[common],
-        help="store the events of a touch panel",
         description="Store the events of the board's touch panel and the description of its device, in evemu's text format, until "
         "Ctrl-C or for some seconds. `haptic-panel run --replay FILE` replays it.",
     )

@@ -10,14 +10,12 @@ from controller.errors import ConfigError
 from controller.service.reloading import reload
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
 
 
-def add(commands: Subparsers, _: argparse.ArgumentParser) -> None:
+def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = commands.add_parser(
-        "reload",
-        help="have the service read its scene again, and report the result (for ExecReload=)",
+    parser = declare(
         description="Send SIGHUP to the service and wait until the scene is in force, or refused (exit code 78).",
     )
     parser.add_argument("--pid", type=int, metavar="N", help="its main process (default: $MAINPID)")

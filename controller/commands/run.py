@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.board.board import Board, load_board, simulated
-from controller.board.devices import RecordingTouch
 from controller.board.lookup import find_board
+from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
-from controller.commands.gateware import gateware_factory
 from controller.commands.output import picture_path, progress_bar, show
 from controller.commands.tables import run_table, service_table
 from controller.errors import ConfigError
@@ -23,16 +22,14 @@ from controller.service.drivers import recording_path
 from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
-    from controller.commands.output import Subparsers
+    from controller.commands.output import Declare
     from controller.simulation.focus_evaluation import Judged
 
 
-def add(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    play = commands.add_parser(
-        "run",
+    play = declare(
         parents=[common],
-        help="run a panel; without devices: replay a touch recording on the simulated panel",
         description="On a board with devices: play the scene for the fingers on its touch panel, until SIGTERM or Ctrl-C; "
         "SIGHUP reads the scene again. On the simulated board, or with --link: replay a touch recording through the event loop, "
         "the frame protocol and the gateware, apply every emission to a simulated plate, and print what the fingers felt. "
@@ -87,6 +84,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     """Replay a recording on the simulated panel, and print what its fingers would have felt."""
     from threadpoolctl import threadpool_limits
 
+    from controller.commands.gateware import gateware_factory
     from controller.simulation import focus_evaluation, run_figures, simulated_run
 
     picture = picture_path(options)

@@ -17,7 +17,7 @@ EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
 
 
 @dataclass(frozen=True)
-class Parameters:
+class BuildParameters:
     """Parameters built into the gateware, named as in `haptic_core.v`, in lower case.
 
     The limits are hard: the FPGA does not exceed them, whatever the host writes.
@@ -78,7 +78,7 @@ class Parameters:
 def main(board_toml: str, folder: str) -> None:
     """Print the parameters of the board in `board_toml`, with the Verilog in `folder`, as `NAME=32'dVALUE` for its Makefile."""
     try:
-        parameters = Parameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
+        parameters = BuildParameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
     except (ConfigError, OSError) as error:
         sys.exit(str(error))
     built_in = parameters.verilog().items() - {("BOARD", parameters.board)}  # its letters are top.v's

@@ -7,7 +7,7 @@ from typing import Final
 
 from controller.board.board import Board
 from controller.errors import LinkError
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.exchange import Exchange, Refused
 from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register, Result
 
@@ -83,13 +83,13 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
 
 def limits(board: Board) -> dict[Register, int]:
     """Limits that the board's gateware must be built with, by register."""
-    parameters = Parameters.of(board, 0)
+    parameters = BuildParameters.of(board, 0)
     return {register: getattr(parameters, register.name.lower()) for register in LIMITS}
 
 
 def settings(board: Board) -> dict[Register, int]:
     """Settings of a board, by register, in the order in which they are written; limits are set to those built in."""
-    built = Parameters.of(board, 0).verilog()
+    built = BuildParameters.of(board, 0).verilog()
     after_reset = {register: register.reset for register in Register if register.access == "RW"}
     values = {register: reset if isinstance(reset, int) else built[reset] for register, reset in after_reset.items()}
     return values | {Register.IDLE_WORD: board.idle_word}
@@ -124,9 +124,9 @@ def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
 
 def ramp_ticks(board: Board, bit_period: int) -> int:
     """FPGA clocks from DISARM to the end of the ramp of `board`, with `bit_period` in 65536ths of a clock."""
-    return (Parameters.of(board, 0).ramp_samples_reset + PIPELINE_SAMPLES) * bit_period >> 16
+    return (BuildParameters.of(board, 0).ramp_samples_reset + PIPELINE_SAMPLES) * bit_period >> 16
 
 
 def arming_ticks(board: Board, bit_period: int) -> int:
     """FPGA clocks from ARM to the end of the ramp of `board`, with settling of the high voltage; as in `ramp_ticks`."""
-    return Parameters.of(board, 0).hv_settle_ticks + ramp_ticks(board, bit_period)
+    return BuildParameters.of(board, 0).hv_settle_ticks + ramp_ticks(board, bit_period)

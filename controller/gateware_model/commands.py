@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.registers import (
     CHUNKS,
     IDENTITY_MAGIC,
@@ -45,11 +45,11 @@ class Commands:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : BuildParameters
         Of the module.
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: BuildParameters) -> None:
         self.registers = RegisterFile(parameters)
         self.gate = OutputGate(self.registers)
         self.buffers = Buffers(parameters.slots)

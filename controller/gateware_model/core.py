@@ -6,7 +6,7 @@ in the Verilog.
 
 from __future__ import annotations
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Fault, Register, Result, State
 from controller.fpga.status import Status, pack_status
@@ -27,7 +27,7 @@ class Core:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : BuildParameters
         Of the module.
     events : Events
         What happens in which tick.
@@ -41,7 +41,7 @@ class Core:
         Last tick in which the core is busy with a frame of the SPI, as far as is known.
     """
 
-    def __init__(self, parameters: Parameters, events: Events) -> None:
+    def __init__(self, parameters: BuildParameters, events: Events) -> None:
         self.commands = Commands(parameters)
         self.uart = UartPeripheral(UartTiming.of(parameters))
         self.spi_until = 0

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from enum import IntEnum
 from typing import Protocol
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS
 
@@ -65,5 +65,5 @@ class Gateware(Protocol):
         """Changes of the output pins since the last capture, up to now."""
 
 
-GatewareFactory = Callable[[Parameters], Gateware]
+GatewareFactory = Callable[[BuildParameters], Gateware]
 """Makes gateware that was just reset."""

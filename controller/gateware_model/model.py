@@ -6,7 +6,7 @@ Ticks are FPGA clocks since reset was released. An input that changes at tick t 
 
 from __future__ import annotations
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.fpga.frames import ECHO_DELAY_BYTES, FRAME_BYTES, HEADER
 from controller.fpga.registers import FILTER_TICKS, FrameType
@@ -33,13 +33,13 @@ class GatewareModel:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : BuildParameters
         Of the module.
     lines : bool
         Captures also contain every change of MISO and of the UART's transmit line.
     """
 
-    def __init__(self, parameters: Parameters, *, lines: bool = False) -> None:
+    def __init__(self, parameters: BuildParameters, *, lines: bool = False) -> None:
         self._events = Events()
         self._core = Core(parameters, self._events)
         self._commands = self._core.commands

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Self
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 
 READY_TICKS = 8  # from reset to the first frame and the first trigger: inputs pass through registers
 SELECT_TO_SCK_TICKS = 5  # least time from the fall of chip select to the first edge of SCK
@@ -33,7 +33,7 @@ class UartTiming:
     bit_256: int
 
     @classmethod
-    def of(cls, parameters: Parameters) -> Self:
+    def of(cls, parameters: BuildParameters) -> Self:
         """Timing at the default baud rate, for the clock in `parameters`."""
         return cls((parameters.clock_hz * 512 // BAUD + 1) // 2)
 

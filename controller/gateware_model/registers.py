@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,
@@ -27,7 +27,7 @@ class RegisterFile:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : BuildParameters
         With which the gateware is built.
 
     Attributes
@@ -38,7 +38,7 @@ class RegisterFile:
         Settings of the stages' limits.
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: BuildParameters) -> None:
         self.parameters = p = parameters
         fewest = max(p.clock_hz // BIT_CLOCK_HZ_MAX, BIT_TICKS_MIN)
         self.bit_period_low = fewest << 16

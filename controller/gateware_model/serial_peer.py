@@ -19,7 +19,7 @@ from cobs import cobs
 from controller.board.board import load_board
 from controller.board.lookup import data_folder, find_board
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.serial_link import ANSWER_BYTES, BITS_PER_BYTE
 from controller.gateware_model.gateware import Gateware, Permit
@@ -148,7 +148,7 @@ def main(name: str = "simulated") -> None:
     """Serve the gateware of the board `name` in real time, until interrupted."""
     board = load_board(find_board(name))
     link = board.link
-    model = GatewareModel(Parameters.of(board, build_hash(data_folder("fpga_rtl"))))
+    model = GatewareModel(BuildParameters.of(board, build_hash(data_folder("fpga_rtl"))))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     with contextlib.suppress(KeyboardInterrupt), PseudoTerminal(panel.receive) as terminal:
         sys.stdout.write(f"{terminal.device}\n")

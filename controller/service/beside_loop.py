@@ -12,7 +12,8 @@ import sys
 
 import msgspec
 
-from controller.board.devices import Realtime, Temperature, Touch
+from controller.board.devices import Realtime, Temperature
+from controller.board.touch_panels import Touch
 from controller.service.realtime import enter_realtime
 from controller.service.temperature_sensors import sensor_of, serve_sensor
 from controller.touch.panel_process import serve_panel

@@ -18,8 +18,9 @@ from controller.bank.file_format import MODELLED
 from controller.bank.inspection import wrong_pitch
 from controller.bank.reader import Bank
 from controller.board.board import Board
-from controller.board.devices import LinkSettings, LinuxInputTouch, Realtime, RecordingTouch
+from controller.board.devices import LinkSettings, Realtime
 from controller.board.paths import SERVICE, bank_path, service_user
+from controller.board.touch_panels import LinuxInputTouch, RecordingTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link

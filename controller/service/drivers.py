@@ -14,13 +14,10 @@ from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.lazy_link import LazyLink
 from controller.fpga.link import Link
 from controller.fpga.session import Session
-from controller.gateware_model.gateware import GatewareFactory
-from controller.gateware_model.model import GatewareModel
-from controller.gateware_model.simulated_link import SimulatedLink
 from controller.touch import panels
 from controller.touch.awaited_reader import AwaitedReader
 from controller.touch.event_reader import EventReader
@@ -33,6 +30,8 @@ from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
 
 if TYPE_CHECKING:
+    from controller.gateware_model.gateware import GatewareFactory
+    from controller.gateware_model.simulated_link import SimulatedLink
     from controller.service.temperature import Thermometer
 
 NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
@@ -44,7 +43,7 @@ def gateware_hash() -> int:
     return build_hash(data_folder("fpga_rtl"))
 
 
-def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory = GatewareModel) -> SimulatedLink:
+def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareFactory | None = None) -> SimulatedLink:
     """Link to simulated gateware.
 
     Parameters
@@ -52,10 +51,13 @@ def open_simulated(board: Board, now_s: Callable[[], float], gateware: GatewareF
     board : Board
     now_s : callable
         The host's clock.
-    gateware : GatewareFactory
-        Makes the simulated gateware: the model, or the compiled Verilog.
+    gateware : GatewareFactory, optional
+        Makes the simulated gateware, such as the compiled Verilog; the model by default.
     """
-    return SimulatedLink(board.link, now_s, gateware(Parameters.of(board, gateware_hash())))
+    from controller.gateware_model.model import GatewareModel
+    from controller.gateware_model.simulated_link import SimulatedLink
+
+    return SimulatedLink(board.link, now_s, (gateware or GatewareModel)(BuildParameters.of(board, gateware_hash())))
 
 
 def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = False) -> Link:

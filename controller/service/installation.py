@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
+import re
 import shlex
 import sys
 from urllib.parse import unquote, urlsplit
@@ -36,7 +37,8 @@ def missing_package(name: str | None) -> str | None:
 def _source() -> tuple[str, list[str]]:
     """Folder or wheel that pip installed this package from, as pip recorded it, and the options to install it again."""
     distribution = importlib.metadata.distribution(DISTRIBUTION)
-    wheel = f"{DISTRIBUTION.replace('-', '_')}-{distribution.version}-py3-none-any.whl"
+    tag = re.search(r"^Tag: (\S+)$", distribution.read_text("WHEEL") or "", re.MULTILINE)
+    wheel = f"{DISTRIBUTION.replace('-', '_')}-{distribution.version}-{tag[1] if tag else 'py3-none-any'}.whl"
     noted = json.loads(distribution.read_text("direct_url.json") or "{}")
     url = urlsplit(noted.get("url", ""))
     if url.scheme != "file":

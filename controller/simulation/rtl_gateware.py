@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.pin_timing import TRIGGER_HIGH_TICKS, InputTiming, UartTiming
@@ -33,7 +33,7 @@ class RtlGateware:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : BuildParameters
         Parameters of the Verilog module.
     compiling : callable
         Called before the library is built, which takes several seconds.
@@ -44,7 +44,7 @@ class RtlGateware:
         If the library cannot be built.
     """
 
-    def __init__(self, parameters: Parameters, compiling: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, parameters: BuildParameters, compiling: Callable[[], None] = lambda: None) -> None:
         self._library = _load(build_library(parameters.verilog(), compiling))
         self._panel = self._library.panel_open()
         weakref.finalize(self, self._library.panel_close, self._panel)

@@ -14,7 +14,7 @@ from typing import Final
 
 from gpiod.line import Edge
 
-from controller.board.devices import Ft5x06Touch
+from controller.board.touch_panels import Ft5x06Touch
 from controller.errors import TouchError
 from controller.touch.contact_events import MAX_CONTACTS, Contact, describe
 from controller.touch.event_reader import DeviceDescription

@@ -12,7 +12,7 @@ from typing import Final
 import smbus2
 from gpiod.line import Edge
 
-from controller.board.devices import Gt911Touch
+from controller.board.touch_panels import Gt911Touch
 from controller.errors import TouchError
 from controller.touch.contact_events import MAX_CONTACTS, Contact, describe
 from controller.touch.event_reader import DeviceDescription

@@ -13,7 +13,7 @@ from typing import Final, Protocol
 
 from gpiod.line import Edge
 
-from controller.board.devices import I2cTouch
+from controller.board.touch_panels import I2cTouch
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
 from controller.touch.contact_events import Contact, ContactEvents

@@ -8,10 +8,9 @@ import fcntl
 import struct
 from typing import Final
 
-import evdev
-
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
+from controller.touch.evdev_library import evdev
 from controller.touch.event_codes import Protocol, protocol_of_device
 from controller.touch.event_reader import AxisInfo, DeviceDescription
 

@@ -14,11 +14,10 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Final
 
-import evdev
-
-from controller.board.devices import LinuxInputTouch
+from controller.board.touch_panels import LinuxInputTouch
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
+from controller.touch.evdev_library import evdev
 from controller.touch.event_codes import EV_SYN, SYN_DROPPED, SYN_REPORT, Protocol, protocol_of_device
 from controller.touch.event_reader import DeviceDescription, Event
 from controller.touch.input_device import open_touch_device

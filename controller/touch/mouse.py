@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import evdev
-
 from controller.errors import TouchError
+from controller.touch.evdev_library import evdev
 from controller.touch.event_capture import EV_REL, REL_X, REL_Y
 from controller.touch.event_reader import Event
 from controller.touch.input_device import use_monotonic_clock

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Final, NamedTuple, cast
 
-from controller.board.devices import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch, TouchPanel
+from controller.board.touch_panels import Ft5x06Touch, Gt911Touch, LinuxInputTouch, SerialTouch, TouchPanel
 from controller.errors import TouchError
 from controller.touch.event_reader import EventReader
 

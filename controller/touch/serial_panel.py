@@ -17,7 +17,7 @@ from typing import Final
 
 import serial
 
-from controller.board.devices import SerialTouch
+from controller.board.touch_panels import SerialTouch
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event

@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from math import hypot, inf
 from typing import Any
 
-from controller.board.devices import TouchPanel
+from controller.board.touch_panels import TouchPanel
 from controller.touch.ghost_guard import GhostGuard, QuietBudget
 from controller.touch.prediction import Motion
 from controller.touch.reports import ReportRate

@@ -9,7 +9,8 @@ from collections import deque
 
 import pytest
 
-from controller.application_socket.client import PanelClient, main
+from controller.application_socket.client import PanelClient
+from controller.application_socket.client_commands import main
 from controller.board.panel_state import Condition, PanelState
 from controller.errors import ControllerError, LinkError
 from controller.loop.commands import Outcome

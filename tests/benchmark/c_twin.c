@@ -36,7 +36,7 @@ struct sample { int finger, contact; double x_m, y_m, time_s, size_m; };
 struct motion { double x_m, y_m, time_s, vx, vy, fx_m, fy_m, fvx, fvy, ax_m, ay_m; int rested; };
 struct tracked { int number, finger, reports, played, refused; double first_s, lost_s; struct motion motion; };
 struct state { int finger, region, due; double x_m, y_m, way_m, anchor_x_m, anchor_y_m; };
-struct key { int known, cell, lone; long x, y; double x_m, y_m; };
+struct key { int known, cell, count; double x_m, y_m; long at[POINTS][2]; }; /* a place, or several on the lattice */
 
 static struct config c;
 static struct axes axes;
@@ -493,21 +493,118 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
 }
 
-/* Plain loops. With -DVECTORS the compiler makes vectors of them, of the widest kind that the machine has. */
-#if defined(VECTORS) && defined(__x86_64__)
-#define FAST __attribute__((target_clones("avx2", "default"), optimize("O3")))
-#elif defined(VECTORS)
-#define FAST __attribute__((optimize("O3")))
+/* Words of a place and of several places: plain loops, or by -DVECTORS vectors of 128 bits, which are SSE and NEON alike. */
+#ifdef VECTORS
+
+typedef int8_t i8x16 __attribute__((vector_size(16), aligned(1), may_alias));
+typedef uint8_t u8x16 __attribute__((vector_size(16)));
+typedef int16_t i16x8 __attribute__((vector_size(16)));
+typedef uint16_t u16x8 __attribute__((vector_size(16)));
+typedef int32_t i32x4 __attribute__((vector_size(16)));
+typedef uint64_t u64x2 __attribute__((vector_size(16)));
+typedef float f32x4 __attribute__((vector_size(16)));
+enum { PER = 8, GROUPS = CHANNELS / PER }; /* vectors of one sample */
+
+static i16x8 rows[POINTS][VALUES / PER];
+
+/* 16 levels, eight at a time: each the upper byte of 16 bits, and shifted down */
+#define LOW(levels) ((i16x8)__builtin_shuffle((u8x16){0}, (u8x16)(levels), (u8x16){0, 16, 0, 17, 0, 18, 0, 19, 0, 20, 0, 21, 0, 22, 0, 23}) >> 8)
+#define HIGH(levels) ((i16x8)__builtin_shuffle((u8x16){0}, (u8x16)(levels), (u8x16){0, 24, 0, 25, 0, 26, 0, 27, 0, 28, 0, 29, 0, 30, 0, 31}) >> 8)
+#define LEVELS(cell, at) (*(const i8x16 *)(p->from[cell] + (at)))
+
+/* Four cells at most: sixteen values of their weighted sum. */
+static inline void sixteen(const struct patch *p, int at, i16x8 out[2])
+{
+    i8x16 levels = LEVELS(0, at);
+    out[0] = LOW(levels);
+    out[1] = HIGH(levels);
+    if (p->cells == 1) return;
+    out[0] *= p->weight[0];
+    out[1] *= p->weight[0];
+    for (int cell = 1; cell < p->cells; cell++) {
+        levels = LEVELS(cell, at);
+        out[0] += LOW(levels) * p->weight[cell];
+        out[1] += HIGH(levels) * p->weight[cell];
+    }
+}
+
+/* Sixteen comparisons, 0 or -1, as sixteen bits */
+static inline uint32_t sixteen_bits(i16x8 low, i16x8 high)
+{
+    u64x2 ones = (u64x2)(__builtin_shuffle((u8x16)low, (u8x16)high, (u8x16){0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30}) & 1);
+    return (uint32_t)(ones[0] * 0x0102040810204080ULL >> 56) | (uint32_t)(ones[1] * 0x0102040810204080ULL >> 56) << 8;
+}
+
+static void interpolate(double x_m, double y_m)
+{
+    struct patch patch, *p = &patch;
+    i16x8 above[GROUPS], v[2];
+    memcpy(above, low_at, sizeof above);
+    patch_at(x_m, y_m, p);
+    for (int n = 0; n < SAMPLES; n++) {
+        uint32_t word = 0;
+        for (int half = 0; half < 2; half++) {
+            sixteen(p, n * CHANNELS + 16 * half, v);
+            word |= sixteen_bits(v[0] > above[2 * half], v[1] > above[2 * half + 1]) << 16 * half;
+        }
+        words[n] = word;
+    }
+}
+
+static void compose(const double (*points)[2], int count)
+{
+    i16x8 flips[GROUPS];
+    float weight[POINTS];
+    memcpy(flips, flip, sizeof flips);
+    for (int i = 0; i < count; i++) {
+        struct patch patch, *p = &patch;
+        int64_t size = 0;
+        patch_at(points[i][0], points[i][1], p);
+        for (int n = 0; n < SAMPLES;) {
+            u16x8 low = {0}, high = {0}; /* bytes of the absolute values: 32 samples of them fit 16 bits */
+            for (int end = n + 32 < SAMPLES ? n + 32 : SAMPLES; n < end; n++)
+                for (int half = 0; half < 2; half++) {
+                    i16x8 *v = rows[i] + n * GROUPS + 2 * half;
+                    sixteen(p, n * CHANNELS + 16 * half, v);
+                    for (int k = 0; k < 2; k++) {
+                        i16x8 value = v[k] *= flips[2 * half + k], sign = value >> 15;
+                        u16x8 magnitude = (u16x8)((value ^ sign) - sign);
+                        low += magnitude & 255;
+                        high += magnitude >> 8;
+                    }
+                }
+            for (int k = 0; k < PER; k++) size += low[k] + 256 * (int64_t)high[k];
+        }
+        weight[i] = (float)(1.0 / (size ? (double)(float)size : 1.0));
+    }
+    for (int n = 0; n < SAMPLES; n++) {
+        uint32_t word = 0;
+        for (int half = 0; half < 2; half++) {
+            i16x8 bits[2];
+            for (int k = 0; k < 2; k++) {
+                f32x4 total[2] = {{0}, {0}};
+                for (int i = 0; i < count; i++) {
+                    i16x8 v = rows[i][n * GROUPS + 2 * half + k], zero = {0};
+                    i32x4 first = (i32x4)__builtin_shuffle(zero, v, (i16x8){0, 8, 0, 9, 0, 10, 0, 11}) >> 16;
+                    i32x4 last = (i32x4)__builtin_shuffle(zero, v, (i16x8){0, 12, 0, 13, 0, 14, 0, 15}) >> 16;
+                    total[0] += weight[i] * __builtin_convertvector(first, f32x4);
+                    total[1] += weight[i] * __builtin_convertvector(last, f32x4);
+                }
+                bits[k] = __builtin_shuffle((i16x8)(total[0] > 0), (i16x8)(total[1] > 0), (i16x8){0, 2, 4, 6, 8, 10, 12, 14});
+            }
+            word |= sixteen_bits(bits[0], bits[1]) << 16 * half;
+        }
+        words[n] = word ^ (uint32_t)c.idle_word;
+    }
+}
+
 #else
-#define FAST
-#endif
-#define INLINE static inline __attribute__((always_inline))
 
 static int16_t sum_of[VALUES];
 static uint8_t bits_of[VALUES];
 static float row[VALUES], total_of[VALUES];
 
-INLINE void add_up(const struct patch *p)
+static void add_up(const struct patch *p)
 {
     const int8_t *a = p->from[0], *b = p->from[1], *d = p->from[2], *e = p->from[3];
     int16_t wa = p->weight[0], wb = p->weight[1], wd = p->weight[2], we = p->weight[3];
@@ -519,7 +616,7 @@ INLINE void add_up(const struct patch *p)
         for (int i = 0; i < VALUES; i++) sum_of[i] = a[i];
 }
 
-INLINE void pack(uint32_t turned)
+static void pack(uint32_t turned)
 {
     for (int n = 0; n < SAMPLES; n++) {
         uint64_t eights[4];
@@ -530,7 +627,7 @@ INLINE void pack(uint32_t turned)
     }
 }
 
-FAST static void interpolate(double x_m, double y_m)
+static void interpolate(double x_m, double y_m)
 {
     struct patch p;
     patch_at(x_m, y_m, &p);
@@ -540,7 +637,7 @@ FAST static void interpolate(double x_m, double y_m)
     pack(0);
 }
 
-FAST static void compose(const double (*points)[2], int count)
+static void compose(const double (*points)[2], int count)
 {
     for (int i = 0; i < count; i++) {
         struct patch p;
@@ -567,6 +664,8 @@ FAST static void compose(const double (*points)[2], int count)
     pack((uint32_t)c.idle_word);
 }
 
+#endif
+
 static void put16(uint8_t *at, uint32_t value) { at[0] = value; at[1] = value >> 8; }
 static void put32(uint8_t *at, uint32_t value) { memcpy(at, &value, 4); }
 
@@ -587,8 +686,30 @@ static uint8_t *seal(uint8_t *start, int size)
     return start + size + 4;
 }
 
-static int frames(const uint8_t *payload, uint32_t crc, int sequence, int slot, int stop, int shorts, int count, int start,
-                  uint32_t period_ticks, uint64_t when_ticks)
+/* PLAY, behind a STOP and `nops`, and the NOP that fetches its result; the end of it all. */
+static uint8_t *play(uint8_t *at, int sequence, int slot, int stop, int nops, int count, int start, uint32_t period_ticks,
+                     uint64_t when_ticks)
+{
+    if (stop) {
+        put32(frame(at, 2, sequence++, 24, 8), stop); /* register CONTROL */
+        at = seal(at, 32);
+    }
+    for (int k = 0; k < nops; k++) {
+        frame(at, 0, sequence++, 24, 0);
+        at = seal(at, 32);
+    }
+    uint8_t *p = frame(at, 5, sequence++, 24, slot); /* first, length, count, start, inverted, period, mask, when */
+    put16(p + 4, count);
+    p[6] = start;
+    put32(p + 8, period_ticks);
+    put32(p + 12, 0xffffffff);
+    memcpy(p + 16, &when_ticks, 8);
+    at = seal(at, 32);
+    frame(at, 0, sequence, 24, 0);
+    return seal(at, 32);
+}
+
+static uint8_t *upload(const uint8_t *payload, uint32_t crc, int sequence, int slot)
 {
     uint8_t *at = sent;
     for (int k = 0; k < CHUNKS; k++) {
@@ -598,25 +719,7 @@ static int frames(const uint8_t *payload, uint32_t crc, int sequence, int slot, 
     uint8_t *p = frame(at, 4, sequence++, 24, slot);
     put32(p, SAMPLES);
     put32(p + 4, crc);
-    at = seal(at, 32);
-    if (stop) {
-        put32(frame(at, 2, sequence++, 24, 8), stop); /* register CONTROL */
-        at = seal(at, 32);
-    }
-    for (int k = 0; k < shorts - 3 - !!stop; k++) {
-        frame(at, 0, sequence++, 24, 0);
-        at = seal(at, 32);
-    }
-    p = frame(at, 5, sequence++, 24, slot); /* first, length, count, start, inverted, period, mask, when */
-    put16(p + 4, count);
-    p[6] = start;
-    put32(p + 8, period_ticks);
-    put32(p + 12, 0xffffffff);
-    memcpy(p + 16, &when_ticks, 8);
-    at = seal(at, 32);
-    frame(at, 0, sequence, 24, 0);
-    at = seal(at, 32);
-    return at - sent;
+    return seal(at, 32);
 }
 
 static struct tracked *finger_of(int finger)
@@ -628,8 +731,13 @@ static struct tracked *finger_of(int finger)
     return 0;
 }
 
-static int take_due(const int *fingers, int count)
+/* What fingers are due, and the key of where they will be; 0, or -1: one was not due here, -2: it is not known here. */
+static int aim(const int *fingers, int count, double focus_s, struct key *key)
 {
+    memset(key, 0, sizeof *key);
+    key->known = 1;
+    key->count = count;
+    key->cell = -1;
     for (int i = 0; i < count; i++) {
         struct state *s = states, *end = states + state_count;
         while (s < end && s->finger != fingers[i]) s++;
@@ -637,76 +745,89 @@ static int take_due(const int *fingers, int count)
             if (!s->due) return -1;
             s->due = 0;
         }
+        struct tracked *t = finger_of(fingers[i]);
+        if (!t) return -2;
+        double x_m = t->motion.x_m, y_m = t->motion.y_m;
+        if (t->lost_s == INFINITY) motion_place(&t->motion, focus_s, known_s, c.lag_s, &x_m, &y_m);
+        x_m = fmin(fmax(x_m, 0), c.length_m);
+        y_m = fmin(fmax(y_m, 0), c.width_m);
+        if (count == 1) {
+            double ix = fmin(fmax(rint((x_m - c.x0_m) / c.pitch_m), 0), c.nx - 1);
+            double iy = fmin(fmax(rint((y_m - c.y0_m) / c.pitch_m), 0), c.ny - 1);
+            if (hypot(x_m - c.x0_m - ix * c.pitch_m, y_m - c.y0_m - iy * c.pitch_m) <= c.snap_m) {
+                key->cell = (int)(iy * c.nx + ix);
+                key->x_m = c.x0_m + ix * c.pitch_m;
+                key->y_m = c.y0_m + iy * c.pitch_m;
+                return 0;
+            }
+        }
+        long x = lrint(x_m / c.lattice_m), y = lrint(y_m / c.lattice_m);
+        int j = i; /* in the order of their places */
+        for (; j && (key->at[j - 1][0] > x || (key->at[j - 1][0] == x && key->at[j - 1][1] > y)); j--)
+            memcpy(key->at[j], key->at[j - 1], sizeof *key->at);
+        key->at[j][0] = x;
+        key->at[j][1] = y;
     }
+    key->x_m = key->at[0][0] * c.lattice_m;
+    key->y_m = key->at[0][1] * c.lattice_m;
     return 0;
 }
 
-/* Fingers were played from a slot that held their waveform already; -1: one of them was not due here. */
-int twin_played(const int *fingers, int count)
+/* The slot that holds a waveform for this key; -1: none that is known here. */
+static int find(const struct key *key)
 {
-    return take_due(fingers, count);
+    for (int i = 0; i < c.slots; i++)
+        if (resident[i].known && resident[i].count == key->count) {
+            int same = key->count == 1 ? hypot(resident[i].x_m - key->x_m, resident[i].y_m - key->y_m) <= c.near_m
+                                       : !memcmp(resident[i].at, key->at, sizeof key->at);
+            if (same) return i;
+        }
+    return -1;
 }
 
-/* An upload; how long it took, or -1: a finger was not due here, -2: it is not known here. */
-int64_t twin_upload(const int *fingers, int count, double focus_s, int slot, int sequence, int stop, int shorts, int plays, int start,
-                    uint32_t period_ticks, uint64_t when_ticks)
+/* What stands in a message besides waveforms, as the loop has decided it; nothing here follows from reports. */
+struct told { double focus_s; int slot, sequence, stop, nops, count, start; uint32_t period_ticks; uint64_t when_ticks; };
+
+/* A play from a slot; how long it took, or the error of `aim`. */
+int64_t twin_play(const int *fingers, int count, const struct told *told)
 {
     int64_t began_ns = now_ns();
-    double points[POINTS][2];
+    struct key key;
+    int error = aim(fingers, count, told->focus_s, &key);
+    if (error) return error;
+    find(&key); /* what was sent ahead, and what is near enough, is the loop's to judge: the slot is told */
+    play(sent, told->sequence, told->slot, told->stop, 0, told->count, told->start, told->period_ticks, told->when_ticks);
+    return now_ns() - began_ns;
+}
+
+/* An upload and its play; how long it took, or the error of `aim`. */
+int64_t twin_upload(const int *fingers, int count, const struct told *told)
+{
+    int64_t began_ns = now_ns();
     const uint8_t *payload = (const uint8_t *)words;
-    struct key key = {0};
-    uint32_t crc = 0;
-    if (take_due(fingers, count)) return -1;
-    for (int i = 0; i < count; i++) {
-        struct tracked *t = finger_of(fingers[i]);
-        if (!t) return -2;
-        if (t->lost_s != INFINITY) {
-            points[i][0] = t->motion.x_m;
-            points[i][1] = t->motion.y_m;
-        } else
-            motion_place(&t->motion, focus_s, known_s, c.lag_s, &points[i][0], &points[i][1]);
-        points[i][0] = fmin(fmax(points[i][0], 0), c.length_m);
-        points[i][1] = fmin(fmax(points[i][1], 0), c.width_m);
-    }
-    if (count == 1) {
-        double x_m = points[0][0], y_m = points[0][1];
-        double ix = fmin(fmax(rint((x_m - c.x0_m) / c.pitch_m), 0), c.nx - 1);
-        double iy = fmin(fmax(rint((y_m - c.y0_m) / c.pitch_m), 0), c.ny - 1);
-        key.known = key.lone = 1;
-        key.cell = -1;
-        if (hypot(x_m - c.x0_m - ix * c.pitch_m, y_m - c.y0_m - iy * c.pitch_m) <= c.snap_m) {
-            key.cell = (int)(iy * c.nx + ix);
-            key.x_m = c.x0_m + ix * c.pitch_m;
-            key.y_m = c.y0_m + iy * c.pitch_m;
-            payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
-            crc = c.crc_of[c.entry_of[key.cell]];
-        } else {
-            key.x_m = rint(x_m / c.lattice_m) * c.lattice_m;
-            key.y_m = rint(y_m / c.lattice_m) * c.lattice_m;
-        }
-        for (int i = 0; i < c.slots; i++)
-            if (i != slot && resident[i].known && hypot(resident[i].x_m - key.x_m, resident[i].y_m - key.y_m) <= c.near_m)
-                key.x = i; /* the search; what is found near there is the loop's to judge: it asks for an earlier start */
-        if (key.cell < 0) interpolate(key.x_m, key.y_m);
+    struct key key;
+    uint32_t crc;
+    int error = aim(fingers, count, told->focus_s, &key);
+    if (error) return error;
+    find(&key);
+    if (key.cell >= 0) {
+        payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
+        crc = c.crc_of[c.entry_of[key.cell]];
     } else {
-        long lattice[POINTS][2];
-        for (int i = 0; i < count; i++) { /* in the order of their places, as the key has them */
-            long x = lrint(points[i][0] / c.lattice_m), y = lrint(points[i][1] / c.lattice_m);
-            int j = i;
-            for (; j && (lattice[j - 1][0] > x || (lattice[j - 1][0] == x && lattice[j - 1][1] > y)); j--)
-                memcpy(lattice[j], lattice[j - 1], sizeof *lattice);
-            lattice[j][0] = x;
-            lattice[j][1] = y;
-        }
+        double points[POINTS][2];
         for (int i = 0; i < count; i++) {
-            points[i][0] = lattice[i][0] * c.lattice_m;
-            points[i][1] = lattice[i][1] * c.lattice_m;
+            points[i][0] = key.at[i][0] * c.lattice_m;
+            points[i][1] = key.at[i][1] * c.lattice_m;
         }
-        compose((const double(*)[2])points, count);
+        if (count == 1)
+            interpolate(key.x_m, key.y_m);
+        else
+            compose((const double(*)[2])points, count);
+        crc = c.crc32(0, payload, 4 * SAMPLES);
     }
-    resident[slot] = key;
-    if (payload == (const uint8_t *)words) crc = c.crc32(0, payload, 4 * SAMPLES); /* a cell's is that of the bank's table */
-    frames(payload, crc, sequence, slot, stop, shorts, plays, start, period_ticks, when_ticks);
+    resident[told->slot] = key;
+    play(upload(payload, crc, told->sequence, told->slot), told->sequence + CHUNKS + 1, told->slot, told->stop, told->nops,
+         told->count, told->start, told->period_ticks, told->when_ticks);
     return now_ns() - began_ns;
 }
 

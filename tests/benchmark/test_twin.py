@@ -5,6 +5,7 @@ import pytest
 from controller.bank.reader import Bank
 from controller.touch import prediction
 from tests.benchmark.host_latency import play
+from tests.benchmark.twin import PLAIN, VECTORS_128
 
 EMISSIONS = 700
 
@@ -15,7 +16,10 @@ def test_the_twin_gives_the_bytes_that_the_loop_sends(board, bank_file, tmp_path
     assert twin.checked == counters.uploads > EMISSIONS / 2
     assert twin.composed > 50
     assert twin.bits <= twin.composed
-    assert twin.replay().count == twin.replay("-DVECTORS").count == twin.checked
+    assert twin.played == counters.resident > 20
+    for flags in (PLAIN, VECTORS_128):
+        again = twin.replay(flags)
+        assert (again["uploads"].count, again["resident"].count) == (twin.checked, twin.played)
 
 
 def test_a_loop_that_predicts_otherwise_is_told_apart(board, bank_file, tmp_path, monkeypatch):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import platform
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,6 +24,8 @@ from controller.touch.linux_input import INPUT_EVENT
 from controller.touch.tracker import Tracker
 from controller.waveforms.selection import LATTICE_M, REUSE_RADIUS_M
 
+PLAIN = ("-O2", "-fno-tree-vectorize")
+VECTORS_128 = ("-O3", "-DVECTORS", *(("-msse4.2", "-mno-avx") if platform.machine() == "x86_64" else ()))
 SOURCE = Path(__file__).with_name("c_twin.c")
 REGIONS = 16
 
@@ -47,17 +50,23 @@ class PanelAxes(ctypes.Structure):
     )
 
 
-def compiled(folder: Path, *flags: str) -> ctypes.CDLL:
-    """The twin as a library, made by `cc -O2`; another one each time, with a state of its own."""
-    library = folder / f"c_twin_{len(list(folder.iterdir()))}.so"
-    subprocess.run(
-        ["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", *flags, "-o", library, SOURCE, "-lm"], check=True
+class Told(ctypes.Structure):
+    _fields_ = (
+        ("focus_s", ctypes.c_double),
+        *((name, ctypes.c_int) for name in ("slot", "sequence", "stop", "nops", "count", "start")),
+        ("period_ticks", ctypes.c_uint32),
+        ("when_ticks", ctypes.c_uint64),
     )
+
+
+def compiled(folder: Path, *flags: str) -> ctypes.CDLL:
+    """The twin as a library; another one each time, with a state of its own."""
+    library = folder / f"c_twin_{len(list(folder.iterdir()))}.so"
+    warnings = ("-Wall", "-Wextra", "-Werror")
+    subprocess.run(["cc", *flags, *warnings, "-ffp-contract=off", "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
     twin = ctypes.CDLL(str(library))
-    twin.twin_read.restype = twin.twin_upload.restype = ctypes.c_int64
+    twin.twin_read.restype = twin.twin_upload.restype = twin.twin_play.restype = ctypes.c_int64
     twin.twin_read.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double)
-    number = ctypes.c_int
-    twin.twin_upload.argtypes = (ctypes.c_void_p, number, ctypes.c_double, *[number] * 6, ctypes.c_uint32, ctypes.c_uint64)
     twin.twin_sent.restype = ctypes.c_void_p
     return twin
 
@@ -67,15 +76,15 @@ class Twin:
 
     Attributes
     ----------
-    checked, composed, bits : int
+    checked, composed, bits, played : int
         Uploads compared; those of several fingers; bits in which the latter differ (float32 sums are rounded
-        in another order). Everything else has to be equal, byte for byte.
+        in another order); plays from a slot compared. Everything else has to be equal, byte for byte.
     """
 
     def __init__(self, folder: Path, board: Board, scene: Scene, bank: Bank, descriptions: Sequence[DeviceDescription]) -> None:
-        self.checked = self.composed = self.bits = 0
+        self.checked = self.composed = self.bits = self.played = 0
         self._folder = folder
-        self._twin = compiled(folder)
+        self._twin = compiled(folder, *VECTORS_128)
         self._descriptions = descriptions
         self._board = board
         self._panel: int | None = None
@@ -94,17 +103,22 @@ class Twin:
         """A turn of the loop begins."""
         self._calls.append(())
 
-    def replay(self, *flags: str) -> LatencyHistogram:
-        """All once more without the loop: its times of an upload, from the read of the report, if that was in the same turn.
+    def replay(self, flags: Sequence[str]) -> dict[str, LatencyHistogram]:
+        """All once more without the loop: its times from the read of the report, if that was in the same turn, by kind.
 
         Caches are then as the twin leaves them, not as the loop has just filled them.
 
         Parameters
         ----------
-        flags : str
-            For the compiler, beyond -O2: "-DVECTORS" for the best that the machine has.
+        flags : sequence of str
+            For the compiler: `PLAIN`, or `VECTORS_128`.
+
+        Returns
+        -------
+        dict
+            "uploads" and "resident".
         """
-        host = LatencyHistogram()
+        found = {"twin_upload": LatencyHistogram(), "twin_play": LatencyHistogram()}
         twin = compiled(self._folder, *flags)
         twin.twin_begin(ctypes.byref(self._config))
         calls = [(call[0], getattr(twin, call[0]), call[1:]) if call else ("", None, ()) for call in self._calls]
@@ -116,10 +130,10 @@ class Twin:
             took_ns = function(*arguments)
             if name == "twin_read":
                 read_ns += took_ns
-            elif name == "twin_upload":
+            elif name in found:
                 assert took_ns > 0, f"the twin does not know what it played before ({took_ns})"
-                host.record(took_ns + read_ns)
-        return host
+                found[name].record(took_ns + read_ns)
+        return {"uploads": found["twin_upload"], "resident": found["twin_play"]}
 
     def _call(self, name: str, *arguments: Any) -> int:
         self._calls.append((name, *arguments))
@@ -160,36 +174,25 @@ class Twin:
         kinds = [sent[end - FRAME_BYTES * back + 2] for back in range(shorts, 0, -1)]
         if FrameType.PLAY not in kinds:
             return
-        fingers = (ctypes.c_int * len(asked))(*asked)
-        if len(lengths) == shorts:
-            assert self._call("twin_played", fingers, len(asked)) == 0, "the loop plays a finger that is not due in the twin"
-            return
         play = end - FRAME_BYTES * (shorts - kinds.index(FrameType.PLAY))
-        _, _, _, _, slot, _, _, plays, start, _, period_ticks, _, when_ticks = PLAY.unpack_from(sent, play)
+        _, _, _, _, slot, _, _, count, start, _, period_ticks, _, when_ticks = PLAY.unpack_from(sent, play)
         stop = Control.STOP if FrameType.WRITE in kinds else 0
-        took_ns = self._call(
-            "twin_upload",
-            fingers,
-            len(asked),
-            focus_s,
-            slot,
-            sent[3],
-            stop,
-            shorts,
-            plays,
-            start,
-            period_ticks,
-            when_ticks,
-        )
+        nops = kinds.count(FrameType.NOP) - 1
+        told = Told(focus_s, slot, sent[3], stop, nops, count, start, period_ticks, when_ticks)
+        fingers = (ctypes.c_int * len(asked))(*asked)
+        resident = len(lengths) == shorts
+        took_ns = self._call("twin_play" if resident else "twin_upload", fingers, len(asked), ctypes.byref(told))
         assert took_ns > 0, f"the twin does not know what the loop plays ({took_ns})"
-        self._compare(np.frombuffer(sent, np.uint8, end), len(asked))
+        self._compare(np.frombuffer(sent, np.uint8, end), len(asked), resident)
 
-    def _compare(self, ours: np.ndarray, fingers: int) -> None:
+    def _compare(self, ours: np.ndarray, fingers: int, resident: bool) -> None:
         theirs = self._sent[: ours.size]
-        self.checked += 1
-        self.composed += fingers > 1
+        self.played += resident
+        self.checked += not resident
+        self.composed += fingers > 1 and not resident
         if np.array_equal(ours, theirs):
             return
+        assert not resident, f"play {self.played} from a slot: the twin's frames differ"
         assert fingers > 1, f"upload {self.checked}: the twin's frames differ"
         load = UPLOAD_BYTES // 8
         words = [side[:UPLOAD_BYTES].reshape(8, load)[:, 8:-4] for side in (ours, theirs)]

@@ -12,7 +12,7 @@ import pytest
 from controller.board.board import load_board
 from controller.board.lookup import data_folder, find_board
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.simulation.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")
@@ -92,7 +92,7 @@ def made_of(name, *, of="board.toml"):
 def test_a_bitstream_is_built_with_the_parameters_of_its_board(name):
     """One function makes them for the Makefile, for the model and for bring-up; the top passes each on by its name."""
     board = load_board(find_board(name))
-    parameters = Parameters.of(board, build_hash(RTL)).verilog()
+    parameters = BuildParameters.of(board, build_hash(RTL)).verilog()
     del parameters["BOARD"]
     assert made_of(name) == parameters
     top = (BOARDS / name / "top.v").read_text()

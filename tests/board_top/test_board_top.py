@@ -12,7 +12,7 @@ from controller.board.board import load_board
 from controller.board.lookup import data_folder
 from controller.errors import LinkError
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.capture import Capture
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import (
@@ -182,7 +182,7 @@ def test_unlocked_and_armed_with_no_setting_written_it_keeps_the_limits_of_its_b
     changed = (np.diff(words, prepend=np.uint32(0)) != 0) | (np.diff(hv, prepend=False) != 0)
     capture = Capture(ticks[changed].astype(np.uint64), words[changed], hv[changed].astype(np.uint8), np.empty(0, np.uint64))
     assert capture.words.size > 10_000
-    assert broken_limits(capture, Parameters.of(ULX3S, 0), ULX3S.bit_ticks) == []
+    assert broken_limits(capture, BuildParameters.of(ULX3S, 0), ULX3S.bit_ticks) == []
     link.close()
 
 

@@ -14,7 +14,7 @@ from cobs import cobs
 from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.registers import Control, Register
 from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
@@ -33,7 +33,7 @@ from controller.gateware_model.pin_timing import (
 CLOCK_HZ = 12_000_000
 SLOTS = 3
 BUILD_HASH = build_hash(data_folder("fpga_rtl"))
-PARAMETERS = Parameters(
+PARAMETERS = BuildParameters(
     clock_hz=CLOCK_HZ,
     slots=SLOTS,
     build_hash=BUILD_HASH,

@@ -13,7 +13,7 @@ import pytest
 from controller.board.lookup import data_folder
 from controller.fpga import frames
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import READ_MEMORY, READ_QUEUE, READ_SLOT_CRC, Control, FrameType, Kind, Register, Start, State
 from controller.fpga.serial_link import SerialLink
@@ -37,7 +37,7 @@ def link(board):
         yield opened
         opened.close()
         return
-    model = GatewareModel(Parameters.of(board, BUILD))
+    model = GatewareModel(BuildParameters.of(board, BUILD))
     with PseudoTerminal(UartPanel(model, board.link.clock_hz, BAUD, time.monotonic).receive) as terminal:
         opened = SerialLink(terminal.device, BAUD, time.monotonic)
         yield opened
@@ -48,7 +48,7 @@ class ModelLink:
     """The model, given one frame after the other."""
 
     def __init__(self, board):
-        self._model = GatewareModel(Parameters.of(board, BUILD))
+        self._model = GatewareModel(BuildParameters.of(board, BUILD))
         self._tick = 100
 
     def exchange(self, sent, lengths, received):

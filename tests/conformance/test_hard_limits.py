@@ -12,13 +12,13 @@ from pin_script import BUILD_HASH, PARAMETERS, Script, readable
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.fpga import frames
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Fault, Register, Start
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 
-ULX3S = Parameters.of(load_board(find_board("ulx3s")), BUILD_HASH)
+ULX3S = BuildParameters.of(load_board(find_board("ulx3s")), BUILD_HASH)
 TIGHT = replace(
     PARAMETERS,
     channel_mask_max=0x7FFF00FF,

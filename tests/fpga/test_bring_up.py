@@ -12,7 +12,7 @@ from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import bring_up, frames
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
@@ -47,7 +47,7 @@ class Wired:
 
 def opened(board, **wires):
     clock = VirtualClock()
-    model = GatewareModel(Parameters.of(board, BUILD))
+    model = GatewareModel(BuildParameters.of(board, BUILD))
     link = SimulatedLink(board.link, clock.now_s, Wired(model, **wires))
     return clock, link, Session(link, board, BUILD, clock.now_s)
 
@@ -84,7 +84,7 @@ def test_dead_swapped_and_shorted_channels_are_named(board, pins, wrong):
     assert f"channels {wrong} moved other pins than their own" in checked(board, pins=pins).complaints[0]
 
 
-def test_wrong_bits_on_the_way_back_are_counted(board):
+def test_bit_errors_in_answers_are_counted(board):
     def turn_a_bit(miso):
         if len(miso) > 100:
             miso[100] ^= 4
@@ -96,7 +96,7 @@ def test_wrong_bits_on_the_way_back_are_counted(board):
     assert "damages bits" in done.complaints[0]
 
 
-def test_wrong_bits_on_the_way_there_are_counted_and_the_frames_refused(board):
+def test_bit_errors_in_commands_are_counted_and_the_frames_refused(board):
     def turn_a_bit(mosi):
         return mosi[:200] + bytes([mosi[200] ^ 128]) + mosi[201:] if len(mosi) > 200 and mosi[2] == 6 else mosi
 
@@ -104,7 +104,7 @@ def test_wrong_bits_on_the_way_there_are_counted_and_the_frames_refused(board):
     assert done.bit_errors.frames_refused == done.bit_errors.frames == done.bit_errors.wrong_bits
 
 
-def test_a_slot_that_does_not_keep_its_words_is_noticed(board):
+def test_a_slot_that_loses_its_words_is_reported(board):
     _, _, session = opened(board)
     rng = np.random.default_rng(3)
     assert bring_up.memory_errors(session, board, rng) == 0
@@ -180,7 +180,7 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, mon
     figures = json.loads(capsys.readouterr().out)
     assert figures["complaints"] == []
     assert figures["channels_moved"][31] == [31]
-    model = GatewareModel(Parameters.of(board, BUILD))
+    model = GatewareModel(BuildParameters.of(board, BUILD))
     clock = VirtualClock()
     monkeypatch.setattr("controller.commands.gateware.MonotonicClock", lambda: clock)
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)

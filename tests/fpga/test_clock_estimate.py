@@ -28,7 +28,7 @@ def test_the_true_time_is_within_the_error_it_states(drift, delays_s):
         assert estimate.host_s(estimate.fpga_s(after_s)) == pytest.approx(after_s, abs=1e-9)
 
 
-def test_an_exchange_that_was_held_up_does_not_spoil_what_is_known():
+def test_a_delayed_exchange_does_not_spoil_the_estimate():
     estimate = ClockEstimate(CLOCK_HZ)
     for exchange in exchanges(0.0, [40e-6] * 5):
         estimate.add(*exchange)
@@ -39,7 +39,7 @@ def test_an_exchange_that_was_held_up_does_not_spoil_what_is_known():
     assert estimate.error_s < 1e-3, "what 20 ms alone would have left"
 
 
-def test_an_fpga_that_was_reset_is_known_anew():
+def test_a_reset_of_the_fpga_restarts_the_estimate():
     estimate = ClockEstimate(CLOCK_HZ)
     estimate.add(10.0, 10.0001, 800_000_000)
     estimate.add(11.0, 11.0001, 8_000)
@@ -47,7 +47,7 @@ def test_an_fpga_that_was_reset_is_known_anew():
 
 
 @pytest.mark.parametrize("jump_s", [-2e-3, 2e-3, 3600.0])
-def test_a_clock_that_jumps_is_known_again_with_the_next_exchange(jump_s):
+def test_a_jump_of_the_clock_is_followed_with_the_next_exchange(jump_s):
     """A host that was suspended, or an FPGA that was reset soon after power-up."""
     estimate = ClockEstimate(CLOCK_HZ)
     *before, last = exchanges(50e-6, [40e-6] * 20)
@@ -60,7 +60,7 @@ def test_a_clock_that_jumps_is_known_again_with_the_next_exchange(jump_s):
     assert estimate.error_s == pytest.approx(20e-6)
 
 
-def test_a_time_is_the_nearest_clock():
+def test_a_time_is_rounded_to_the_nearest_tick():
     estimate = ClockEstimate(CLOCK_HZ)
     assert estimate.ticks(1.0) == CLOCK_HZ
     assert estimate.ticks(1.0 + 0.6 / CLOCK_HZ) == CLOCK_HZ + 1

@@ -43,18 +43,18 @@ def told(answer):
     return diagnose(answer, bytes(SENT))
 
 
-def test_a_dead_line_is_told_by_its_level():
+def test_a_stuck_line_is_identified_by_its_level():
     assert "only zeros came back" in told(bytes(FRAME_BYTES))
     assert "only ones came back" in told(b"\xff" * FRAME_BYTES)
 
 
 @given(shift=st.integers(0, 16), late=st.booleans())
-def test_our_own_bytes_mean_that_the_data_wires_are_joined(shift, late):
+def test_an_echo_of_the_sent_bytes_means_that_the_data_wires_are_joined(shift, late):
     bits = int.from_bytes(SENT, "big")
     assert "our own bytes came back" in told(wire(bits >> shift if late else bits << shift))
 
 
-def test_a_loopback_of_a_frame_of_zeros_is_not_made_up():
+def test_a_frame_of_zeros_is_not_reported_as_an_echo():
     assert "only zeros" in diagnose(bytes(36), bytes(36))
 
 
@@ -115,7 +115,7 @@ def test_noise_is_never_taken_for_a_status(noise):
     assert not any(said in told(noise) for said in (" late:", " early:", "inverted", "last bit", "SCK rings", "whole"))
 
 
-def test_another_device_is_told_by_its_first_bytes():
+def test_another_device_is_reported_with_its_first_bytes():
     assert "begins with 12 34 56 78" in told(b"\x12\x34\x56\x78" * 9)
 
 

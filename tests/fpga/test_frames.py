@@ -127,7 +127,7 @@ def test_a_play_is_36_bytes_whose_words_the_gateware_reads_back(
     assert not any(buffer[end:])
 
 
-def test_a_play_without_more_is_the_whole_slot_once_with_the_next_trigger_on_every_channel():
+def test_the_default_play_is_the_whole_slot_once_at_the_next_trigger_on_all_channels():
     buffer = bytearray(FRAME_BYTES)
     frames.pack_play(buffer, 0, 1, 3)
     assert decode(memoryview(buffer)).words == (0, 1, 0, 0xFFFFFFFF, 0, 0)
@@ -152,7 +152,7 @@ def test_a_play_without_more_is_the_whole_slot_once_with_the_next_trigger_on_eve
         (lambda b: frames.pack_play(b, 0, 1, PLAY_LANDING, length=7), FrameType.PLAY, 0xFFFF, (7 << 16, 1, 0, 0xFFFFFFFF)),
     ],
 )
-def test_each_command_says_what_it_should(pack, kind, argument, words):
+def test_each_command_has_the_specified_words(pack, kind, argument, words):
     buffer = bytearray(b"\xff" * FRAME_BYTES)
     assert pack(buffer) == FRAME_BYTES
     frame = decode(memoryview(buffer))
@@ -216,7 +216,7 @@ def test_a_frame_with_a_bit_flipped_or_bytes_lost_or_added_is_refused(payload, d
 
 
 @given(st.integers(1, 1000))
-def test_an_upload_lies_where_its_slices_say(length):
+def test_load_frames_lie_where_upload_slices_say(length):
     words = bytes(range(256)) * 16
     buffer = bytearray(frames.UPLOAD_BYTES)
     end = UploadImage(memoryview(buffer), length).pack(250, memoryview(words)[: 4 * length])

@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 from controller.clocks import VirtualClock
 from controller.fpga.bit_errors import BitErrors, bit_errors
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.link_check import (
     MARGIN,
@@ -49,7 +49,7 @@ class LongWires(SimulatedLink):
 @pytest.fixture
 def wired(board):
     clock = VirtualClock()
-    link = LongWires(board.link, clock.now_s, GatewareModel(Parameters.of(board, BUILD)))
+    link = LongWires(board.link, clock.now_s, GatewareModel(BuildParameters.of(board, BUILD)))
     return link, Session(link, board, BUILD, clock.now_s)
 
 
@@ -74,7 +74,7 @@ def test_a_frame_refused_there_and_an_answer_damaged_on_its_way_back_are_two_err
     assert bit_error_count(BitErrors(frames=8, frames_refused=2, answers_damaged=3, bits=30_000, wrong_bits=9)) == (30_000, 9)
 
 
-def test_errors_of_before_are_not_counted_again(board, wired):
+def test_earlier_errors_are_not_counted_again(board, wired):
     link, session = wired
     link.carried_hz = 0.9 * board.link.sck_hz
     rng = np.random.default_rng(1)
@@ -88,7 +88,7 @@ def test_errors_of_before_are_not_counted_again(board, wired):
 
 
 @pytest.mark.parametrize("carried", [1.0, 0.8, 0.55, 0.3])
-def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
+def test_a_sweep_finds_the_fastest_clock_without_errors(board, wired, carried):
     link, session = wired
     link.carried_hz = carried * board.link.sck_hz
     told = []
@@ -103,7 +103,7 @@ def test_a_sweep_finds_what_the_wires_carry(board, wired, carried):
     assert session.heartbeat().faults == 0
 
 
-def test_wires_that_carry_nothing_get_no_proposal(board, wired):
+def test_a_link_without_any_good_speed_gets_no_proposal(board, wired):
     link, session = wired
     link.carried_hz = 1e5
     assert proposed_sck_hz(sweep(session, link, board.link.sck_hz, 1e4, np.random.default_rng(1))) is None
@@ -112,7 +112,7 @@ def test_wires_that_carry_nothing_get_no_proposal(board, wired):
 @given(st.lists(st.booleans(), min_size=1, max_size=12))
 @example([True] * 5 + [False])
 @example([True] * 4 + [False])
-def test_the_rule_keeps_its_margin(goods):
+def test_the_proposed_speed_keeps_its_margin(goods):
     speeds = [SpeedResult((n + 1) * 1_000_000, (n + 1) * 1e6, 1000, 0 if good else 1, "") for n, good in enumerate(goods)]
     proposal_hz = proposed_sck_hz(speeds)
     failed_hz = [speed.asked_hz for speed in speeds if not speed.good]

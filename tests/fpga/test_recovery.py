@@ -14,7 +14,7 @@ from controller.board.lookup import find_board
 from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError, TouchError
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import FpgaReset, HostSilent, Refused
@@ -66,7 +66,7 @@ class Panel:
 
     def __init__(self):
         self.clock = VirtualClock()
-        parameters = Parameters.of(BOARD, BUILD)
+        parameters = BuildParameters.of(BOARD, BUILD)
         self.gateware = RestartingGateware(GatewareModel, parameters)
         self.link = BadDay(BOARD.link, self.clock.now_s, self.gateware)
         self.session = Session(self.link, BOARD, BUILD, self.clock.now_s)
@@ -131,7 +131,7 @@ def panel():
     return Panel()
 
 
-def test_a_reset_while_armed_is_noticed_by_the_next_heartbeat_and_all_is_well_again(panel):
+def test_a_reset_while_armed_is_detected_by_the_next_heartbeat_and_recovered(panel):
     assert panel.plays()
     panel.link.reset()
     lost_s = panel.link.wire_free_s()
@@ -145,7 +145,7 @@ def test_a_reset_while_armed_is_noticed_by_the_next_heartbeat_and_all_is_well_ag
     assert panel.off_between(lost_s, back_s - BOARD.limits.arming_s - 1e-3)
 
 
-def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
+def test_a_reset_between_two_frames_is_still_detected(panel):
     panel.wait(1e-3)
     panel.link.reset(dark_s=0)
     panel.wait(1e-3)
@@ -158,7 +158,7 @@ def test_a_reset_too_short_to_be_missed_on_the_wire_is_still_a_reset(panel):
 def test_a_reset_before_arming_never_arms_without_the_boards_limits(ran_s, away_s):
     clock = VirtualClock()
     clock._now_s = 5.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     clock._now_s += ran_s
     session = Session(link, BOARD, BUILD, clock.now_s)
@@ -195,7 +195,7 @@ def test_a_play_finds_a_reset_and_never_takes_it_for_a_refusal(panel, resident):
 
 @pytest.mark.parametrize("frame", range(12))
 @pytest.mark.parametrize("dark_s", [0.0, 0.3e-3, 50e-3])
-def test_a_brown_out_in_the_midst_of_an_upload_ends_in_work(panel, frame, dark_s):
+def test_a_brown_out_during_an_upload_is_recovered(panel, frame, dark_s):
     assert panel.plays()
     panel.link.events = {panel.link.frames + frame: lambda _: panel.link.reset(dark_s)}
     with pytest.raises(LinkError) as caught:
@@ -207,7 +207,7 @@ def test_a_brown_out_in_the_midst_of_an_upload_ends_in_work(panel, frame, dark_s
     assert panel.off_between(lost_s, back_s - BOARD.limits.arming_s - 1e-3)
 
 
-def test_an_fpga_that_is_away_for_long_is_waited_for(panel):
+def test_a_long_absence_of_the_fpga_is_waited_for(panel):
     panel.link.reset(dark_s=7.0)
     error = panel.lost()
     assert "only ones came back" in str(error)
@@ -215,7 +215,7 @@ def test_an_fpga_that_is_away_for_long_is_waited_for(panel):
     assert panel.plays()
 
 
-def test_garbage_on_the_line_for_a_while_switches_off_and_work_goes_on(panel):
+def test_garbage_on_the_line_switches_outputs_off_and_is_recovered(panel):
     rng = np.random.default_rng(5)
 
     def garble(frame):
@@ -234,7 +234,7 @@ def test_garbage_on_the_line_for_a_while_switches_off_and_work_goes_on(panel):
 
 @settings(max_examples=25, deadline=None)
 @given(st.dictionaries(st.integers(0, 300), st.sampled_from(["flip", "lost", "reset", "brown-out", "silence"]), max_size=6))
-def test_whatever_happens_in_whatever_order_it_plays_again(bad):
+def test_any_sequence_of_failures_is_recovered(bad):
     panel = Panel()
     first = panel.link.frames
 
@@ -311,7 +311,7 @@ def test_a_reset_while_waiting_for_the_permit_does_not_leave_old_settings(panel)
     "cause", [Fault.UNDERRUN, Fault.SHORT_PULSE, Fault.CHANNEL_EDGES, Fault.TOTAL_EDGES, Fault.LONG_EMISSION, Fault.DUTY]
 )
 @pytest.mark.parametrize("beside", [Fault(0), Fault.HOST_SILENT, Fault.NO_PERMIT])
-def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, beside):
+def test_faults_of_host_or_board_end_the_program_with_outputs_off(panel, cause, beside):
     error = FaultError("outputs off", cause | beside)
     assert action_for(error) is Action.FAIL
     with pytest.raises(FaultError) as caught:
@@ -334,7 +334,7 @@ def test_faults_of_host_or_board_are_the_end_with_outputs_off(panel, cause, besi
         (TouchError(""), Action.FAIL),
     ],
 )
-def test_the_rule(error, action):
+def test_decisions_after_each_kind_of_failure(error, action):
     assert action_for(error) is action
 
 
@@ -348,7 +348,7 @@ def test_the_rule(error, action):
         (LinkError(""), PanelState.WAITING_FOR_FPGA),
     ],
 )
-def test_how_the_panel_is_called_after_an_error(error, state):
+def test_the_state_of_the_panel_after_each_error(error, state):
     assert panel_state_after(error) is state
 
 
@@ -375,10 +375,10 @@ def test_a_permit_is_asked_for_ten_times_a_second():
     assert recovery.next_s == pytest.approx(5.1)
 
 
-def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
+def test_another_fpga_ends_the_program_and_is_never_armed():
     clock = VirtualClock()
     clock._now_s = 1.0
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     session = Session(SimulatedLink(BOARD.link, clock.now_s, gateware), BOARD, BUILD + 1, clock.now_s, bring_up=False)
     outputs = Outputs(session, BOARD, clock, ClockEstimate(BOARD.link.clock_hz), Counters())
     clock._now_s += 1.0
@@ -388,7 +388,7 @@ def test_an_fpga_that_is_another_one_is_the_end_and_never_armed():
     assert not gateware.take_capture().hv.any()
 
 
-def test_a_setting_that_is_damaged_on_its_way_is_no_unfit_fpga(panel):
+def test_a_setting_damaged_on_the_wire_does_not_count_as_another_fpga(panel):
     def flip(frame):
         frame[len(frame) // 2] ^= 1
 
@@ -406,7 +406,7 @@ def test_a_setting_that_is_damaged_on_its_way_is_no_unfit_fpga(panel):
 
 
 @pytest.mark.parametrize("permit", list(Permit))
-def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_each_by_its_name(permit):
+def test_a_late_fpga_and_a_later_permit_are_each_waited_for_and_named(permit):
     clock = VirtualClock()
     link = simulated(clock, dark_s=7.0)
     session = Session(link, BOARD, BUILD, clock.now_s, bring_up=False)
@@ -433,7 +433,7 @@ def test_an_fpga_that_comes_late_and_a_permit_that_comes_later_are_waited_for_ea
 
 def simulated(clock, dark_s):
     """A link to an FPGA that is without supply at first."""
-    gateware = RestartingGateware(GatewareModel, Parameters.of(BOARD, BUILD))
+    gateware = RestartingGateware(GatewareModel, BuildParameters.of(BOARD, BUILD))
     link = BadDay(BOARD.link, clock.now_s, gateware)
     link.reset(dark_s)
     return link
@@ -458,7 +458,7 @@ def test_a_panel_that_a_client_disarmed_stays_so_through_a_reset_until_it_is_arm
     assert panel.off_between(off_s, back_s)
 
 
-def test_a_step_that_fails_while_the_outputs_come_on_tells_the_fpga_at_once(panel, monkeypatch):
+def test_a_failure_during_arming_disarms_the_fpga_at_once(panel, monkeypatch):
     panel.outputs.failed(LinkError("gone for a moment"), panel.clock.now_s())
 
     def damaged():

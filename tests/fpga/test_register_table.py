@@ -6,7 +6,8 @@ from enum import IntEnum
 import pytest
 
 from controller.board.lookup import data_folder
-from controller.fpga.register_table import main, rewritten, table, with_table
+from controller.fpga.register_lines import table
+from controller.fpga.register_table import main, rewritten, with_table
 from controller.fpga.registers import Kind, Register
 
 
@@ -52,7 +53,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_the_table_says_what_the_records_say():
+def test_the_table_follows_the_records():
     assert table(Toy) == TABLE
 
 
@@ -125,7 +126,7 @@ def test_the_table_replaces_the_one_that_is_there():
         ("README.md", "| 28 | TRIGGERS |", "| 28 | TRIGGER |"),
     ],
 )
-def test_what_was_changed_by_hand_is_told_and_written_again(folder, name, old, new):
+def test_changes_by_hand_are_reported_and_overwritten(folder, name, old, new):
     path, said = folder / name, []
     right = path.read_text()
     assert right.count(old) == 1
@@ -145,7 +146,7 @@ def test_what_was_changed_by_hand_is_told_and_written_again(folder, name, old, n
         ("haptic_core.v", "// generated: wires", "", "has the generated blocks"),
     ],
 )
-def test_a_file_without_the_place_is_refused(folder, capsys, name, old, new, what):
+def test_a_file_without_the_generated_blocks_is_refused(folder, capsys, name, old, new, what):
     path = folder / name
     path.write_text(path.read_text().replace(old, new))
     with pytest.raises(SystemExit) as exited:

@@ -9,7 +9,7 @@ from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Regi
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
 
 
-def test_what_is_generated_lies_in_the_tree():
+def test_the_generated_text_is_committed():
     """`.venv/bin/python -m controller.fpga.register_table` writes it."""
     said = []
     assert main(["--check"], said.append) == 0, "".join(said)
@@ -62,7 +62,7 @@ def test_the_readme_describes_every_register():
     assert rows == [(str(int(register)), register.name, register.access) for register in Register]
 
 
-def test_what_can_be_read_besides_registers_does_not_meet_them_or_each_other():
+def test_readable_memory_does_not_overlap_registers_or_itself():
     slots = 16
     addresses = [*map(int, Register)]
     addresses += [registers.READ_SLOT_CRC + slot for slot in range(slots)]

@@ -18,7 +18,7 @@ from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
 from controller.fpga import frames, serial_link
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import FrameType, Register, Result, State
 from controller.fpga.serial_link import ANSWER_BYTES, GUARD, SerialLink, on_wire
@@ -111,7 +111,7 @@ class CountingLink(SerialLink):
 
 
 def model(board):
-    return GatewareModel(Parameters.of(board, BUILD))
+    return GatewareModel(BuildParameters.of(board, BUILD))
 
 
 @pytest.fixture
@@ -281,7 +281,7 @@ def test_a_frame_swallowed_whole_is_one_answer_too_few(line, open_link):
     recovered(link)
 
 
-def test_garbage_before_the_first_message_is_read_away(clock, line):
+def test_garbage_before_the_first_message_is_discarded(clock, line):
     noise = bytes(range(1, 200)) + b"\0" + b"\xff" * 50
     pending = [noise]
     line.to_host = lambda data: (pending.pop() if pending else b"") + data
@@ -292,7 +292,7 @@ def test_garbage_before_the_first_message_is_read_away(clock, line):
         link.close()
 
 
-def test_answers_nobody_asked_for_are_read_away_before_the_next_message(line, open_link):
+def test_unrequested_answers_are_discarded_before_the_next_message(line, open_link):
     link = open_link()
     nops(link, 1)
     seen = threading.Event()
@@ -305,7 +305,7 @@ def test_answers_nobody_asked_for_are_read_away_before_the_next_message(line, op
     assert [status.sequence for status in nops(link, 3, 40)[1:]] == [40, 41]
 
 
-def test_a_device_that_babbles_is_given_up(line, open_link):
+def test_a_device_that_sends_without_end_is_an_error(line, open_link):
     link = open_link(BRIEF_S)
     link._unsure = True
     link._port = SimpleNamespace(write=len, read=lambda _: b"U" * 4096, in_waiting=0, is_open=True, close=lambda: None)
@@ -383,7 +383,7 @@ def test_a_second_link_to_the_same_panel_is_refused(clock, open_link):
 
 @given(st.binary(max_size=600))
 @settings(deadline=None)
-def test_any_payload_goes_round(payload):
+def test_any_payload_survives_encoding_and_decoding(payload):
     wire = on_wire(payload)
     assert wire.startswith(GUARD)
     assert wire.endswith(b"\0")
@@ -416,7 +416,7 @@ def edited(wire, edits):
 
 @given(st.integers(0, 0xFFFFFFFF), EDITS)
 @settings(deadline=None, max_examples=300)
-def test_no_damage_makes_another_frame_of_one_and_the_next_is_whole(value, edits):
+def test_a_damaged_frame_is_never_accepted_and_the_next_one_is_whole(value, edits):
     """A register is written over a damaged line, then read over a good one: it holds what it did or what was sent."""
     panel = UartPanel(model(BOARD), 80_000_000, BAUD, lambda: 0.0)
     frame = bytearray(FRAME_BYTES)

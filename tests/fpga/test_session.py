@@ -13,7 +13,7 @@ from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.configuration import LIMITS
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import FRAME_BYTES
@@ -28,7 +28,7 @@ WORDS = memoryview(np.random.default_rng(7).integers(0, 1 << 32, 1000, dtype=np.
 
 
 def gateware(board, build_hash=BUILD, **other):
-    return GatewareModel(replace(Parameters.of(board, build_hash), **other))
+    return GatewareModel(replace(BuildParameters.of(board, build_hash), **other))
 
 
 class NoisyLink(SimulatedLink):
@@ -77,7 +77,7 @@ def wait(clock, link, seconds):
     clock._now_s = max(clock.now_s(), link.wire_free_s()) + seconds
 
 
-def test_arming_glides_to_the_idle_word_and_disarming_back_to_zero(board, clock, link, armed):
+def test_arming_ramps_to_the_idle_word_and_disarming_to_zero(board, clock, link, armed):
     assert State.HV_ENABLE in armed.heartbeat().state
     clock._now_s = armed.disarm()
     assert armed.heartbeat().state & (State.ARMED | State.HV_ENABLE) == 0
@@ -110,7 +110,7 @@ def test_refuses_another_fpga_than_the_boards_before_anything_is_armed(board, cl
 @pytest.mark.parametrize(("register", "key"), LIMITS.items())
 def test_a_bitstream_with_another_limit_is_refused_by_its_name_and_the_boards_key(board, clock, register, key, by):
     name = register.name.lower()
-    built = getattr(Parameters.of(board, BUILD), name) + by
+    built = getattr(BuildParameters.of(board, BUILD), name) + by
     if register is Register.CHANNEL_MASK_MAX:
         built = 0xFFFFFFFF - (1 << 5) + by
     link = SimulatedLink(board.link, clock.now_s, gateware(board, **{name: built}))
@@ -140,7 +140,7 @@ def test_all_limits_that_differ_are_said_in_one_line(board, clock):
     )
 
 
-def test_the_fpga_is_told_every_limit_of_the_board(board, clock):
+def test_every_limit_of_the_board_is_written_to_the_fpga(board, clock):
     limits = msgspec.structs.replace(
         board.limits,
         heartbeat_timeout_ms=90.0,
@@ -188,7 +188,7 @@ def test_any_bit_clock_of_the_gateware_is_met_within_ten_millionths(board, clock
     assert found_hz != pytest.approx(bit_clock_hz * 1.01, rel=10e-6)
 
 
-def test_a_missing_permit_is_told_when_arming(board, clock, link):
+def test_a_missing_permit_is_reported_when_arming(board, clock, link):
     session = Session(link, board, BUILD, clock.now_s)
     link.gateware.permit(round(link.wire_free_s() * link.clock_hz), False, Permit.TEMPERATURE)
     clock._now_s += 1e-3
@@ -197,13 +197,13 @@ def test_a_missing_permit_is_told_when_arming(board, clock, link):
     assert caught.value.result is Result.NO_PERMIT
 
 
-def test_an_fpga_that_did_not_arm_is_told_with_what_it_is(board, clock, link):
+def test_a_failure_to_arm_is_reported_with_the_state(board, clock, link):
     session = Session(link, board, BUILD, clock.now_s)
     with pytest.raises(LinkError, match=r"its state is run permit, temperature good$"):
         session.require_armed()
 
 
-def test_three_heartbeats_go_into_a_timeout(board, clock, link, armed):
+def test_three_heartbeats_are_sent_per_timeout(board, clock, link, armed):
     wait(clock, link, 0.0)
     armed.heartbeat()
     assert armed.heartbeat_due_s - clock.now_s() == pytest.approx(board.limits.heartbeat_timeout_ms * 1e-3 / 3)
@@ -211,7 +211,7 @@ def test_three_heartbeats_go_into_a_timeout(board, clock, link, armed):
 
 @pytest.mark.parametrize("direction", ["to the FPGA", "to the host"])
 @pytest.mark.parametrize("frame", range(4))  # NOP, UNLOCK, ARM, NOP
-def test_arming_with_a_damaged_frame_arms_all_the_same(board, clock, link, frame, direction):
+def test_a_damaged_frame_while_arming_is_sent_again(board, clock, link, frame, direction):
     session = Session(link, board, BUILD, clock.now_s)
     link.noise = {link.frames + frame: (direction, 9)}
     clock._now_s = session.arm()
@@ -381,7 +381,7 @@ def test_a_link_that_damages_everything_is_given_up_with_nothing_left_to_play(cl
     assert armed.heartbeat().emissions == 0
 
 
-def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed):
+def test_a_lost_frame_is_detected_by_its_number(clock, link, armed):
     armed.upload_and_play(0, WORDS, 1, 0.0, stop=False)
     armed.trigger()
     wait(clock, link, 3e-3)
@@ -394,7 +394,7 @@ def test_a_frame_that_did_not_arrive_is_missed_by_its_number(clock, link, armed)
 
 
 @pytest.mark.parametrize("frame", range(12))
-def test_a_damaged_answer_to_an_upload_makes_it_go_again_and_play_once(clock, link, armed, frame):
+def test_an_upload_with_a_damaged_answer_is_sent_again_and_played_once(clock, link, armed, frame):
     link.noise = {link.frames + frame: ("to the host", 9)}
     armed.upload_and_play(0, WORDS, 1, 0.0, stop=False)
     armed.trigger()
@@ -412,7 +412,7 @@ def test_damaged_answers_are_asked_for_again_and_never_believed(link, armed, byt
         armed.heartbeat()
 
 
-def test_what_the_fpga_refuses_is_said_in_a_sentence_and_changes_nothing(armed):
+def test_a_refusal_is_reported_in_a_sentence_and_changes_nothing(armed):
     with pytest.raises(Refused, match="Nothing has been stored in this slot") as caught:
         armed.play(3, 1, 0.0, stop=False)
     assert caught.value.result is Result.EMPTY_SLOT
@@ -443,7 +443,7 @@ def test_a_session_that_is_armed_disarms_before_it_is_brought_up_again(board, cl
     armed.require_armed()
 
 
-def test_a_link_that_damages_everything_is_not_taken_for_the_fault_behind_it(board, clock, link, armed):
+def test_a_link_that_damages_everything_is_reported_as_such(board, clock, link, armed):
     wait(clock, link, 2 * board.limits.heartbeat_timeout_ms * 1e-3)
     link.noise = dict.fromkeys(range(link.frames, link.frames + 100), ("to the FPGA", 9))
     with pytest.raises(Refused, match="damaged on its way"):

@@ -66,7 +66,7 @@ def test_packing_an_upload_is_one_crc_pass(monkeypatch):
 
 
 @pytest.mark.parametrize(("crc", "more"), [(None, [4000]), (zlib.crc32(WORDS), [])], ids=["composed", "of the bank"])
-def test_an_upload_is_one_crc_pass_in_its_frames_and_one_more_for_what_no_bank_vouches_for(monkeypatch, board, crc, more):
+def test_an_upload_is_one_crc_pass_and_one_more_for_words_without_a_banks_crc(monkeypatch, board, crc, more):
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     fpga = open_session(link, board, clock.now_s)
@@ -109,7 +109,7 @@ def test_every_byte_of_the_payload_arrives_in_its_chunk():
 
 
 @given(st.integers(1, 1000), st.integers(0, 255), st.binary(min_size=36, max_size=36))
-def test_the_image_of_an_upload_is_what_packing_it_frame_by_frame_gives(samples, sequence, between):
+def test_an_upload_image_equals_packing_frame_by_frame(samples, sequence, between):
     words = WORDS[: 4 * samples]
     plain, kept = (memoryview(bytearray(frames.UPLOAD_BYTES)) for _ in range(2))
     image = UploadImage(kept, samples)

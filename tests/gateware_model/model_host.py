@@ -5,7 +5,7 @@ import zlib
 import numpy as np
 
 from controller.fpga import frames
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import CHUNK_WORDS, TRIGGER_LATENCY_TICKS, Control, Register, Result, State
 from controller.fpga.status import parse_status
@@ -18,7 +18,7 @@ HASH = 0xC0FFEE
 SLOTS = 2
 HEARTBEAT_TICKS = 400_000
 SETTLE_TICKS = 60
-PARAMETERS = Parameters(
+PARAMETERS = BuildParameters(
     clock_hz=CLOCK_HZ,
     slots=SLOTS,
     build_hash=HASH,

@@ -9,7 +9,7 @@ from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.clocks import VirtualClock
 from controller.errors import FaultError
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.registers import Control, Fault, Register
 from controller.gateware_model.edge_counts import PARTS, part_ticks
 from controller.gateware_model.pins import ramp_bits
@@ -71,7 +71,7 @@ def test_hardware_shuts_it_off_when_the_duty_budget_is_spent():
 def test_hardware_runs_out_of_duty_before_the_busiest_channel_runs_out_of_edges(name):
     """As long as edges count at most, with a disarming and an arming among them."""
     board = load_board(find_board(name))
-    parameters = Parameters.of(board, 0)
+    parameters = BuildParameters.of(board, 0)
     window_s = PARTS * part_ticks(parameters.edge_window_ticks) / board.link.clock_hz
     limits = board.limits
     active_s = limits.duty_budget_ms * 1e-3 + limits.max_duty * window_s

@@ -18,7 +18,7 @@ from restarting_gateware import RestartingGateware
 
 from controller.board.lookup import data_folder
 from controller.fpga.build_hash import build_hash
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
@@ -232,7 +232,7 @@ class FarEnd:
 
     def _serve(self, pipe):
         settings = self.board.link
-        parameters = Parameters.of(self.board, build_hash(data_folder("fpga_rtl")))
+        parameters = BuildParameters.of(self.board, build_hash(data_folder("fpga_rtl")))
         roles = {settings.trigger_line: "trigger", settings.permit_line: "permit"}
         roles.pop("", None)
         trace = GpioTrace(settings.gpio_chip, self._names)

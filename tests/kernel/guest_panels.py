@@ -26,8 +26,8 @@ from peers.ft5x06_chip import Ft5x06Chip  # noqa: E402
 from peers.gt911_chip import STATUS, Gt911Chip  # noqa: E402
 
 from controller.board.board import load_board  # noqa: E402
-from controller.board.devices import Ft5x06Touch, Gt911Touch  # noqa: E402
 from controller.board.lookup import find_board  # noqa: E402
+from controller.board.touch_panels import Ft5x06Touch, Gt911Touch  # noqa: E402
 from controller.errors import TouchError  # noqa: E402
 from controller.touch.event_codes import Protocol  # noqa: E402
 from controller.touch.ft5x06 import open_panel as open_ft5x06  # noqa: E402

@@ -57,7 +57,7 @@ def test_one_place_cannot_have_two_amplitudes_at_once():
     assert chosen_of(emission("a", 60, amplitude=0.5), emission("b", 61, amplitude=0.5)) == ["a", "b"]
 
 
-def test_one_that_is_in_the_way_waits_and_the_next_one_is_taken():
+def test_an_emission_too_near_a_chosen_one_waits_and_the_next_is_chosen():
     assert chosen_of(emission("a", 60), emission("b", 65), emission("c", 100), emission("d", 104)) == ["a", "c"]
 
 
@@ -96,7 +96,7 @@ def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
 
 
 @given(st.lists(st.tuples(places, st.floats(0, 5), st.booleans()), min_size=1, max_size=14), st.integers(1, 10))
-def test_what_is_chosen_keeps_every_rule_and_nothing_is_lost(wanted, max_foci):
+def test_every_batch_keeps_the_rules_and_no_emission_is_lost(wanted, max_foci):
     due = [emission(k, x, at, y_mm=y, alternate=alone) for k, ((x, y), at, alone) in enumerate(wanted)]
     chosen, rest = select_batch(due, T_S, max_foci)
     assert sorted((*chosen, *rest), key=lambda e: e.owner) == due

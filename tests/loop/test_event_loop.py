@@ -141,7 +141,7 @@ def test_outputs_are_off_at_the_end_and_were_never_on_without_the_high_voltage_e
     assert not run.capture.words[run.capture.hv == 0].any()
 
 
-def test_without_touch_there_is_nothing_but_the_heartbeat(perform):
+def test_without_touch_only_heartbeats_are_sent(perform):
     short = perform([(0.0, {}), (1.0, {})], CLICK)
     long = perform([(0.0, {}), (11.0, {})], CLICK)
     assert long.capture.focus_ticks.size == 0
@@ -149,7 +149,7 @@ def test_without_touch_there_is_nothing_but_the_heartbeat(perform):
     assert long.counters.heartbeats - short.counters.heartbeats == pytest.approx(10 / (0.1 / 3), abs=1)
 
 
-def test_a_touch_outside_every_region_looks_nothing_up(perform, bank_file, cell):
+def test_a_touch_outside_every_region_looks_up_no_waveform(perform, bank_file, cell):
     run = perform([(0.0, {0: (20.0, 20.0)}), (0.1, {0: (30.0, 30.0)}), (0.2, {0: None})], BUTTON)
     assert run.counters.skipped.outside_region == 2
     assert run.lookups == 0
@@ -173,7 +173,7 @@ def test_a_finger_at_rest_is_uploaded_once_and_then_triggered_from_its_slot(perf
     assert sent == pytest.approx([UPLOAD_BYTES + 12 * select, RESIDENT_BYTES + 2 * select], rel=1e-3)
 
 
-def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cell, monkeypatch):
+def test_time_spent_in_a_simulated_link_is_not_host_latency(perform, cell, monkeypatch):
     ages_ns = itertools.count(step=10**12)
     monkeypatch.setattr(SimulatedLink, "blocked_ns", property(lambda _: next(ages_ns), lambda *_: None), raising=False)
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK)
@@ -181,7 +181,7 @@ def test_what_the_link_computes_by_itself_is_no_latency_of_the_host(perform, cel
     assert run.counters.upload_latency.host.worst_ns == 0
 
 
-def test_the_waveform_played_longest_ago_gives_up_its_slot(perform):
+def test_the_least_recently_played_waveform_gives_up_its_slot(perform):
     places = [20.0, 50.0, 80.0, 110.0, 20.0, 140.0, 20.0]  # four slots: the fifth place takes that of the second
     reports = [report for k, x in enumerate(places) for report in ((0.1 * k, {0: (x, 54.0)}), (0.1 * k + 0.05, {0: None}))]
     run = perform(reports, CLICK)
@@ -203,7 +203,7 @@ def test_two_fingers_due_at_once_are_one_emission_with_two_foci(perform, board, 
         assert np.array_equal(words_before(run, int(run.capture.focus_ticks[0])), np.frombuffer(words, "<u4"))
 
 
-def test_what_becomes_due_while_the_plate_is_busy_is_composed_when_it_is_free(perform):
+def test_emissions_due_while_the_plate_is_busy_are_composed_when_it_is_free(perform):
     reports = [
         (0.0, {0: (60.0, 54.0)}),
         (0.0005, {1: (150.0, 94.0)}),
@@ -215,7 +215,7 @@ def test_what_becomes_due_while_the_plate_is_busy_is_composed_when_it_is_free(pe
     assert np.diff(starts_ms(run)) >= T_S * 1e3
 
 
-def test_the_time_that_an_emission_waits_for_the_plate_is_told_in_ns(perform, board, cell):
+def test_the_wait_for_the_plate_is_recorded_in_ns(perform, board, cell):
     slow = msgspec.structs.replace(board, limits=msgspec.structs.replace(board.limits, max_duty=0.1))
     other = (cell[1][0] + 40, cell[1][1])
     run = perform([(0.0, {0: cell[1]}), (0.011, {1: other}), (0.1, {0: None, 1: None})], CLICK, on=slow)
@@ -250,7 +250,7 @@ def test_a_spot_is_handed_to_the_fpga_which_repeats_it_without_the_host(perform)
     assert long.link.bytes_sent - short.link.bytes_sent == FRAME_BYTES * (long.counters.heartbeats - short.counters.heartbeats)
 
 
-def test_a_finger_is_played_between_the_repetitions_of_a_spot_which_then_goes_on_in_its_beat(perform):
+def test_a_finger_is_played_between_repetitions_of_a_spot_whose_phase_is_kept(perform):
     run = perform([(0.0, {}), (0.212, {0: (150.0, 94.0)}), (0.4, {0: None}), (1.0, {})], SPOT + CLICK)
     assert all(len(meant) == 1 for _, meant in foci_meant(run))
     spots = [tick for tick, meant in foci_meant(run) if meant[0].finger is None]
@@ -462,7 +462,7 @@ class Change:
         return self._prepared.pop() if self._prepared and self._clock.now_s() > 0.25 else None
 
 
-def test_another_bank_is_played_from_with_nothing_of_the_one_before(board, bank_file, tmp_path, cell, evemu_text):
+def test_after_a_change_of_bank_nothing_of_the_former_is_played(board, bank_file, tmp_path, cell, evemu_text):
     """The same place three times; between the first and the second the bank is changed."""
     clock, taps = VirtualClock(), [(0.2 * k + more_s, {0: at}) for k in range(3) for more_s, at in ((0.0, cell[1]), (0.1, None))]
     with Bank.open(bank_file, board) as bank, Bank.open(shutil.copy(bank_file, tmp_path / "other.bank"), board) as other:
@@ -477,7 +477,7 @@ def test_another_bank_is_played_from_with_nothing_of_the_one_before(board, bank_
     assert (counters.scenes_loaded, counters.scenes_refused, counters.reloads) == (1, 0, 1)
 
 
-def test_a_ramp_longer_than_the_heartbeat_timeout_is_lived_through(perform, board, cell):
+def test_heartbeats_continue_during_a_ramp_longer_than_their_timeout(perform, board, cell):
     limits = msgspec.structs.replace(board.limits, heartbeat_timeout_ms=20.0, ramp_ms=100.0)
     run = perform([(0.0, {0: cell[1]}), (0.1, {0: None})], CLICK, on=msgspec.structs.replace(board, limits=limits))
     assert run.counters.host_silent == 0
@@ -501,7 +501,7 @@ def test_outputs_are_off_when_the_panel_is_lost(board, bank_file, tmp_path, evem
         link.close()
 
 
-def test_the_last_emission_of_a_replay_sounds_to_its_end(perform, cell):
+def test_the_last_emission_of_a_replay_plays_to_its_end(perform, cell):
     assert perform([(0.0, {0: cell[1]}), (0.003, {0: None})], CLICK).capture.focus_ticks.size == 1
 
 
@@ -523,7 +523,7 @@ def test_virtual_time_never_goes_back():
 
 
 @pytest.mark.parametrize("tap", [False, True])
-def test_a_host_that_stalls_again_and_again_gives_up_with_the_cause(board, bank_file, tmp_path, cell, evemu_text, tap):
+def test_a_host_that_stalls_repeatedly_gives_up_with_the_cause(board, bank_file, tmp_path, cell, evemu_text, tap):
     stalls = [(0.2 + 0.3 * k, 0.25) for k in range(10)]
     reports = [(0.0, {0: cell[1]} if tap else {}), (0.05, {0: None} if tap else {}), (9.0, {})]
     with Bank.open(bank_file, board) as bank:
@@ -584,7 +584,7 @@ def test_touches_while_the_outputs_are_off_are_counted_one_by_one(board, bank_fi
     assert counters.skipped.outputs_off == counters.skipped.emissions == 3
 
 
-def test_what_the_fpga_repeated_until_it_was_lost_makes_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
+def test_a_repetition_lost_with_the_fpga_no_longer_causes_ghosts(board, bank_file, tmp_path, cell, evemu_text):
     """A spot whose shadows touch: a contact beside it is a suspect; one that comes while the outputs are off is not."""
 
     class PermitLost(VirtualClock):
@@ -618,7 +618,7 @@ class At(VirtualClock):
 
 
 @pytest.mark.parametrize("ticket", [0, 7], ids=["SIGHUP", "a command"])
-def test_a_scene_that_is_refused_changes_nothing_and_is_told(board, bank_file, tmp_path, cell, evemu_text, ticket):
+def test_a_refused_scene_changes_nothing_and_is_reported(board, bank_file, tmp_path, cell, evemu_text, ticket):
     told = []
     commands = SimpleNamespace(
         fileno=lambda: None, next_time_s=lambda: NEVER, serve=lambda *_: None, touches=lambda _: None,
@@ -654,7 +654,7 @@ def test_a_spot_of_another_scene_stays_resident_whatever_is_played_between_its_b
     assert counters.uploads == len(places) + 1
 
 
-def test_it_ends_when_it_is_told_to(board, bank_file, tmp_path, cell, evemu_text):
+def test_the_loop_ends_on_request(board, bank_file, tmp_path, cell, evemu_text):
     clock = At((0.3, lambda: loop.stop()))  # noqa: PLW0108 — there is no loop yet
     reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
     with Bank.open(bank_file, board) as bank:
@@ -688,7 +688,7 @@ def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again
     assert (seconds > 0.75).sum() >= 13, "20 Hz until 1.5 s"
 
 
-def test_nothing_is_sent_ahead_when_a_beat_would_wait_for_it(board, bank_file, tmp_path, evemu_text):
+def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
     """A finger on a train, and one that moves on a texture."""
     halves = [
         region(name, f'shape = "rectangle"\nx_mm = {x_mm}\ny_mm = 5.0\nwidth_mm = 100.0\nheight_mm = 138.0', effect)
@@ -736,7 +736,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         link.close()
 
 
-def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, cell, evemu_text):
+def test_times_of_touches_are_fpga_time(board, bank_file, tmp_path, cell, evemu_text):
     """Which has run for 100 s when this host begins."""
     with Bank.open(bank_file, board) as bank:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
@@ -747,7 +747,7 @@ def test_touches_are_given_in_the_time_of_the_fpga(board, bank_file, tmp_path, c
     assert given == [pytest.approx(100.1)]
 
 
-def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
+def test_predictions_start_at_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
     """Not from when the loop came to read it, a millisecond later."""
 
     class Late(VirtualClock):
@@ -771,7 +771,7 @@ def test_what_is_foreseen_goes_from_the_time_of_the_report(board, bank_file, tmp
     assert [at_s * 100 for at_s in asked_s] == pytest.approx([round(at_s * 100) for at_s in asked_s], abs=1e-3)
 
 
-def test_spots_of_the_scene_before_make_no_ghosts_any_more(board, bank_file, tmp_path, cell, evemu_text):
+def test_spots_of_the_former_scene_no_longer_cause_ghosts(board, bank_file, tmp_path, cell, evemu_text):
     """Their shadows touch, as above; a contact that comes after the scene was changed is no suspect."""
     haunted, clock = msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, ghost_ms=30.0)), VirtualClock()
     (tmp_path / "other.toml").write_text(CLICK)
@@ -786,7 +786,7 @@ def test_spots_of_the_scene_before_make_no_ghosts_any_more(board, bank_file, tmp
     assert loop._source.tracking.held_back == 0
 
 
-def test_the_panel_is_told_when_each_emission_sounds(board, bank_file, tmp_path, cell, evemu_text):
+def test_the_tracker_is_given_the_times_of_each_emission(board, bank_file, tmp_path, cell, evemu_text):
     played, told = [], []
     taps = [(0.2, {0: cell[1]}), (0.3, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
     with Bank.open(bank_file, board) as bank:
@@ -806,7 +806,7 @@ def test_the_panel_is_told_when_each_emission_sounds(board, bank_file, tmp_path,
         assert (start_s, end_s, period_s) == pytest.approx((p.trigger_s, p.trigger_s + T_S, p.period_s), abs=1e-6)
 
 
-def test_files_that_come_change_and_go_are_waited_for(board, bank_file, tmp_path, cell, evemu_text):
+def test_watched_files_may_appear_change_and_disappear(board, bank_file, tmp_path, cell, evemu_text):
     with Bank.open(bank_file, board) as bank, selectors.DefaultSelector() as selector:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
         files, pipes = WatchedFiles(selector), [os.pipe() for _ in range(2)]
@@ -830,7 +830,7 @@ def test_spots_of_different_rates_each_keep_their_own_beat(perform):
     assert any(len(emissions) == 2 for _, emissions in meant), "due at once, they are composed"
 
 
-def test_answers_that_are_read_late_do_not_move_the_fpgas_time(board, bank_file, tmp_path, cell, evemu_text):
+def test_late_reading_of_answers_does_not_shift_the_clock_estimate(board, bank_file, tmp_path, cell, evemu_text):
     clock, played = VirtualClock(), []
     with Bank.open(bank_file, board) as bank:
         reports = [(0.0, {0: cell[1]}), (0.3, {0: None})]

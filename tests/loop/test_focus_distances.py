@@ -28,13 +28,13 @@ def shares(board):
     return worse
 
 
-def test_foci_at_one_place_cost_nothing_worth_a_turn_and_those_apart_what_far_ones_cost(shares):
+def test_foci_within_the_merge_radius_and_beyond_the_separation_keep_their_amplitude(shares):
     far = shares(0.04)
     assert shares(MERGE_RADIUS_M) > 0.87
     assert shares(SEPARATION_M) > 0.85 * far
 
 
-def test_foci_between_them_spoil_each_other(shares):
+def test_foci_between_merge_radius_and_separation_weaken_each_other(shares):
     assert shares(0.9 * SEPARATION_M) < 0.85 * shares(0.04)
     assert shares(7e-3) < 0.6
     assert shares(1.6 * MERGE_RADIUS_M) < 0.8

@@ -140,7 +140,7 @@ def test_a_tap_is_felt_whatever_else_plays_and_no_ghost_is(haunted, what):
 
 
 @pytest.mark.parametrize("what", [62, "spot", "chords"])
-def test_on_a_panel_that_makes_none_a_tap_is_felt_at_once(haunted, what):
+def test_a_panel_without_ghosts_feels_a_tap_at_once(haunted, what):
     late_s, figures, _, _ = performed(haunted, what, count=8, seed=1, probability=0.0, ghost_ms=0.0)
     assert max(late_s) <= 5e-3
     assert figures["listened_s"] == figures["held_back"] == 0
@@ -159,7 +159,7 @@ def test_in_a_storm_of_ghosts_the_panel_is_not_silenced_and_taps_are_felt_all_th
     assert emissions >= 20 * end_s
 
 
-def test_a_dragged_finger_loses_little_by_it(haunted):
+def test_a_dragged_finger_loses_few_emissions_to_quiet_intervals(haunted):
     """One emission or none for a tap at 31 and 62 Hz; of panels without a ghost nothing but taps costs anything."""
     for what in (31, 62):
         with_taps = performed(haunted, what, count=8, seed=3, probability=0.0)[3]
@@ -169,7 +169,7 @@ def test_a_dragged_finger_loses_little_by_it(haunted):
         assert of_the_finger[1] - 8 * (what > 31) <= of_the_finger[0] <= of_the_finger[1]
 
 
-def test_what_the_fpga_repeats_is_stopped_for_a_tap_and_goes_on_in_its_beat(haunted):
+def test_a_repetition_is_stopped_for_a_tap_and_resumes_in_phase(haunted):
     for after_s in (0.0, 6e-3, 12e-3, 18e-3):
         tap_s = 0.4 + after_s
         played, figures, _ = haunted(SPOT + halves(CLICK), [(tap_s, tap_s + 0.05, (150, 90))], until_s=0.8, probability=0.0)
@@ -181,7 +181,7 @@ def test_what_the_fpga_repeats_is_stopped_for_a_tap_and_goes_on_in_its_beat(haun
         assert beats == pytest.approx(round(beats), abs=1e-3)
 
 
-def test_a_repetition_that_is_to_begin_is_not_expected_before_it_does():
+def test_a_repetition_causes_no_ghosts_before_it_begins():
     """As the clocks are known a little better it was: the loop woke, found nothing to stop, and woke again at once."""
     clock_estimate = ClockEstimate(80_000_000)
     occupancy = Occupancy(clock_estimate, T_S, 1.0)

@@ -24,7 +24,7 @@ def test_a_plate_that_has_not_played_is_free_and_a_command_may_start_as_it_arriv
     assert occupancy().earliest_start_s(101.0, 102.0) == 102.0
 
 
-def test_the_clocks_error_counts_on_the_clock_that_did_not_start_the_emission():
+def test_the_clock_error_is_added_on_the_clock_that_did_not_start_the_emission():
     by_pin, by_clock = occupancy(), occupancy()
     by_pin.started(1.0, 101.0, by_clock=False)
     by_clock.started(1.0, 101.0, by_clock=True)
@@ -33,7 +33,7 @@ def test_the_clocks_error_counts_on_the_clock_that_did_not_start_the_emission():
     assert by_clock.earliest_start_s(101.0, None) == 101.0 + T_S + MARGIN_S
 
 
-def test_a_repetition_that_is_stopped_sounds_to_the_end_of_its_last_emission():
+def test_a_stopped_repetition_plays_to_the_end_of_its_last_emission():
     plate = occupancy(max_duty=0.5)
     plate.started(1.0, 101.0, by_clock=True)
     plate.repetition = Repetition(101.0, 0.025)
@@ -49,7 +49,7 @@ def test_a_repetition_that_is_stopped_sounds_to_the_end_of_its_last_emission():
     st.sampled_from([1.0, 0.5, 0.1]),
     st.floats(0.9, 1.1),
 )
-def test_no_start_comes_before_its_command_nor_before_the_pause_of_the_one_before(steps, max_duty, scale):
+def test_no_emission_starts_before_its_command_or_within_the_pause_of_the_former(steps, max_duty, scale):
     plate = occupancy(max_duty)
     plate.set_time_scale(scale)
     now_s, last_s = OFFSET_S, -NEVER

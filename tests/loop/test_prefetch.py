@@ -31,7 +31,7 @@ def stroke(speed_mm_s, duration_s, y_mm=74.0):
     return [*reports, (duration_s + 0.1, {0: None})]
 
 
-def test_ahead_of_a_finger_that_goes_straight_most_waveforms_are_there_when_they_are_due(perform):
+def test_prefetch_has_most_waveforms_of_a_straight_stroke_resident_in_time(perform):
     run = perform(stroke(40.0, 3.0), TEXTURE)
     counters = run.counters
     assert counters.emissions == pytest.approx(24, abs=1)
@@ -39,7 +39,7 @@ def test_ahead_of_a_finger_that_goes_straight_most_waveforms_are_there_when_they
     assert counters.resident >= 0.8 * counters.emissions
 
 
-def test_what_was_sent_ahead_is_played_where_the_finger_is_then(perform):
+def test_a_prefetched_waveform_is_played_at_the_place_of_the_finger(perform):
     run = perform(stroke(40.0, 3.0), TEXTURE)
     track = run.tracks[0]
     for played in run.played[2:]:
@@ -49,12 +49,12 @@ def test_what_was_sent_ahead_is_played_where_the_finger_is_then(perform):
         assert emission.y_m == pytest.approx(y_m, abs=REUSE_RADIUS_M)
 
 
-def test_nothing_is_sent_ahead_of_a_finger_at_rest_or_one_that_feels_nothing_as_it_moves(perform):
+def test_no_prefetch_for_a_finger_at_rest_or_without_effects_of_movement(perform):
     assert perform([(0.0, {0: (60.0, 54.0)}), (1.0, {0: None})], TEXTURE).counters.prefetched == 0
     assert perform(stroke(40.0, 1.0), CLICK).counters.prefetched == 0
 
 
-def test_a_finger_that_is_too_fast_to_be_foreseen_is_played_all_the_same(perform):
+def test_a_finger_too_fast_for_prediction_is_still_played(perform):
     run = perform(stroke(600.0, 0.25), TEXTURE)
     assert run.counters.emissions >= 20
     assert run.counters.skipped.bad_entries == 0
@@ -88,14 +88,14 @@ def rubbing(seed, duration_s):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_rubbing_a_fine_texture_to_and_fro_goes_on(perform, board, seed):
+def test_rubbing_a_fine_texture_back_and_forth_keeps_playing(perform, board, seed):
     """What a stroke asks for lies near what the one before asked for: often nearer to where an upload would meet the finger."""
     sixteen = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=16))
     run = perform(rubbing(seed, 6.0), TEXTURE.replace("5.0", "2.0"), on=sixteen)
     assert run.counters.emissions > 150
 
 
-def test_of_what_is_sent_ahead_at_most_a_fifth_is_never_played(perform, board, bank_file):
+def test_at_most_a_fifth_of_prefetched_waveforms_is_never_played(perform, board, bank_file):
     """Over the recordings of real panels on the board's own scene, and over strokes to and fro on textures."""
     scene = load_scene(board.folder / "scene.toml", board)
     recordings = sorted((Path(__file__).parent.parent / "touch" / "recordings").glob("*.ev*"))
@@ -111,7 +111,7 @@ def test_of_what_is_sent_ahead_at_most_a_fifth_is_never_played(perform, board, b
         assert uploads > 0
 
 
-def test_what_is_sent_ahead_of_a_finger_that_is_lifted_is_counted_as_wasted(perform):
+def test_prefetch_for_a_lifted_finger_is_counted_as_wasted(perform):
     """Of a stroke it is known where the next waveform is wanted; lifted before, or not."""
     lengths_s = [1.2 + k * REPORT_S for k in range(0, 16, 2)]  # within one spacing
     counted = set()

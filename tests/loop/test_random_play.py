@@ -392,11 +392,11 @@ def play_all(seeds, *where):
     assert foci > 10 * len(seeds), "they feel something"
 
 
-def test_random_play_keeps_what_must_always_hold(board, bank_file, tmp_path, evemu_text):
+def test_random_play_keeps_the_invariants(board, bank_file, tmp_path, evemu_text):
     play_all(range(CHEAP), board, bank_file, tmp_path, evemu_text)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(10))
-def test_much_random_play_keeps_what_must_always_hold(part, board, bank_file, tmp_path, evemu_text):
+def test_long_random_play_keeps_the_invariants(part, board, bank_file, tmp_path, evemu_text):
     play_all(range(CHEAP + part * LONG // 10, CHEAP + (part + 1) * LONG // 10), board, bank_file, tmp_path, evemu_text)

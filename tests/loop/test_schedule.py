@@ -132,13 +132,13 @@ def test_a_train_of_a_moving_finger_keeps_its_spacing_to_one_clock(run):
 
 
 @pytest.mark.parametrize("late_s", [0.1e-3, 0.95 * (BEAT_LEAD_S - HANDOVER_S)])
-def test_a_host_that_wakes_up_late_does_not_move_a_beat(run, late_s):
+def test_a_late_wake_up_does_not_shift_a_beat(run, late_s):
     done = run(sliding(1.1), train(50), LateClock(late_s))
     assert done.counters.uploads == 50
     assert np.unique(done.spacings()).tolist() == [TICKS // 50]
 
 
-def test_a_host_later_than_the_lead_does(run):
+def test_a_wake_up_later_than_the_lead_shifts_the_beat(run):
     done = run(sliding(1.1), train(50), LateClock(2e-3))
     assert np.unique(done.spacings()).size > 1
 
@@ -147,7 +147,7 @@ TAPS = [report for k in range(5) for report in ((0.2 * k, {0: (30.0 + 30 * k, 54
 
 
 @pytest.mark.parametrize("slow_s", [0.0, 0.75 * HANDOVER_S, 0.15e-3])
-def test_a_host_that_is_no_slower_than_the_handover_allows_for_has_each_beat_started_to_the_clock(run, slow_s):
+def test_a_host_within_the_handover_time_starts_each_beat_to_the_clock(run, slow_s):
     done = run(TAPS, train(50, 80.0), slow_s=slow_s)
     assert done.counters.late == 0
     assert done.counters.scheduled == done.counters.emissions == 20
@@ -155,7 +155,7 @@ def test_a_host_that_is_no_slower_than_the_handover_allows_for_has_each_beat_sta
 
 
 @pytest.mark.parametrize("late_s", [0.0, 1e-3])
-def test_how_long_a_report_waited_to_be_read_is_told(run, late_s):
+def test_the_age_of_a_report_when_read_is_recorded(run, late_s):
     """Of those of which an emission came in the same turn."""
 
     class Late(VirtualClock):
@@ -179,7 +179,7 @@ def test_a_beat_that_comes_too_late_for_its_time_is_played_at_once_and_counted(r
 
 @pytest.mark.parametrize("rate", [50, 100])
 @pytest.mark.parametrize("late_s", [0.0, 0.45e-3])
-def test_what_another_finger_feels_does_not_move_a_beat(run, rate, late_s):
+def test_emissions_of_another_finger_do_not_shift_a_beat(run, rate, late_s):
     scene = region("lower", LOWER, f'effect = "train", rate_hz = {rate}.0, duration_ms = 1000.0') + region(
         "upper", PLATE, 'effect = "texture", spacing_mm = 1.0'
     )
@@ -223,7 +223,7 @@ def test_beats_that_are_played_together_begin_with_the_earliest(run):
         assert played.at_ticks / TICKS == pytest.approx(min(times_s), abs=1e-6)
 
 
-def test_an_emission_that_no_gap_of_a_fast_train_has_room_for_is_felt_all_the_same(run):
+def test_an_emission_longer_than_the_gaps_of_a_fast_train_is_still_played(run):
     """Too near the train's finger to be played together with it."""
     scene = region("left", 'shape = "rectangle"\nx_mm = 0.0\ny_mm = 0.0\nwidth_mm = 105.0\nheight_mm = 148.0',
                    'effect = "train", rate_hz = 400.0, duration_ms = 1000.0')  # fmt: skip
@@ -285,7 +285,7 @@ def focus(x_m, finger=None, **more):
 
 
 @pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
-def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_finger_there(by_hand, at_s):
+def test_a_play_that_ends_a_repetition_starts_after_its_last_emission_at_the_finger(by_hand, at_s):
     """The finger is asked for at T after the start that the repetition leaves, not at T after the command's arrival."""
     playback, clock = by_hand.playback, by_hand.clock
     playback.prepare(focus(0.05, repetitions=ENDLESS, period_s=0.025), 0)
@@ -298,7 +298,7 @@ def test_what_ends_a_repetition_begins_after_its_last_emission_and_meets_the_fin
     assert not playback.repeating
 
 
-def test_of_a_beat_it_is_foreseen_what_an_emission_before_it_takes(by_hand):
+def test_the_duration_of_an_emission_before_a_beat_is_reserved(by_hand):
     """That emission waits for the plate and for its upload; the plate is busy for longer than an upload takes."""
     playback, clock = by_hand.playback, by_hand.clock
 
@@ -312,7 +312,7 @@ def test_of_a_beat_it_is_foreseen_what_an_emission_before_it_takes(by_hand):
 
 
 @pytest.mark.parametrize("at_s", [None, 0.0], ids=["by the pin", "at a time"])
-def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s):
+def test_after_a_fault_nothing_waits_for_former_plays(by_hand, at_s):
     """Nor for a time of the FPGA that it may never reach: a reset has set its clock to 0."""
     playback, clock = by_hand.playback, by_hand.clock
     playback.prepare(focus(0.05), 0)
@@ -323,7 +323,7 @@ def test_after_a_fault_nothing_waits_for_what_was_played_before_it(by_hand, at_s
     assert asked_s + 1.4e-3 <= playback.occupancy.last_start_s < asked_s + 3e-3
 
 
-def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(by_hand, monkeypatch):
+def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_one(by_hand, monkeypatch):
     by_hand.place = (0.15, 0.05)
     words = Selection.words
 
@@ -338,7 +338,7 @@ def test_a_finger_is_met_where_it_was_if_the_bank_has_nothing_where_it_will_be(b
     assert by_hand.counters.skipped.bad_entries == 0
 
 
-def test_what_was_sent_ahead_and_is_found_damaged_in_its_slot_is_sent_anew(by_hand, monkeypatch):
+def test_a_prefetched_waveform_damaged_in_its_slot_is_sent_again(by_hand, monkeypatch):
     playback, clock, places_m = by_hand.playback, by_hand.clock, (0.05, 0.08, 0.11)
     for place_m in places_m:
         if place_m == places_m[-1]:
@@ -352,7 +352,7 @@ def test_what_was_sent_ahead_and_is_found_damaged_in_its_slot_is_sent_anew(by_ha
     assert by_hand.counters.prefetch_wasted == 1
 
 
-def test_nothing_is_sent_ahead_while_what_is_expected_does_not_come_true(by_hand):
+def test_no_prefetch_while_predictions_fail(by_hand):
     for _ in range(5):
         by_hand.playback.prefetch(0, 0.05, 0.05, 1.0)
         by_hand.clock._now_s += 0.03
@@ -360,14 +360,14 @@ def test_nothing_is_sent_ahead_while_what_is_expected_does_not_come_true(by_hand
     assert by_hand.counters.prefetched == 0
 
 
-def test_after_what_the_fpga_started_by_itself_the_plate_is_as_busy(by_hand):
+def test_plays_started_by_the_fpga_occupy_the_plate_as_long(by_hand):
     by_hand.playback.prepare(focus(0.05, at_s=0.0), 0)
     by_hand.playback.prepare(focus(0.1), 0)
     (first,) = by_hand.played
     assert by_hand.playback.accepted.start_s == pytest.approx(first.trigger_s + T_S / DUTY, abs=2 * MARGIN_S)
 
 
-def test_what_lasts_longer_keeps_the_plate_busy_for_longer(by_hand):
+def test_a_longer_play_occupies_the_plate_for_longer(by_hand):
     by_hand.playback.occupancy.set_time_scale(1.1)
     for x_m in (0.05, 0.1):
         by_hand.playback.prepare(focus(x_m), 0)
@@ -375,7 +375,7 @@ def test_what_lasts_longer_keeps_the_plate_busy_for_longer(by_hand):
     assert by_hand.playback.accepted.start_s == pytest.approx(first.trigger_s + 1.1 * T_S / DUTY, abs=2 * MARGIN_S)
 
 
-def test_a_waveform_that_serves_for_a_place_near_by_is_counted(by_hand):
+def test_reuse_of_a_waveform_for_a_nearby_place_is_counted(by_hand):
     for x_m in (0.0550, 0.0553, 0.0553, 0.0650):
         by_hand.playback.prepare(focus(x_m), 0)
         by_hand.clock._now_s += 0.03

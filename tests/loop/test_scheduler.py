@@ -69,7 +69,7 @@ def played(scheduler, now_s):
     return emissions
 
 
-def test_a_command_that_is_started_was_played_and_its_age_is_told(scheduler, told):
+def test_a_started_command_is_reported_as_played_with_its_age(scheduler, told):
     command(scheduler, 1, now_s=1.0)
     (emission,) = played(scheduler, 1.004)
     assert (emission.x_m, emission.y_m, emission.finger) == (0.1, 0.07, None)
@@ -77,7 +77,7 @@ def test_a_command_that_is_started_was_played_and_its_age_is_told(scheduler, tol
     assert not scheduler.due
 
 
-def test_a_newer_command_for_the_same_place_takes_the_olders(scheduler, told):
+def test_a_newer_command_for_the_same_place_replaces_the_older(scheduler, told):
     command(scheduler, 1)
     command(scheduler, 2, x_m=0.1004, now_s=0.001)
     assert told == [(1, Outcome.MERGED, pytest.approx(0.001))]
@@ -93,7 +93,7 @@ def test_commands_for_places_that_are_apart_are_played_together(scheduler, told)
     assert [(ticket, outcome) for ticket, outcome, _ in told] == [(ticket, Outcome.PLAYED) for ticket in (1, 2, 3)]
 
 
-def test_of_too_many_commands_the_oldest_is_skipped_and_each_is_told_once(scheduler, told):
+def test_of_too_many_commands_the_oldest_is_skipped_and_each_is_answered_once(scheduler, told):
     tickets = range(1, MAX_WAITING_COMMANDS + 6)
     for ticket in tickets:
         command(scheduler, ticket, x_m=0.01 + 0.004 * (ticket % 45), y_m=0.01 + 0.02 * (ticket // 45), now_s=ticket * 1e-6)
@@ -103,7 +103,7 @@ def test_of_too_many_commands_the_oldest_is_skipped_and_each_is_told_once(schedu
     assert sorted(ticket for ticket, _, _ in told) == list(tickets)
 
 
-def test_the_other_beats_of_a_command_are_told_nobody(scheduler, told):
+def test_only_the_first_beat_of_a_command_is_answered(scheduler, told):
     command(scheduler, 1, effect="roll")
     times_s = [played(scheduler, 0.0)[0].time_s]
     while scheduler.next_s() < 1.0:
@@ -113,7 +113,7 @@ def test_the_other_beats_of_a_command_are_told_nobody(scheduler, told):
     assert [outcome for _, outcome, _ in told] == [Outcome.PLAYED]
 
 
-def test_a_train_keeps_its_distance_to_when_its_first_beat_really_began(scheduler):
+def test_beats_of_a_train_are_spaced_from_the_actual_start_of_the_first(scheduler):
     command(scheduler, 1, effect="roll")
     played(scheduler, 0.0031)
     assert scheduler.next_s() == pytest.approx(0.0131)
@@ -165,7 +165,7 @@ def test_what_waits_when_the_outputs_go_off_is_refused_and_not_played_later(sche
     assert not scheduler.due
 
 
-def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, told):
+def test_an_unconfirmed_contact_gets_its_allowance_of_emissions_and_no_more(scene, told):
     sure = set()
     scheduler = scheduler_of(scene, told, confirmed=lambda finger: finger in sure)
     touch(scheduler, 0, 0.05, 0.05, 0.0, True)
@@ -179,7 +179,7 @@ def test_a_contact_that_nobody_has_confirmed_gets_its_share_and_no_more(scene, t
     assert scheduler.due
 
 
-def test_who_takes_the_number_of_a_finger_that_was_lifted_gets_a_share_of_its_own(scene, told):
+def test_a_contact_that_reuses_a_fingers_number_gets_an_allowance_of_its_own(scene, told):
     scheduler = scheduler_of(scene, told, confirmed=lambda _: False)
     for at_s in (0.0, 1.0, 2.0):
         touch(scheduler, 0, 0.05, 0.05, at_s, True)
@@ -187,7 +187,7 @@ def test_who_takes_the_number_of_a_finger_that_was_lifted_gets_a_share_of_its_ow
         touch(scheduler, 0, 0.05, 0.05, at_s + 0.1, False)
 
 
-def test_another_scene_takes_over_while_fingers_are_down(scheduler, board, tmp_path, told):
+def test_a_scene_can_change_while_fingers_are_down(scheduler, board, tmp_path, told):
     touch(scheduler, 0, 0.05, 0.05, 0.0, True)
     command(scheduler, 1, now_s=0.25)
     file = tmp_path / "other.toml"
@@ -199,7 +199,7 @@ def test_another_scene_takes_over_while_fingers_are_down(scheduler, board, tmp_p
 
 
 @pytest.mark.parametrize("how", ["lifted", "outputs off"])
-def test_a_command_that_ends_before_its_first_emission_is_told_so_once(scheduler, told, how):
+def test_a_command_that_ends_before_its_first_emission_is_answered_once(scheduler, told, how):
     touch(scheduler, 3, 0.1, 0.05, 0.0, True)
     played(scheduler, 0.0)
     command(scheduler, 1, effect="late", finger=3, now_s=1.0)
@@ -213,7 +213,7 @@ def test_a_command_that_ends_before_its_first_emission_is_told_so_once(scheduler
     assert told == [(1, outcome, pytest.approx(0.003))]
 
 
-def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(board, tmp_path, told):
+def test_spots_too_near_each_other_are_not_repeated_as_one_waveform(board, tmp_path, told):
     spots = "".join(
         f'[[regions]]\nname = "{x_mm}"\nshape = "circle"\nx_mm = {x_mm}\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
         for x_mm in (60, 66)
@@ -225,7 +225,7 @@ def test_spots_that_would_spoil_each_other_are_not_repeated_as_one_waveform(boar
 
 
 @pytest.mark.parametrize(("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 1), (100, "alternate", 1)])
-def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board, tmp_path, told, finger_mm, policy, together):
+def test_a_spot_due_with_a_finger_joins_its_batch_if_the_policy_allows(board, tmp_path, told, finger_mm, policy, together):
     spot = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
     (tmp_path / "spot.toml").write_text(
         f'{spot}[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
@@ -237,7 +237,7 @@ def test_a_spot_that_is_due_with_a_finger_takes_part_if_the_policy_lets_it(board
     assert scheduler.spots.next_s() == 1.05
 
 
-def test_spots_beat_from_when_their_scene_is_taken_over(board, tmp_path, told):
+def test_trains_of_spots_begin_when_their_scene_does(board, tmp_path, told):
     (tmp_path / "spot.toml").write_text(
         '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
     )
@@ -259,9 +259,7 @@ def test_fingers_that_are_down_when_the_outputs_go_off_stay_known_and_commands_d
 
 @pytest.mark.parametrize(("effect", "way_mm"), [("texture", 0.5), ("detent", 0.25)])  # from the touch, from line to line
 @pytest.mark.parametrize(("step_mm", "foreseen"), [(0.09, False), (0.11, True)])
-def test_a_finger_that_hardly_moves_is_at_rest_and_nothing_is_foreseen_for_it(
-    board, tmp_path, told, step_mm, foreseen, effect, way_mm
-):
+def test_a_finger_that_hardly_moves_is_at_rest_and_not_predicted(board, tmp_path, told, step_mm, foreseen, effect, way_mm):
     (tmp_path / "fine.toml").write_text(
         f'[[regions]]\nname = "all"\nshape = "plate"\neffects = [{{ effect = "{effect}", spacing_mm = 0.5 }}]\n'
     )

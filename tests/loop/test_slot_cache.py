@@ -21,13 +21,13 @@ def put(cache, key):
     return True
 
 
-def test_the_waveform_played_longest_ago_gives_way():
+def test_the_least_recently_played_waveform_is_evicted():
     cache = SlotCache(3, same)
     uploads = [put(cache, key) for key in (1, 2, 3, 1, 4, 1, 2)]
     assert uploads == [True, True, True, False, True, False, True]
 
 
-def test_what_is_pinned_stays_whatever_else_is_played():
+def test_pinned_waveforms_are_never_evicted():
     cache = SlotCache(4, same)
     cache.pin([7])
     assert put(cache, 7)
@@ -36,7 +36,7 @@ def test_what_is_pinned_stays_whatever_else_is_played():
     assert not put(cache, 7)
 
 
-def test_enough_slots_are_left_to_play_from():
+def test_at_least_min_unpinned_slots_stay_unpinned():
     cache = SlotCache(4, same)
     cache.pin(range(10))
     for key in range(10):
@@ -51,7 +51,7 @@ def test_all_pinned_of_too_few_slots_still_plays():
     assert [put(cache, key) for key in (1, 2, 1)] == [True, True, True]
 
 
-def test_what_is_near_serves():
+def test_a_resident_waveform_of_a_nearby_place_is_reused():
     cache = SlotCache(4, lambda key: (key // 10 * 1e-3, 0.0, key % 10), near_m=2e-3)  # tens: place in mm, ones: amplitude
     put(cache, 100)
     assert cache.find(120) == 100
@@ -62,7 +62,7 @@ def test_what_is_near_serves():
     assert cache.find(120) is None, "its slot was given away"
 
 
-def test_a_slot_whose_upload_was_refused_is_the_next_to_be_taken():
+def test_a_slot_whose_upload_was_refused_is_the_next_to_be_used():
     cache = SlotCache(3, same)
     put(cache, 1)
     assert cache.take() == cache.take()
@@ -77,7 +77,7 @@ def test_a_slot_that_is_spared_is_taken_only_if_it_is_the_only_one():
     assert SlotCache(1, same).take(spared=0) == 0
 
 
-def test_a_waveform_that_is_kept_in_another_slot_leaves_the_one_before():
+def test_a_waveform_kept_in_another_slot_leaves_the_former():
     cache = SlotCache(3, same)
     put(cache, 1)
     before = cache.use(1)
@@ -88,7 +88,7 @@ def test_a_waveform_that_is_kept_in_another_slot_leaves_the_one_before():
     assert cache.take() == before
 
 
-def test_nothing_is_taken_for_resident_after_a_fault():
+def test_no_waveform_counts_as_resident_after_a_fault():
     cache = SlotCache(3, same)
     put(cache, 1)
     cache.clear()

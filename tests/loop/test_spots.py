@@ -4,7 +4,7 @@ from controller.loop.spots import common_period_s
 from controller.scene.scene import Spot
 
 
-def test_spots_that_one_waveform_serves_have_a_common_period_and_others_none():
+def test_only_spots_that_share_a_waveform_have_a_common_period():
     spot = Spot(0.06, 0.07, 20.0, "a")
     far = spot._replace(x_m=0.1, region="b")
     assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05

@@ -5,7 +5,7 @@ import random
 import cocotb
 from clocked import after_reset, clocks, settled
 
-from controller.fpga.register_table import signal
+from controller.fpga.register_lines import signal
 from controller.fpga.registers import (
     BIT_CLOCK_HZ_MAX,
     BIT_CLOCK_HZ_MIN,

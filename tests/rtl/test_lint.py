@@ -15,14 +15,14 @@ import pytest
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.simulation.rtl_build import verilator_root
 
 RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
 WAIVERS = RTL / "lint_waivers.vlt"
 MODULES = sorted(path.stem for path in RTL.glob("*.v"))
 TOP = "haptic_core"
-BUILT_IN = Parameters.of(load_board(find_board("simulated")), 0x600DF00D).verilog()
+BUILT_IN = BuildParameters.of(load_board(find_board("simulated")), 0x600DF00D).verilog()
 # `@*` waits for every word of a small memory that is read in it: what is meant, and what is built
 ICARUS_MEANT = ["-Wno-sensitivity-entire-array"]
 
@@ -93,7 +93,7 @@ LIMITS = [name for name in BUILT_IN if name not in ("CLOCK_HZ", "SLOTS", "BUILD_
 
 
 def test_no_module_has_a_limit_of_its_own():
-    """What a bitstream has comes from `Parameters.of`: where it is not given it is 0, and 0 is not built."""
+    """What a bitstream has comes from `BuildParameters.of`: where it is not given it is 0, and 0 is not built."""
     found = 0
     for module in MODULES:
         text = (RTL / f"{module}.v").read_text()

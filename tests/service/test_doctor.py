@@ -14,13 +14,14 @@ import pytest
 from controller.bank_builder.build import build_bank
 from controller.board import lookup
 from controller.board.board import load_board
-from controller.board.devices import Ft5x06Touch, LinkSettings, LinuxInputTouch, Realtime, SerialTouch, Temperature
+from controller.board.devices import LinkSettings, Realtime, Temperature
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.board.touch_panels import Ft5x06Touch, LinuxInputTouch, SerialTouch
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.fpga import spi_link
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
@@ -202,7 +203,7 @@ def examined(board, model, channels=range(32)):
 
 
 def model_of(board, build=5):
-    return GatewareModel(Parameters.of(board, build))
+    return GatewareModel(BuildParameters.of(board, build))
 
 
 def test_a_good_link_has_a_proposal_a_bound_and_no_complaint(board):

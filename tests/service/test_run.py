@@ -22,7 +22,7 @@ from patience import communicate
 from controller.application_socket.client import PanelClient
 from controller.board.board import load_board
 from controller.errors import ControllerError
-from controller.fpga.build_parameters import Parameters
+from controller.fpga.build_parameters import BuildParameters
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.serial_peer import PseudoTerminal, UartPanel
 from controller.service.drivers import gateware_hash
@@ -172,7 +172,7 @@ def at_a_serial_port(folder):
 def an_fpga(board, path, build=None):
     """The gateware's model at that port, while the context lasts; a function that sets its run permit, given at first."""
     link = board.link
-    model = GatewareModel(Parameters.of(board, gateware_hash() if build is None else build))
+    model = GatewareModel(BuildParameters.of(board, gateware_hash() if build is None else build))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     levels = []
 

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.board.board import load_board
-from controller.board.devices import TouchPanel
 from controller.board.lookup import data_folder
+from controller.board.touch_panels import TouchPanel
 from controller.simulation.ghostly_panel import PERIOD_S, GhostlyPanel
 from controller.touch.event_codes import Protocol
 from controller.touch.ghost_guard import MAX_QUIET_SHARE, GhostGuard, QuietBudget

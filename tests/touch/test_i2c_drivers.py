@@ -14,8 +14,8 @@ from peers.ft5x06_chip import Ft5x06Chip
 from peers.gt911_chip import STATUS, Gt911Chip
 
 from controller.board.board import load_board
-from controller.board.devices import Ft5x06Touch, Gt911Touch
 from controller.board.lookup import find_board
+from controller.board.touch_panels import Ft5x06Touch, Gt911Touch
 from controller.errors import TouchError
 from controller.touch import ft5x06, gt911, i2c_bus, i2c_reader, panel_lines
 from controller.touch.event_codes import ABS_MT_TOUCH_MAJOR

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.bank.reader import Bank
-from controller.board.devices import Gt911Touch, Temperature
+from controller.board.devices import Temperature
+from controller.board.touch_panels import Gt911Touch
 from controller.board.worker import Worker, WorkerEnded
 from controller.clocks import VirtualClock
 from controller.errors import TouchError

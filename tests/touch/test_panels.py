@@ -12,8 +12,8 @@ from typing import get_args, get_type_hints
 import pytest
 
 from controller.board.board import load_board
-from controller.board.devices import RecordingTouch, Touch
 from controller.board.lookup import data_folder
+from controller.board.touch_panels import RecordingTouch, Touch
 from controller.errors import TouchError
 from controller.service import drivers
 from controller.touch.panels import PANELS, driver_of, open_panel
@@ -108,7 +108,7 @@ def test_a_new_kind_of_panel_takes_the_places_that_the_readme_says(tmp_path, own
     shutil.copytree(CONTROLLER, tree, ignore=shutil.ignore_patterns("__pycache__"))
     entry = f'    MadeUpTouch: PanelDriver("made_up", own_process={own_process}),\n'
     changes = {
-        "controller/board/devices.py": [
+        "controller/board/touch_panels.py": [
             (r"\nTouch = ([^\n]+)\n", lambda found: f"\n{RECORD}Touch = {found[1]} | MadeUpTouch\n"),
         ],
         "controller/touch/made_up.py": DRIVER,

@@ -9,7 +9,7 @@ from scripted_source import ScriptedSource, touch
 
 from controller.benchmark.prediction_error import HORIZONS_MS, main, measure, overshoot_m, rest_m
 from controller.benchmark.predictors import METHODS, Kalman
-from controller.board.devices import TouchPanel
+from controller.board.touch_panels import TouchPanel
 from controller.touch.prediction import (
     MAX_EXTRAPOLATION_M,
     MAX_HORIZON_S,

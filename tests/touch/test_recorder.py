@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from patience import communicate
 from peers.elo_panel import INITIAL, UNTOUCH, touch
 
-from controller.board.devices import SerialTouch
+from controller.board.touch_panels import SerialTouch
 from controller.cli import main
 from controller.errors import ConfigError, TouchError
 from controller.touch.event_codes import Protocol

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from peers.elo_panel import INITIAL, STREAM, UNTOUCH, packet, touch
 
-from controller.board.devices import SerialTouch
+from controller.board.touch_panels import SerialTouch
 from controller.errors import TouchError
 from controller.touch.live_source import LiveSource
 from controller.touch.serial_panel import MAX_COORDINATE, RETRY_S, STUCK_TIMEOUT_S, SerialPanel, SmartSetParser

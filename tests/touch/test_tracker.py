@@ -10,7 +10,7 @@ from alone import alone
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.board.devices import TouchPanel
+from controller.board.touch_panels import TouchPanel
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 from controller.touch.tracker import Tracker

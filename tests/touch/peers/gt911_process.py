@@ -15,7 +15,7 @@ import smbus2.smbus2
 from peers import adapter
 from peers.gt911_chip import Gt911Chip
 
-from controller.board.devices import Gt911Touch
+from controller.board.touch_panels import Gt911Touch
 from controller.touch import i2c_bus, panel_lines
 from controller.touch.gt911 import open_panel
 from controller.touch.panel_process import serve_panel

@@ -1,0 +1,74 @@
+"""Compiles kernel.c while hatchling builds a wheel, or beside its source for an editable installation.
+
+Where there is no C compiler, or no headers of Python, the package is built without it and plays with the NumPy twin. A
+compiler that fails ends the build. Not part of wheels.
+
+Environment: `CC` names the compiler, else the first of cc, gcc and clang; `CFLAGS` follows our own options; both are split
+as a shell does. `_PYTHON_HOST_PLATFORM` (of sysconfig) names another machine, such as linux-aarch64.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.builders.wheel import WheelBuilderConfig
+from packaging.tags import platform_tags
+
+SOURCE = "controller/kernel/kernel.c"
+EXTENSION = "controller/kernel/_kernel.abi3.so"
+OPTIONS = (
+    *("-std=gnu11", "-O3", "-ffp-contract=off", "-Wall", "-Wextra"),
+    *("-shared", "-fPIC", "-fvisibility=hidden", "-DPy_LIMITED_API=0x030B0000", "-Wl,--strip-all"),
+)
+
+
+class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
+    """Hook of hatchling, named in pyproject.toml."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Compile the extension; a wheel with it is for every CPython from 3.11 on, on one kind of machine.
+
+        Parameters
+        ----------
+        version : str
+            What hatchling makes of the package: "standard" or "editable".
+        build_data : dict
+            Hatchling's record of the wheel: files from elsewhere, and its tag.
+        """
+        beside_source = Path(self.root, EXTENSION)
+        if version == "editable":
+            beside_source.unlink(missing_ok=True)
+        compiler = _compiler()
+        headers = sysconfig.get_path("include")
+        lacking = "a C compiler" if not compiler else "" if Path(headers, "Python.h").exists() else f"{headers}/Python.h"
+        if lacking or sys.platform != "linux":
+            self.app.display_warning(f"controller.kernel is not compiled, NumPy does its work: {lacking or 'made on Linux only'}")
+            return
+        self._folder = tempfile.TemporaryDirectory()
+        compiled = beside_source if version == "editable" else Path(self._folder.name, beside_source.name)
+        command = [*compiler, *OPTIONS, f"-I{headers}", *shlex.split(os.environ.get("CFLAGS", "")), SOURCE, "-o", str(compiled)]
+        if subprocess.run(command, cwd=self.root, check=False).returncode:
+            self.app.abort(f"{SOURCE} does not compile: {shlex.join(command)}")
+        if version != "editable":
+            platform = next(tag for tag in platform_tags() if tag.startswith("linux_"))
+            build_data |= {"pure_python": False, "tag": f"cp311-abi3-{platform}"}
+            build_data["force_include"][str(compiled)] = EXTENSION
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
+        """Remove what was compiled for the wheel."""
+        if folder := getattr(self, "_folder", None):
+            folder.cleanup()
+
+
+def _compiler() -> list[str]:
+    named = shlex.split(os.environ.get("CC", ""))
+    return named or [name for name in ("cc", "gcc", "clang") if shutil.which(name)][:1]

@@ -1,0 +1,96 @@
+"""What `pip` makes of the package: with a C compiler, without one, and with one that fails."""
+
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+EXTENSION = "controller/kernel/_kernel.abi3.so"
+
+
+def build(folder, **environment):
+    """A wheel as pip would build it; warnings of the compiler are errors here."""
+    environment = {**os.environ, "CFLAGS": "-Werror", "SOURCE_DATE_EPOCH": "1700000000"} | environment
+    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    return done, next(folder.glob("*.whl"), None)
+
+
+def run(code, kernel=""):
+    environment = {**os.environ, "HAPTIC_PANEL_KERNEL": kernel}
+    command = [sys.executable, "-c", code]
+    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(tmp_path):
+    done, wheel = build(tmp_path)
+    assert wheel, done.stderr
+    assert "-cp311-abi3-linux_" in wheel.name
+    names = zipfile.ZipFile(wheel).namelist()
+    data = f"{wheel.name.split('-cp311')[0]}.data/data/share/haptic-panel"
+    for wanted in (
+        "boards/simulated/board.toml",
+        "boards/simulated/demo.evemu",
+        "fpga_rtl/haptic_core.v",
+        "fpga_rtl/registers.vh",
+        "fpga_rtl/simulation/wrapper.cpp",
+    ):
+        assert f"{data}/{wanted}" in names
+    assert any(name.startswith(f"{data}/systemd/") for name in names)
+    share = data.removesuffix("/haptic-panel")
+    assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
+    assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
+    assert {"controller/cli.py", "controller/scene/effects.toml", EXTENSION} <= set(names)
+    assert not any(name.startswith("tests/") or name.endswith((".sh", ".c", "build_hook.py")) for name in names)
+
+
+def test_a_wheel_is_the_same_to_the_byte_when_built_again(tmp_path):
+    wheels = [build(tmp_path / name)[1].read_bytes() for name in ("first", "again")]
+    assert wheels[0] == wheels[1]
+
+
+def test_without_a_compiler_the_package_is_built_for_numpy_and_says_so(tmp_path):
+    (tmp_path / "bin").mkdir()
+    done, wheel = build(tmp_path, CC="", PATH=str(tmp_path / "bin"))
+    assert "NumPy does its work: a C compiler" in done.stderr + done.stdout
+    assert wheel.name.endswith("-py3-none-any.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "controller/kernel/twin.py" in names
+    assert not any(name.endswith(".so") for name in names)
+
+
+@pytest.mark.parametrize("broken", [{"CC": "false"}, {"CFLAGS": "-DPy_LIMITED_API=none"}])
+def test_a_compiler_that_fails_ends_the_build(tmp_path, broken):
+    done, wheel = build(tmp_path, **broken)
+    assert done.returncode != 0
+    assert "controller/kernel/kernel.c does not compile: " in done.stderr + done.stdout
+    assert wheel is None
+
+
+def test_the_environment_chooses_the_kernel():
+    code = "from controller import kernel; print(kernel.seal_short_frames.__module__, kernel.COMPILED)"
+    assert run(code, kernel="numpy").stdout.split() == ["controller.kernel.twin", "False"]
+    compiled = run(code, kernel="compiled")
+    assert compiled.stdout.split() == ["controller.kernel._kernel", "True"], compiled.stderr
+    assert run(code).stdout == compiled.stdout
+    assert "HAPTIC_PANEL_KERNEL=fast: compiled, numpy, or unset" in run(code, kernel="fast").stderr
+
+
+def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
+    shutil.copytree(ROOT / "controller" / "kernel", tmp_path / "controller" / "kernel")
+    for file in ("__init__.py", "errors.py"):
+        shutil.copy(ROOT / "controller" / file, tmp_path / "controller")
+    code = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from controller import kernel; print(kernel.COMPILED, kernel.__file__)"
+    )
+    place = str(tmp_path / "controller" / "kernel" / "__init__.py")
+    os.utime(tmp_path / EXTENSION, (2e9, 2e9))
+    assert run(code).stdout.split() == ["True", place]
+    os.utime(tmp_path / EXTENSION, (1e9, 1e9))
+    assert run(code).stdout.split() == ["False", place]
+    assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
