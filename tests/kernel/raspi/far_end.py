@@ -18,17 +18,17 @@ import numpy as np
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
-from controller.fpga.frames import pack_status
+from controller.fpga.build_parameters import BuildParameters
+from controller.fpga.status import pack_status
 from controller.gateware_model.gateware import Permit
-from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.model import INPUT_TICKS, GatewareModel
 from controller.gateware_model.pin_timing import SELECT_HIGH_TICKS, TRIGGER_PERIOD_TICKS, frame_ticks
-from controller.service.drivers import Parameters, gateware_hash
+from controller.service.drivers import gateware_hash
 
 HEADER = struct.Struct("<cBBBIQ")  # kind, line, level, 0, bytes, virtual time in ns
 STATUS_BYTES = 36
 TRIGGER, PERMIT = 25, 23
 START_TICK = 10
-INPUT_TICKS = 4  # through the flip-flops of an input
 MESSAGES_PER_CAPTURE = 500
 NS = 1_000_000_000
 
@@ -38,13 +38,13 @@ class Echoes:
 
     frames = 0
 
-    def select(self, _):
+    def select(self, _at_ns):
         return bytes(self.frames + i & 255 for i in range(STATUS_BYTES))
 
-    def release(self, _, sent):
+    def release(self, _at_ns, _sent):
         self.frames += 1
 
-    def line(self, number, level, at_ns):
+    def line(self, _number, _level, _at_ns):
         pass
 
     def seen(self):
@@ -57,7 +57,7 @@ class Gateware:
     def __init__(self, name):
         board = load_board(find_board(name))
         self._clock_hz = board.link.clock_hz
-        self._model = GatewareModel(Parameters.of(board, gateware_hash()))
+        self._model = GatewareModel(BuildParameters.of(board, gateware_hash()))
         self._model.permit(0, True, Permit.TEMPERATURE)
         self._start_ns = None
         self._free_tick = START_TICK
