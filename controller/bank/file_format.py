@@ -18,12 +18,14 @@ from controller import __version__
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS
 from controller.errors import BankError
+from controller.kernel import load_frames_bytes
 
 MAGIC = b"HPNLBANK"
-VERSION = 2
+VERSION = 3
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
+SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
 MODELLED = "modelled"  # build parameter `responses`: they come from a model, not from measurements
 
@@ -74,7 +76,7 @@ class Header:
     grid : Grid
     bit_clock_hz : float
     samples : int
-        Of an emission.
+        Of an emission: 1 to 1000.
     entries : int
         Cells that were built.
     parameters : dict
@@ -101,7 +103,7 @@ class Header:
 
     def sections(self) -> tuple[Section, ...]:
         """Section table without CRCs: offsets follow from the numbers of cells, entries and samples."""
-        drive_bytes, response_bytes = 4 * self.samples, CHANNELS * (self.samples + self.rest_rows)
+        drive_bytes, response_bytes = load_frames_bytes(4 * self.samples), CHANNELS * (self.samples + self.rest_rows)
         offset = self.header_bytes
         placed = []
         for name, rows, row_bytes, stride in (
@@ -224,7 +226,7 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
     if file_bytes != told_bytes:
         raise BankError(f"{'is truncated' if file_bytes < told_bytes else 'has grown'}: {file_bytes} bytes instead of {told_bytes}")
     at = FIXED.size + section_count * SECTION.size
-    if channels != CHANNELS or section_count != 5 or zero or not samples or at + parameters_bytes > len(body):
+    if channels != CHANNELS or section_count != 5 or zero or not 1 <= samples <= SAMPLES_MAX or at + parameters_bytes > len(body):
         raise BankError("has a header that this version of the format does not allow")
     if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
         raise BankError("has a grid or bit clock that cannot be")

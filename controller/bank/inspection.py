@@ -17,6 +17,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.paths import is_there
 from controller.errors import BankError
+from controller.kernel import unpack_loads
 
 
 def bank_info(path: Path) -> dict[str, Any]:
@@ -81,15 +82,25 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
 
 def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
     """Check every row of a section against its CRC-32, and that the padding between rows is zero."""
-    column = ["drive", "response"].index(section.name)
+    crc_of_row, column = {"drive": (_crc_of_words(bank.samples), 0), "response": (zlib.crc32, 1)}[section.name]
     cell_of = np.flatnonzero(bank.cells)
     for entry, checksums in enumerate(bank.checksums):
         start = section.offset + entry * section.stride
         row = bank.read(start, section.row_bytes)
-        if zlib.crc32(row) != checksums[column]:
-            raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]})")
+        try:
+            wrong = "" if crc_of_row(row) == checksums[column] else "wrong CRC-32"
+        except ValueError as error:
+            wrong = str(error)
+        if wrong:
+            raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]}): {wrong}")
         _check_padding(bank, start + section.row_bytes, start + section.stride)
         progress(start + section.stride, bank.file_bytes)
+
+
+def _crc_of_words(samples: int) -> Callable[[bytes], int]:
+    """CRC-32 of the words that a drive row carries; raises ValueError if its frames are not whole."""
+    words = bytearray(4 * samples)
+    return lambda row: unpack_loads(words, row)
 
 
 def _check_padding(bank: Bank, start: int, end: int) -> None:

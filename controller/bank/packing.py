@@ -100,7 +100,11 @@ def channel_bits(words: NDArray[np.uint32]) -> NDArray[np.uint8]:
 
 def edges(words: NDArray[np.uint32]) -> NDArray[np.intp]:
     """Edges (changes of level) of each channel, (32,), from the first to the last of drive words, (sample,)."""
-    counts: NDArray[np.intp] = channel_bits(words[1:] ^ words[:-1]).sum(axis=0, dtype=np.intp)
+    bits = channel_bits(words[1:] ^ words[:-1])
+    if not len(bits):
+        return np.zeros(CHANNELS, np.intp)
+    eight_channels = np.add.reduceat(bits.view("<u8"), np.arange(0, len(bits), 255), axis=0)  # no byte carries into the next
+    counts: NDArray[np.intp] = eight_channels.view(np.uint8).sum(axis=0, dtype=np.intp)
     return counts
 
 

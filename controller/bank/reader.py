@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import mmap
 import os
@@ -19,7 +20,9 @@ from controller.bank.packing import CHANNELS
 from controller.board.board import Board
 from controller.board.paths import build_line
 from controller.errors import BankError
+from controller.kernel import unpack_loads
 
+AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
 
 
@@ -66,6 +69,7 @@ class Bank:
         self._response_good = bytearray(header.entries)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
+        self._checked_words = bytearray(4 * header.samples)  # room for a check
         self._response_stride = sections["response"].stride
         self._response_bytes = sections["response"].row_bytes
 
@@ -143,8 +147,10 @@ class Bank:
         """Copy `size` bytes of the file from `offset` on; fewer at its end."""
         return os.pread(self._fd, size, offset)
 
-    def words(self, cell: int) -> memoryview:
-        """Drive words of a cell, as the bytes that go to the wire: 4 a sample, not copied.
+    def frames(self, cell: int) -> tuple[memoryview, int]:
+        """Drive words of a cell as LOAD frames numbered from 0 on, a read-only view of the file, and the words' CRC-32.
+
+        The CRC-32 is that of the bank's table, whatever the file holds by now: with it the FPGA finds what changed.
 
         Raises
         ------
@@ -161,25 +167,42 @@ class Bank:
         view = self._drive[start : start + self._drive_bytes]
         if not self._drive_good[entry]:
             self.counters.drive_checked += 1
-            if zlib.crc32(view) != self._crc_of[entry][0]:
-                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, view, entry, cell)
             self._drive_good[entry] = 1
-        return view
+        return view, self._crc_of[entry][0]
 
-    def drive_crc(self, cell: int) -> int:
-        """CRC-32 of the drive words of a cell that has an entry, from the bank's table, whatever the file holds by now."""
-        return self._crc_of[self._entry_of[cell]][0]
-
-    def recheck(self, cell: int) -> None:
-        """Check the drive words of a cell again, after the FPGA has refused them for a wrong CRC.
+    def words(self, cell: int) -> memoryview:
+        """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
         Raises
         ------
         BankError
-            If they differ from the CRC-32 in the bank's table, as in a file that was written over in place.
+            If the cell has no entry, or a damaged one.
+        """
+        view, _ = self.frames(cell)
+        words = bytearray(4 * self.samples)
+        self._unpack(words, view, self._entry_of[cell], cell)
+        return memoryview(words).toreadonly()
+
+    def recheck(self, cell: int) -> None:
+        """Check the drive words of a cell that has an entry again, after the FPGA has refused them or one of their frames.
+
+        Raises
+        ------
+        BankError
+            If they are not as they were built, as in a file that was written over in place.
         """
         self._drive_good[self._entry_of[cell]] = 0
-        self.words(cell)
+        self.frames(cell)
+
+    def _unpack(self, words: bytearray, frames: memoryview, entry: int, cell: int) -> None:
+        """Take the words out of an entry's frames, each byte of which is checked."""
+        try:
+            sound = unpack_loads(words, frames) == self._crc_of[entry][0]
+        except ValueError:
+            sound = False
+        if not sound:
+            raise self._bad("drive", entry, cell)
 
     def require_unchanged(self) -> None:
         """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.
@@ -255,12 +278,30 @@ class Bank:
         if not self._response_good[entry]:
             if not self._response:
                 self._response = self._map("response")
+            self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
             if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry
+
+    def _read_ahead(self, cell: int) -> None:
+        """Have the kernel read the responses around a cell: a finger between cells needs four of them now, and the next ones soon.
+
+        A finger that moves then finds them in memory, and none are read of places that nobody touches.
+        """
+        if not self.close.alive:
+            return
+        row, column = divmod(cell, self.grid.nx)
+        section, stride = self.sections["response"], self._response_stride
+        left, right = max(column - AHEAD, 0), min(column + 1 + AHEAD, self.grid.nx)
+        for y in range(max(row - AHEAD, 0), min(row + 1 + AHEAD, self.grid.ny)):
+            here = [entry for entry in self._entry_of[y * self.grid.nx + left : y * self.grid.nx + right] if entry >= 0]
+            if here:
+                size = (here[-1] + 1 - here[0]) * stride
+                with contextlib.suppress(OSError):  # a file system that cannot: they are read when they are used
+                    os.posix_fadvise(self._fd, section.offset + here[0] * stride, size, os.POSIX_FADV_WILLNEED)
 
     def _missing(self, cell: int) -> BankError:
         return BankError(f"{self.path}: no entry for cell {cell} of {self.grid.nx} x {self.grid.ny}; rebuild it: {self.rebuild}")

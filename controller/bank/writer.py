@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from controller.bank.file_format import MAGIC, Header, Section, begins_as_bank
 from controller.bank.packing import CHANNELS, WORD
 from controller.errors import BankError
+from controller.kernel import pack_loads
 
 
 class BankWriter:
@@ -109,12 +110,14 @@ class BankWriter:
         entry = int(self._index[cell])
         if entry < 0 or self._written[entry]:
             raise ValueError(f"cell {cell} {'was not asked for' if entry < 0 else 'has its entry already'}")
+        levels = np.ascontiguousarray(response).data.cast("B")
+        frames = bytearray(self._sections["drive"].row_bytes)
+        crc = pack_loads(frames, 0, np.ascontiguousarray(words).data.cast("B"))
+        self._checksums[entry] = crc, zlib.crc32(levels)
         with self._disk_errors():
-            for column, (name, data) in enumerate((("drive", words), ("response", response))):
-                payload = np.ascontiguousarray(data).data.cast("B")
+            for name, row in (("drive", memoryview(frames)), ("response", levels)):
                 section = self._sections[name]
-                _write(self._fd, payload, section.offset + entry * section.stride)
-                self._checksums[entry, column] = zlib.crc32(payload)
+                _write(self._fd, row, section.offset + entry * section.stride)
         self._scale[entry] = scale_m_per_v
         self._written[entry] = True
 

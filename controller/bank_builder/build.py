@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
-from controller.bank.packing import CHANNELS, drive_words, edges, quantise
+from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.board.board import Board
 from controller.board.paths import make_folder
@@ -24,7 +24,7 @@ from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 
 HIGHEST_HZ = 100e3
-CELLS_PER_BLOCK = 512  # some rows of the grid; 66 MB of responses at 1000 samples
+CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
 
@@ -40,12 +40,14 @@ class BuildReport:
         Size of the file.
     cells, modes : int
         Entries written; modes in every response.
-    seconds, model_seconds, response_seconds : float
-        Of the whole build, of it the plate model, of it the responses.
+    seconds : float
+        Of the whole build, by the clock.
+    model_seconds, response_seconds : float
+        Processor time of the plate model and of the responses.
     sgemm_gflops : float or None
-        Best rate of matrix multiplication of this machine; None: not measured.
-    gemm_fraction : float or None
-        2 cells modes samples channels / (best rate x response_seconds): above 1 where the sum by rows saves work.
+        Best rate of matrix multiplication of this machine, for a second of processor time; None: not measured.
+    sgemm_share : float or None
+        Additions and multiplications that the responses need, over what this machine multiplies in `response_seconds` at that rate.
     peak_memory_mb : float
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
@@ -60,7 +62,7 @@ class BuildReport:
     model_seconds: float
     response_seconds: float
     sgemm_gflops: float | None
-    gemm_fraction: float | None
+    sgemm_share: float | None
     peak_memory_mb: float
     worst_edge_rate_hz: float
 
@@ -93,7 +95,7 @@ def build_bank(
     progress : bool
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
-        Measure the best rate of matrix multiplication for `gemm_fraction`: about a second.
+        Measure the best rate of matrix multiplication for `sgemm_share`: about a second.
     highest_hz : float
         Modes above are left out.
     overwrite : bool
@@ -136,9 +138,10 @@ def build_bank(
         parameters=parameters,
     )
     make_folder(path.parent)
-    response_seconds = 0.0
+    response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
     idle = np.array([board.idle_word], np.uint32)
+    blocks = _blocks(numbers, grid.nx)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(
@@ -146,30 +149,26 @@ def build_bank(
         ) as writer,  # a folder or disk that cannot take it is refused before the work
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
+        before = time.process_time()
         model = ResponseModel(board, highest_hz)
-        model_seconds = time.perf_counter() - started
-        cells_at_once = min(CELLS_PER_BLOCK, len(numbers))
-        block = np.empty((cells_at_once, header.samples, CHANNELS), np.float32)
-        rest_block = np.empty((cells_at_once, header.rest_rows, CHANNELS), np.float32)
-        entry = np.empty((header.samples + header.rest_rows, CHANNELS), np.float32)
-        for first in range(0, len(numbers), CELLS_PER_BLOCK):
-            some = slice(first, first + CELLS_PER_BLOCK)
-            responses = block[: len(numbers[some])]
-            before = time.perf_counter()
-            model.drive_order_responses(points_m[some], out=responses)
-            rests = model.rest_responses(points_m[some], out=rest_block[: len(responses)])
-            response_seconds += time.perf_counter() - before
-            for cell, response, rest in zip(numbers[some].tolist(), responses, rests, strict=True):
-                words = drive_words(response, board.idle_word)
-                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, words, cell))
+        model_seconds = time.process_time() - before
+        room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
+        for block in blocks:
+            places_m = points_m[block.start : block.stop]
+            before = time.process_time()
+            entries = model.entry_responses(places_m, out=room[: len(block)])
+            response_seconds += time.process_time() - before
+            flops += model.entry_flops(places_m)
+            for cell, entry in zip(numbers[block.start : block.stop].tolist(), entries, strict=True):
+                words = drive_words(entry[: header.samples], board.idle_word)
                 counts = edges(np.concatenate([idle, words, idle]))
+                own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
                 parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
                 parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                np.concatenate([response, rest], out=entry)
                 writer.add(cell, words, *quantise(entry))
-            bar.update(len(responses))
+            bar.update(len(block))
     seconds = time.perf_counter() - started
-    flops = 2.0 * len(numbers) * model.modes * header.samples * CHANNELS
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
     return BuildReport(
@@ -181,15 +180,21 @@ def build_bank(
         model_seconds=model_seconds,
         response_seconds=response_seconds,
         sgemm_gflops=rate and rate / 1e9,
-        gemm_fraction=rate and flops / (rate * response_seconds),
+        sgemm_share=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
     )
 
 
-def _edge_rate_hz(board: Board, words: NDArray[np.uint32], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry; refused above the board's limit."""
-    counts = edges(words)
+def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
+    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows."""
+    at_once = max(CELLS_PER_BLOCK // cells_per_row, 1) * cells_per_row
+    firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()
+    return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
+
+
+def _edge_rate_hz(board: Board, counts: NDArray[np.intp], cell: int) -> float:
+    """Edges per second of the busiest channel of an entry, by the edges of each, (32,); refused above the board's limit."""
     rate_hz = float(counts.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(
@@ -200,7 +205,7 @@ def _edge_rate_hz(board: Board, words: NDArray[np.uint32], cell: int) -> float:
 
 
 def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:
-    """Best rate of float32 matrix multiplication, in flop/s, on the threads in use.
+    """Best rate of float32 matrix multiplication, in additions and multiplications for a second of processor time.
 
     Parameters
     ----------
@@ -214,9 +219,9 @@ def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, rep
         a, b = np.ones((rows, inner), np.float32), np.ones((inner, columns), np.float32)
         product = np.empty((rows, columns), np.float32)
         for _ in range(repeats):
-            before = time.perf_counter()
+            before = time.process_time()
             np.matmul(a, b, out=product)
-            best = max(best, 2.0 * rows * inner * columns / (time.perf_counter() - before))
+            best = max(best, 2.0 * rows * inner * columns / (time.process_time() - before))
     return best
 
 

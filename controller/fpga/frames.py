@@ -15,10 +15,11 @@ from __future__ import annotations
 
 import struct
 import zlib
-from typing import Final
+from typing import Final, NamedTuple
 
 from controller.fpga.registers import (
     CHANNELS,
+    CHUNK_WORDS,
     CHUNKS,
     FRAME_SYNC,
     IDENTITY_MAGIC,
@@ -26,6 +27,7 @@ from controller.fpga.registers import (
     LOAD_PAYLOAD_MIN_BYTES,
     PROTOCOL_VERSION,
     SHORT_PAYLOAD_BYTES,
+    WAVEFORM_WORDS,
     Control,
     FrameType,
     Register,
@@ -36,6 +38,9 @@ HEADER: Final = struct.Struct("<HBBHH")
 SHORT: Final = struct.Struct("<HBBHH6I")  # a short frame without its CRC
 PLAY: Final = struct.Struct("<HBBHHHHHBBIIQ")
 CRC: Final = struct.Struct("<I")
+STORE_FIELDS: Final = struct.Struct("<HII")  # slot, length in words, CRC-32 of the words
+PLAY_FIELDS: Final = struct.Struct("<HHHHBBIIQ")  # slot, first, length, count, start, inverted, period, mask, when
+SHORT_FIELDS_AT: Final = 6  # where they begin in their frames
 
 FRAME_BYTES: Final = 36  # of a status and of every frame but LOAD and TEST
 ALL_CHANNELS: Final = (1 << CHANNELS) - 1
@@ -45,6 +50,49 @@ UPLOAD_BYTES: Final = CHUNKS * LOAD_FRAME_BYTES  # of the longest waveform
 
 WritableBuffer = bytearray | memoryview
 ReadableBuffer = bytes | bytearray | memoryview
+
+
+class ReadyFrames(NamedTuple):
+    """A waveform as a bank holds it.
+
+    Attributes
+    ----------
+    frames : memoryview of bytes
+        Its LOAD frames, numbered from 0 on.
+    crc : int
+        CRC-32 that its words must have.
+    """
+
+    frames: memoryview
+    crc: int
+
+
+Waveform = memoryview | ReadyFrames
+"""Drive words, 4 bytes for each sample; or the frames that carry them."""
+
+
+def upload_slices(length_words: int) -> tuple[slice, ...]:
+    """Byte ranges of the LOAD frames of a waveform that lie back to back from 0 on; each is one chip-select assertion.
+
+    Parameters
+    ----------
+    length_words : int
+        Drive words of the waveform, 1 to 1000.
+
+    Raises
+    ------
+    ValueError
+        If no waveform has this length.
+    """
+    if not 1 <= length_words <= WAVEFORM_WORDS:
+        raise ValueError(f"a waveform has 1 to {WAVEFORM_WORDS} words, not {length_words}")
+    slices = []
+    start = 0
+    for first in range(0, length_words, CHUNK_WORDS):
+        payload = max(4 * min(CHUNK_WORDS, length_words - first), LOAD_PAYLOAD_MIN_BYTES)
+        slices.append(slice(start, start + HEADER.size + payload + CRC.size))
+        start = slices[-1].stop
+    return tuple(slices)
 
 
 def pack_short(buffer: WritableBuffer, offset: int, kind: FrameType, sequence: int, argument: int, *words: int) -> int:

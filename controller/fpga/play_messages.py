@@ -1,17 +1,45 @@
-"""Messages that upload and play waveforms: which frames, in which order, in the send buffer of an `Exchange`."""
+"""Messages that upload and play waveforms: which frames, in which order, in the send buffer of an `Exchange`.
+
+The short frames of a message are the same each time but for a few fields: they are copied as they are, the fields filled in, and
+all of them numbered and sealed by one call.
+"""
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 from controller.board.board import Board
 from controller.fpga import frames
 from controller.fpga.exchange import COMMANDS
-from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES
+from controller.fpga.frames import ALL_CHANNELS, FRAME_BYTES, PLAY_FIELDS, SHORT_FIELDS_AT, STORE_FIELDS, ReadyFrames, Waveform
 from controller.fpga.registers import Control, Start
-from controller.fpga.upload_image import UploadImage
+from controller.kernel import pack_loads, renumber_loads, seal_short_frames
 
 CHECK_TICKS: Final = 8  # beyond one for each word, until the FPGA has checked what it stored
+
+
+class Pattern(NamedTuple):
+    """Short frames of a message, the LOADs before them, and where what differs from message to message belongs.
+
+    Attributes
+    ----------
+    part : slice
+        Where they lie in the send buffer.
+    blank : bytes
+        The frames, without those fields, numbers and CRCs.
+    number : int
+        How many they are.
+    play_at : int
+        Where the fields of the PLAY begin in the send buffer; 0: there is none.
+    lengths : tuple of int
+        Bytes of each frame of the message.
+    """
+
+    part: slice
+    blank: bytes
+    number: int
+    play_at: int
+    lengths: tuple[int, ...]
 
 
 class PlayMessages:
@@ -31,11 +59,25 @@ class PlayMessages:
 
     def __init__(self, sent: memoryview, board: Board) -> None:
         self._sent = sent
-        self._image = UploadImage(sent, board.waveform.samples)
-        self.loads = self._image.frames
-        self._lengths = [(*self._image.lengths, *[FRAME_BYTES] * commands) for commands in range(COMMANDS + 1)]
+        self._samples = samples = board.waveform.samples
+        pieces = frames.upload_slices(samples)
+        self.loads = len(pieces)
+        self._loads_bytes: int = pieces[-1].stop
+        loads = tuple(piece.stop - piece.start for piece in pieces)
         frame_ticks = 8 * FRAME_BYTES * board.link.clock_hz // board.link.sck_hz
-        self._check_frames = (board.waveform.samples + CHECK_TICKS) // frame_ticks  # whole frames on the wire during the check
+        check_frames = (samples + CHECK_TICKS) // frame_ticks  # whole frames on the wire while the FPGA checks what it stored
+        store, nop, stop, play = (bytearray(FRAME_BYTES) for _ in range(4))
+        frames.pack_store(store, 0, 0, 0, samples, 0)
+        frames.pack_nop(nop, 0, 0)
+        frames.pack_control(stop, 0, 0, Control.STOP)
+        frames.pack_play(play, 0, 0, 0)
+        # without a STOP before the PLAY, and with one
+        self._plays = [_pattern((), [play, nop], 0), _pattern((), [stop, play, nop], 1)]
+        self._uploads_and_plays = []
+        for stops in ([], [stop]):
+            waits = [*stops, *[nop] * (check_frames - len(stops))]
+            self._uploads_and_plays.append(_pattern(loads, [store, *waits, play, nop], 1 + len(waits)))
+        self._upload = _pattern(loads, [store, *[nop] * (check_frames + 1)], None)
 
     def play(
         self,
@@ -48,8 +90,8 @@ class PlayMessages:
         when_ticks: int,
         mask: int = ALL_CHANNELS,
         stop: bool,
-    ) -> int:
-        """Pack the play of a resident waveform; returns the offset of its end.
+    ) -> tuple[int, ...]:
+        """Pack the play of a resident waveform; returns the length of each frame in bytes.
 
         Parameters
         ----------
@@ -60,23 +102,13 @@ class PlayMessages:
         stop : bool
             Put a STOP first.
         """
-        end = 0
-        if stop:
-            end = frames.pack_control(self._sent, 0, sequence, Control.STOP)
-        end = frames.pack_play(
-            self._sent,
-            end,
-            sequence + stop,
-            slot,
-            count=count,
-            period_ticks=period_ticks,
-            start=start,
-            when_ticks=when_ticks,
-            mask=mask,
-        )
-        return frames.pack_nop(self._sent, end, sequence + stop + 1)
+        sent, (part, blank, number, play_at, lengths) = self._sent, self._plays[stop]
+        sent[part] = blank
+        PLAY_FIELDS.pack_into(sent, play_at, slot, 0, 0, count, start, 0, period_ticks, mask, when_ticks)
+        seal_short_frames(sent, 0, number, sequence)
+        return lengths
 
-    def upload(self, sequence: int, slot: int, words: memoryview, crc: int) -> tuple[int, ...]:
+    def upload(self, sequence: int, slot: int, waveform: Waveform) -> tuple[int, ...]:
         """Pack an upload into a slot, with NOPs until its check is done; returns the length of each frame in bytes.
 
         Parameters
@@ -84,23 +116,26 @@ class PlayMessages:
         sequence : int
             Of the first frame.
         slot : int
-        words : memoryview of bytes
-            Drive words, 4 bytes for each sample.
-        crc : int
-            CRC-32 that the stored words must have.
+        waveform : memoryview of bytes, or ReadyFrames
+            Drive words, 4 bytes for each sample; or the frames that carry them.
+
+        Raises
+        ------
+        ValueError
+            If the waveform is not as long as the board's.
         """
-        end, sequence = self._loads_and_store(sequence, slot, words, crc)
-        nops = self._check_frames + 1
-        for number in range(nops):
-            end = frames.pack_nop(self._sent, end, sequence + number)
-        return self._lengths[1 + nops]
+        sent, (part, blank, number, _, lengths) = self._sent, self._upload
+        crc = self._pack_loads(sequence, waveform)
+        sent[part] = blank
+        STORE_FIELDS.pack_into(sent, self._loads_bytes + SHORT_FIELDS_AT, slot, self._samples, crc)
+        seal_short_frames(sent, self._loads_bytes, number, sequence + self.loads)
+        return lengths
 
     def upload_and_play(
         self,
         sequence: int,
         slot: int,
-        words: memoryview,
-        crc: int,
+        waveform: Waveform,
         *,
         count: int,
         period_ticks: int,
@@ -114,29 +149,43 @@ class PlayMessages:
         ----------
         sequence : int
             Of the first frame.
-        slot, words, crc
+        slot, waveform
             As in `upload`.
         count, period_ticks, start, when_ticks
             As in `frames.pack_play`.
         stop : bool
             Put a STOP before the PLAY.
-        """
-        end, sequence = self._loads_and_store(sequence, slot, words, crc)
-        commands = 1
-        if stop:
-            end = frames.pack_control(self._sent, end, sequence, Control.STOP)
-            sequence, commands = sequence + 1, commands + 1
-        for _ in range(self._check_frames - stop):  # the FPGA checks the CRC of what it stored meanwhile
-            end = frames.pack_nop(self._sent, end, sequence)
-            sequence, commands = sequence + 1, commands + 1
-        end = frames.pack_play(
-            self._sent, end, sequence, slot, count=count, period_ticks=period_ticks, start=start, when_ticks=when_ticks
-        )
-        frames.pack_nop(self._sent, end, sequence + 1)
-        return self._lengths[commands + 2]
 
-    def _loads_and_store(self, sequence: int, slot: int, words: memoryview, crc: int) -> tuple[int, int]:
-        """Pack LOADs and STORE; the offset of their end and the next sequence number."""
-        end = self._image.pack(sequence, words)
-        sequence += self.loads
-        return frames.pack_store(self._sent, end, sequence, slot, words.nbytes // 4, crc), sequence + 1
+        Raises
+        ------
+        ValueError
+            As `upload`.
+        """
+        sent, (part, blank, number, play_at, lengths) = self._sent, self._uploads_and_plays[stop]
+        crc = self._pack_loads(sequence, waveform)
+        sent[part] = blank
+        STORE_FIELDS.pack_into(sent, self._loads_bytes + SHORT_FIELDS_AT, slot, self._samples, crc)
+        PLAY_FIELDS.pack_into(sent, play_at, slot, 0, 0, count, start, 0, period_ticks, ALL_CHANNELS, when_ticks)
+        seal_short_frames(sent, self._loads_bytes, number, sequence + self.loads)
+        return lengths
+
+    def _pack_loads(self, sequence: int, waveform: Waveform) -> int:
+        """Pack the LOADs of a waveform; returns the CRC-32 that its STORE demands."""
+        if isinstance(waveform, ReadyFrames):
+            ready, crc = waveform
+            if ready.nbytes != self._loads_bytes:
+                raise ValueError(f"{ready.nbytes} bytes of ready frames, not {self._loads_bytes} as the board's waveforms have")
+            renumber_loads(self._sent, sequence, ready)
+            return crc
+        if waveform.nbytes != 4 * self._samples:
+            raise ValueError(f"{waveform.nbytes} bytes of drive words, not {4 * self._samples} as the board's waveforms have")
+        return pack_loads(self._sent, sequence, waveform)
+
+
+def _pattern(loads: tuple[int, ...], shorts: list[bytearray], play: int | None) -> Pattern:
+    """Pattern of a message: lengths of its LOADs, its short frames, and which of those is the PLAY, if any."""
+    assert len(shorts) <= COMMANDS  # for which the send buffer has room
+    at = sum(loads)
+    blank = b"".join(shorts)
+    play_at = 0 if play is None else at + play * FRAME_BYTES + SHORT_FIELDS_AT
+    return Pattern(slice(at, at + len(blank)), blank, len(shorts), play_at, (*loads, *[FRAME_BYTES] * len(shorts)))

@@ -5,14 +5,13 @@ A message with a play that was damaged is sent again behind a STOP, so that noth
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
 from typing import Final
 
 from controller.board.board import Board
 from controller.fpga import frames
 from controller.fpga.exchange import Refused
-from controller.fpga.frames import ALL_CHANNELS
+from controller.fpga.frames import ALL_CHANNELS, Waveform
 from controller.fpga.link import Link
 from controller.fpga.play_messages import PlayMessages
 from controller.fpga.registers import Control, Register, Result, Start
@@ -76,7 +75,7 @@ class Session(Supervision):
         """
 
         def send(again: bool) -> Status:
-            end = self._messages.play(
+            lengths = self._messages.play(
                 self.exchange.sequence,
                 slot,
                 count=count,
@@ -86,7 +85,7 @@ class Session(Supervision):
                 mask=mask,
                 stop=stop or again,
             )
-            return self.exchange.send_short(end)
+            return self.exchange.send(lengths)
 
         try:
             self.exchange.retry(send)
@@ -94,16 +93,14 @@ class Session(Supervision):
             self._raise_if_reset(refusal)
             raise
 
-    def upload(self, slot: int, words: memoryview, crc: int | None = None) -> None:
+    def upload(self, slot: int, waveform: Waveform) -> None:
         """Send drive words and store them as a slot's waveform, without playing it.
 
         Parameters
         ----------
         slot : int
-        words : memoryview of bytes
-            Drive words, 4 bytes for each sample.
-        crc : int, optional
-            CRC-32 that the stored words must have, such as that of a bank's table; by default that of `words`.
+        waveform : memoryview of bytes, or ReadyFrames
+            Drive words, 4 bytes for each sample; or the frames that carry them.
 
         Raises
         ------
@@ -112,10 +109,9 @@ class Session(Supervision):
         LinkError
             If every attempt was damaged.
         """
-        stored_crc = zlib.crc32(words) if crc is None else crc
 
         def send(_: bool) -> Status:
-            lengths = self._messages.upload(self.exchange.sequence, slot, words, stored_crc)
+            lengths = self._messages.upload(self.exchange.sequence, slot, waveform)
             return self.exchange.send(lengths, implied=self._messages.loads)
 
         self.exchange.retry(send)
@@ -123,22 +119,22 @@ class Session(Supervision):
     def upload_and_play(
         self,
         slot: int,
-        words: memoryview,
+        waveform: Waveform,
         count: int,
         period_s: float,
         *,
         stop: bool,
         start: Start = Start.TRIGGER,
         when_ticks: int = 0,
-        crc: int | None = None,
     ) -> None:
         """Send drive words, store them as a slot's waveform and queue its play, in one message.
 
-        The words are copied once, into the frames. A message sent again may be too late for `when_ticks`: it is refused then.
+        The words are copied once, into the frames. A message sent again may be too late for `when_ticks`: it is refused then,
+        with the waveform stored.
 
         Parameters
         ----------
-        slot, words, crc
+        slot, waveform
             As in `upload`.
         count, period_s, stop, start, when_ticks
             As in `play`.
@@ -152,14 +148,12 @@ class Session(Supervision):
         LinkError
             If every attempt was damaged; nothing is left to play then.
         """
-        stored_crc = zlib.crc32(words) if crc is None else crc
 
         def send(again: bool) -> Status:
             lengths = self._messages.upload_and_play(
                 self.exchange.sequence,
                 slot,
-                words,
-                stored_crc,
+                waveform,
                 count=count,
                 period_ticks=self.timing.period_ticks(period_s),
                 start=start,
@@ -172,7 +166,8 @@ class Session(Supervision):
             self.exchange.retry(send)
         except Refused as refusal:
             self._raise_if_reset(refusal)
-            self.exchange.stop()  # if the STORE was refused, the PLAY after it may have queued the slot's old waveform
+            if refusal.result is not Result.TOO_LATE:
+                self.exchange.stop()  # if the STORE was refused, the PLAY after it may have queued the slot's old waveform
             raise
 
     def stop(self) -> None:

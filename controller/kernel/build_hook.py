@@ -27,7 +27,7 @@ SOURCE = "controller/kernel/kernel.c"
 EXTENSION = "controller/kernel/_kernel.abi3.so"
 OPTIONS = (
     *("-std=gnu11", "-O3", "-ffp-contract=off", "-Wall", "-Wextra"),
-    *("-shared", "-fPIC", "-fvisibility=hidden", "-DPy_LIMITED_API=0x030B0000", "-Wl,--strip-all"),
+    *("-shared", "-fPIC", "-fvisibility=hidden", "-DPy_LIMITED_API=0x030B0000", "-Wl,--strip-all,--no-as-needed"),
 )
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import struct
 import zlib
 from functools import cache
-from typing import Final
+from typing import Final, NamedTuple
 
 Readable = bytes | bytearray | memoryview
 Writable = bytearray | memoryview
@@ -73,20 +73,14 @@ def pack_loads(out: Writable, sequence: int, words: Readable) -> int:
         If no waveform has this length, or `out` is too short.
     """
     given = memoryview(words)
-    total = given.nbytes
-    filled = _room(out, load_frames_bytes(total))
-    start = 0
-    for chunk in range(-(-total // CHUNK_BYTES)):
-        piece = given[chunk * CHUNK_BYTES : (chunk + 1) * CHUNK_BYTES]
-        payload, size = start + HEADER.size, piece.nbytes
-        filled[payload : payload + size] = piece
-        if size < PADDED_BYTES:
-            filled[payload + size : payload + PADDED_BYTES] = bytes(PADDED_BYTES - size)
-            size = PADDED_BYTES
-        HEADER.pack_into(filled, start, FRAME_SYNC, LOAD, sequence + chunk & 0xFF, size, chunk)
-        end = payload + size
-        CRC.pack_into(filled, end, zlib.crc32(filled[start:end]))
-        start = end + CRC.size
+    layout = _layout(given.nbytes)
+    filled = _room(out, layout.total)
+    filled[layout.padding] = bytes(layout.padding.stop - layout.padding.start)
+    for part, payload, head, covered, end, headers, _ in layout.frames:
+        filled[payload] = given[part]
+        filled[head] = headers[sequence & 0xFF]
+        CRC.pack_into(filled, end, zlib.crc32(filled[covered]))
+        sequence += 1
     return zlib.crc32(given)
 
 
@@ -110,19 +104,13 @@ def renumber_loads(out: Writable, sequence: int, ready: Readable) -> None:
     ValueError
         If no waveform has frames of this length, or `out` is too short.
     """
-    total = memoryview(ready).nbytes
-    full, rest = _frames_of(total)
-    filled = _room(out, total)
+    layout = _layout_of_frames(memoryview(ready).nbytes)
+    filled = _room(out, layout.total)
     filled[:] = ready
-    changes = number_changes(FULL_FRAME_BYTES)
-    for chunk in range(full + (rest > 0)):
-        start, size = chunk * FULL_FRAME_BYTES, FULL_FRAME_BYTES
-        if chunk == full:
-            size, changes = rest, number_changes(rest)
+    for chunk, (frame, crc) in enumerate(zip(layout.frames, layout.crcs.unpack_from(ready), strict=True)):
         number = sequence + chunk & 0xFF
-        HEADER.pack_into(filled, start, FRAME_SYNC, LOAD, number, size - HEADER.size - CRC.size, chunk)
-        end = start + size - CRC.size
-        CRC.pack_into(filled, end, CRC.unpack_from(filled, end)[0] ^ changes[number ^ chunk])
+        filled[frame.head] = frame.headers[number]
+        CRC.pack_into(filled, frame.end, crc ^ frame.changes[number ^ chunk])
 
 
 def unpack_loads(words: Writable, ready: Readable) -> int:
@@ -146,25 +134,14 @@ def unpack_loads(words: Writable, ready: Readable) -> int:
         If a frame is not as `pack_loads` makes it, with its number; or if the lengths do not go together.
     """
     filled, given = memoryview(words), memoryview(ready)
-    total = filled.nbytes
-    if given.nbytes != load_frames_bytes(total):
-        raise ValueError(f"{given.nbytes} bytes are not the frames of {total} bytes of words")
-    start = 0
-    for chunk in range(-(-total // CHUNK_BYTES)):
-        size = min(CHUNK_BYTES, total - chunk * CHUNK_BYTES)
-        padded = max(size, PADDED_BYTES)
-        payload = start + HEADER.size
-        end = payload + padded
-        header = HEADER.pack(FRAME_SYNC, LOAD, chunk, padded, chunk)
-        padding = given[payload + size : end]
-        if (
-            given[start:payload] != header
-            or padding != bytes(padded - size)
-            or given[end : end + CRC.size] != CRC.pack(zlib.crc32(given[start:end]))
-        ):
+    layout = _layout(filled.nbytes)
+    if given.nbytes != layout.total:
+        raise ValueError(f"{given.nbytes} bytes are not the frames of {filled.nbytes} bytes of words")
+    for chunk, (part, payload, head, covered, end, headers, _) in enumerate(layout.frames):
+        sound = given[head] == headers[chunk] and CRC.unpack_from(given, end)[0] == zlib.crc32(given[covered])
+        if not sound or any(given[payload.stop : end]):
             raise ValueError(f"frame {chunk} is damaged")
-        filled[chunk * CHUNK_BYTES : chunk * CHUNK_BYTES + size] = given[payload : payload + size]
-        start = end + CRC.size
+        filled[part] = given[payload]
     return zlib.crc32(filled)
 
 
@@ -196,6 +173,73 @@ def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> N
         start = end + CRC.size
 
 
+class Frame(NamedTuple):
+    """Where a LOAD frame lies: its words among those of the waveform; of its own bytes payload, header, what its CRC covers, CRC.
+
+    `headers` has its header for every sequence number, `changes` by what another number changes its CRC.
+    """
+
+    part: slice
+    payload: slice
+    head: slice
+    covered: slice
+    end: int
+    headers: tuple[bytes, ...]
+    changes: tuple[int, ...]
+
+
+class Layout(NamedTuple):
+    """The LOAD frames of a waveform, all their CRCs, the zeros behind the words of the last one, and the bytes of it all."""
+
+    frames: tuple[Frame, ...]
+    crcs: struct.Struct
+    padding: slice
+    total: int
+
+
+@cache
+def _headers(chunk: int, payload_bytes: int) -> tuple[bytes, ...]:
+    """Header of a LOAD frame for every sequence number."""
+    return tuple(HEADER.pack(FRAME_SYNC, LOAD, number, payload_bytes, chunk) for number in range(256))
+
+
+@cache
+def _layout(words_bytes: int) -> Layout:
+    """Frames of a waveform of this length; ValueError as `load_frames_bytes`."""
+    total = load_frames_bytes(words_bytes)
+    frames, padding, start = [], slice(0, 0), 0
+    for chunk in range(-(-words_bytes // CHUNK_BYTES)):
+        size = min(CHUNK_BYTES, words_bytes - chunk * CHUNK_BYTES)
+        padded = max(size, PADDED_BYTES)
+        payload = start + HEADER.size
+        end = payload + padded
+        frames.append(
+            Frame(
+                slice(chunk * CHUNK_BYTES, chunk * CHUNK_BYTES + size),
+                slice(payload, payload + size),
+                slice(start, payload),
+                slice(start, end),
+                end,
+                _headers(chunk, padded),
+                number_changes(end + CRC.size - start),
+            )
+        )
+        padding = slice(payload + size, end)
+        start = end + CRC.size
+    crcs = struct.Struct("<" + "".join(f"{frame.covered.stop - frame.covered.start}xI" for frame in frames))
+    return Layout(tuple(frames), crcs, padding, total)
+
+
+@cache
+def _layout_of_frames(total: int) -> Layout:
+    """The same from the bytes of the frames; ValueError if no waveform has so many."""
+    full, rest = divmod(total, FULL_FRAME_BYTES)
+    shortest = HEADER.size + PADDED_BYTES + CRC.size
+    if total == 0 or full + (rest > 0) > CHUNKS or (rest and (rest < shortest or rest % 4)):
+        raise ValueError(f"{total} bytes are not the LOAD frames of a waveform")
+    return _layout(full * CHUNK_BYTES + (rest - HEADER.size - CRC.size if rest else 0))
+
+
 @cache
 def number_changes(frame_bytes: int) -> tuple[int, ...]:
     """By what a frame's CRC changes, by exclusive or, when its sequence number does: for each value of the old number ^ the new.
@@ -212,15 +256,6 @@ def number_changes(frame_bytes: int) -> tuple[int, ...]:
         covered[NUMBER_AT] = change
         changes.append(zlib.crc32(covered) ^ of_zeros)
     return tuple(changes)
-
-
-def _frames_of(total: int) -> tuple[int, int]:
-    """Full frames in so many bytes, and bytes of the shorter one behind them."""
-    full, rest = divmod(total, FULL_FRAME_BYTES)
-    shortest = HEADER.size + PADDED_BYTES + CRC.size
-    if total == 0 or full + (rest > 0) > CHUNKS or (rest and (rest < shortest or rest % 4)):
-        raise ValueError(f"{total} bytes are not the LOAD frames of a waveform")
-    return full, rest
 
 
 def _room(out: Writable, total: int) -> memoryview:

@@ -6,6 +6,7 @@ from typing import Any
 
 from controller.errors import ConfigError, FaultError
 from controller.fpga.clock_estimate import ClockEstimate
+from controller.loop.host_timing import HostTiming
 from controller.loop.outputs import Outputs
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
@@ -24,16 +25,24 @@ class LoopControl:
     counters : Counters
     change : SceneChange or None
         None: scenes cannot be changed.
+    timing : HostTiming
     """
 
     def __init__(
-        self, outputs: Outputs, scheduler: Scheduler, clock_estimate: ClockEstimate, counters: Counters, change: SceneChange | None
+        self,
+        outputs: Outputs,
+        scheduler: Scheduler,
+        clock_estimate: ClockEstimate,
+        counters: Counters,
+        change: SceneChange | None,
+        timing: HostTiming,
     ) -> None:
         self._outputs = outputs
         self._scheduler = scheduler
         self._clock_estimate = clock_estimate
         self._counters = counters
         self._change = change
+        self._timing = timing
 
     def play(self, ticket: int, effect: str, x_m: float, y_m: float, finger: int | None, amplitude: float, now_s: float) -> None:
         """Play an effect; see `PanelControl.play`.
@@ -69,7 +78,8 @@ class LoopControl:
 
     def figures(self) -> dict[str, Any]:
         """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
-        return self._counters.export(histograms=False) | {"outputs": "on" if self._outputs.on else self._outputs.cause or "off"}
+        outputs = "on" if self._outputs.on else self._outputs.cause or "off"
+        return self._counters.export(histograms=False) | {"outputs": outputs, "schedule": self._timing.figures()}
 
     def effects(self) -> tuple[str, ...]:
         """Names of the effects that `play` accepts."""

@@ -18,7 +18,6 @@ from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.touch.source import TrackedTouch
 
-BEAT_LEAD_S = 0.7e-3  # beyond an upload's time on the wire: a beat of a train or a spot is handed over this early
 PREFETCH_SLACK_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
 RESIDENT_START_S = 0.1e-3  # from a report to the start of a waveform that is resident
 
@@ -43,8 +42,6 @@ class Dispatcher:
 
     Attributes
     ----------
-    lead_s : float
-        A beat is handed over this long before it is due.
     quiet_until_s : float
         Host time before which no emission begins, for the touch panel's sake.
     """
@@ -59,7 +56,6 @@ class Dispatcher:
         clock_estimate: ClockEstimate,
         counters: Counters,
     ) -> None:
-        self.lead_s = playback.upload_s + BEAT_LEAD_S
         self.quiet_until_s = -NEVER
         self._clock = clock
         self._session = session
@@ -67,6 +63,7 @@ class Dispatcher:
         self._scheduler = scheduler
         self._playback = playback
         self._occupancy = playback.occupancy
+        self._timing = playback.timing
         self._clock_estimate = clock_estimate
         self._counters = counters
         self._delayed = False  # something waited for the panel's silence
@@ -100,7 +97,7 @@ class Dispatcher:
             return False
         repeating = playback.repeating
         if not repeating and scheduler.scene.spots:
-            scheduler.add_spots(turn.fpga_s, turn.fpga_s + self.lead_s)
+            scheduler.add_spots(turn.fpga_s, turn.fpga_s + self._timing.lead_s)
         due = bool(scheduler.due)
         if due or repeating:
             self._listen(now_s, due, repeating)
@@ -129,7 +126,7 @@ class Dispatcher:
         if repeating and next_s != NEVER:
             next_s = min(next_s, self._occupancy.next_repetition_s(now_s))
         if on and not repeating and self._scheduler.scene.spots:
-            next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self.lead_s)
+            next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self._timing.lead_s)
         return next_s
 
     def _open_s(self) -> float:
@@ -156,13 +153,15 @@ class Dispatcher:
             return False
         if self._scheduler.next_s() == FPGA_NEVER:
             return True
-        free_s = self._occupancy.free_after_next_s(now_s, self._playback.upload_s)
+        upload = self._timing.upload
+        free_s = self._occupancy.free_after_next_s(now_s, upload.expected_s, upload.promised_s)
         return not self._scheduler.must_defer(fpga_s, self._clock_estimate.fpga_s(free_s))
 
     def _play(self, turn: Turn) -> bool:
         """Play what comes next as one batch; spots alone are left to the FPGA to repeat. Whether it started."""
         scheduler, occupancy = self._scheduler, self._occupancy
-        within_s = NEVER if self._delayed else occupancy.duration_s  # what waited for silence is due at the same time
+        waited = self._delayed
+        within_s = NEVER if waited else occupancy.duration_s  # what waited for silence is due at the same time
         emissions = scheduler.next_batch(within_s, turn.fpga_s)
         self._delayed = False
         period_s = scheduler.spots.common_period_s
@@ -175,8 +174,16 @@ class Dispatcher:
                 emissions = scheduler.join_spots(emissions, fpga_s + period_s)
             else:
                 scheduler.spots.restart(fpga_s)
-        beats = [emission.time_s for emission in emissions if emission.period_s]
-        return self._prepare(Batch(emissions, at_s=min(beats) if beats else None), turn)
+        decided_s = self._clock.now_s()
+        self._timing.decided(decided_s - turn.now_s)
+        at_s, has_begun, period_s = None, False, 0.0
+        for emission in emissions:
+            if emission.period_s and (at_s is None or emission.time_s < at_s):
+                at_s, has_begun, period_s = emission.time_s, emission.beat > 0, emission.period_s
+        if at_s is not None and has_begun and not waited:
+            lead_s = min(self._timing.lead_s, period_s)
+            self._timing.woken(decided_s - max(self._clock_estimate.host_s(at_s) - lead_s, self._open_s()))
+        return self._prepare(Batch(emissions, at_s=at_s, has_begun=has_begun), turn)
 
     def _prepare(self, batch: Batch, turn: Turn) -> bool:
         """Hand a batch over, and tell everyone concerned what became of it. Whether it started."""
@@ -210,5 +217,6 @@ class Dispatcher:
         if wanted is None or self._session.wire_free_s() > turn.now_s:
             return
         next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))
-        if next_s - self.lead_s > turn.now_s + PREFETCH_SLACK_S:
+        timing = self._timing
+        if next_s - timing.lead_s > turn.now_s + max(PREFETCH_SLACK_S, timing.upload.promised_s):
             self._playback.prefetch(finger, *wanted)

@@ -2,7 +2,7 @@
 
 Each turn reads at most one touch report and a bounded number of commands, lets the scheduler collect what is due, and has
 the dispatcher hand it to the FPGA. The longest blocking call without a fault is one message on the wire
-(`Playback.upload_s`).
+(`HostTiming.upload`).
 """
 
 from __future__ import annotations
@@ -82,6 +82,7 @@ class EventLoop:
         self._source = source
         self._scheduler = scheduler
         self._playback = playback
+        self._timing = playback.timing
         self._dispatcher = dispatcher
         self._clock_estimate = clock_estimate
         self._counters = counters
@@ -91,7 +92,7 @@ class EventLoop:
         self._emission_started = emission_started
         self._scene_changed = scene_changed
         self._outputs = Outputs(session, board, clock, clock_estimate, counters)
-        self.control = LoopControl(self._outputs, scheduler, clock_estimate, counters, change)
+        self.control = LoopControl(self._outputs, scheduler, clock_estimate, counters, change, playback.timing)
         self._wakeup: Wakeup | None = None
         self._reload = False
         self._stopped = False
@@ -210,7 +211,7 @@ class EventLoop:
         if self._change is not None:
             self._change_scene(now_s)
         fpga_s = self._clock_estimate.fpga_s(now_s)
-        self._scheduler.advance(fpga_s + self._dispatcher.lead_s + ROUNDING_S)
+        self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
         if self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), self._outputs.on):
             self._outputs.emission_started()
             self._emission_started()
@@ -275,9 +276,9 @@ class EventLoop:
             if handover_s <= max(now_s, self._session.wire_free_s()):  # before anything else is read
                 return min(handover_s, outputs.next_s())
             times.append(handover_s)
-        next_s = self._scheduler.next_s()
-        if next_s != FPGA_NEVER:
-            times.append(self._clock_estimate.host_s(next_s) - dispatcher.lead_s)
+        collect_s = self._scheduler.collect_s(self._timing.lead_s)
+        if collect_s != FPGA_NEVER:
+            times.append(self._clock_estimate.host_s(collect_s))
         if not times and self._source.fileno() is None and self._commands is None:
             free_s = playback.occupancy.free_s  # end of a replay: the last emission sounds to its end
             return free_s if now_s < free_s else None

@@ -13,7 +13,6 @@ from controller.clocks import NEVER, FpgaTime
 from controller.fpga.clock_estimate import ClockEstimate
 
 MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
-HANDOVER_S = 0.2e-3  # from the end of a play command on the wire to the earliest time it may name
 
 
 class Repetition(NamedTuple):
@@ -109,28 +108,48 @@ class Occupancy:
         self.free_s = max(self.free_s, clock_estimate.host_s(last_s) + clock_estimate.error_s + self._busy_s)
         self.repetition = None
 
-    def earliest_start_s(self, arrived_s: FpgaTime, at_s: FpgaTime | None) -> FpgaTime:
-        """Earliest start of an emission whose play command has arrived at a time.
+    @property
+    def apart_s(self) -> float:
+        """Least time from the start of an emission to the start of the next."""
+        return self._busy_s + MARGIN_S
+
+    def free_from_s(self, arrived_s: FpgaTime) -> FpgaTime:
+        """Earliest start that the plate allows.
 
         Parameters
         ----------
         arrived_s : FpgaTime
-            End of the command on the wire. It stops a repetition, whose last emission then sounds to its end.
-        at_s : FpgaTime or None
-            When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it.
+            When the play command has arrived. It stops a repetition, whose last emission then sounds to its end.
         """
         free_s = self._free_fpga_s
-        if at_s is not None:
-            arrived_s += HANDOVER_S
         if self.repetition is not None:
             free_s = max(free_s, self.repetition.last_s(arrived_s) + self._busy_s)
-        start_s = max(arrived_s, free_s + MARGIN_S)
+        return free_s + MARGIN_S
+
+    def earliest_start_s(self, arrived_s: FpgaTime, at_s: FpgaTime | None = None) -> FpgaTime:
+        """Earliest start of an emission.
+
+        Parameters
+        ----------
+        arrived_s : FpgaTime
+            When its play command has arrived.
+        at_s : FpgaTime, optional
+            Not before this time.
+        """
+        start_s = max(arrived_s, self.free_from_s(arrived_s))
         return start_s if at_s is None else max(start_s, at_s)
 
-    def free_after_next_s(self, now_s: float, upload_s: float) -> float:
-        """Host time from which a start can be scheduled, if another emission is uploaded now and played first."""
+    def free_after_next_s(self, now_s: float, upload_s: float, promised_s: float) -> float:
+        """Host time from which a start can be promised, if another emission is uploaded now and played first.
+
+        Parameters
+        ----------
+        now_s : float
+        upload_s, promised_s : float
+            Time from now to the arrival of an upload, as expected and as promised.
+        """
         start_s = max(now_s + upload_s, self.free_s + MARGIN_S)
-        return start_s + max(self._busy_s, upload_s + HANDOVER_S) + 2 * MARGIN_S
+        return start_s + max(self._busy_s, promised_s) + 2 * MARGIN_S
 
     def next_repetition_s(self, at_s: float) -> float:
         """Host time at which the repetition next starts an emission after a time; inf without a repetition."""

@@ -12,10 +12,11 @@ from collections.abc import Callable, Sequence
 from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.exchange import Refused
+from controller.fpga.exchange import DAMAGED, Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.loop.commands import Outcome
+from controller.loop.host_timing import HostTiming, Way
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 from controller.loop.prefetch import PrefetchRecord
 from controller.loop.records import ENDLESS, Accepted, Attempt, Batch, Plan, Played
@@ -46,8 +47,8 @@ class Playback:
         Where a finger will be: an emission is focused where its finger is when the focus forms.
     slots : int
         Waveforms that the FPGA keeps.
-    upload_s, command_s : float
-        Time on the wire of an upload with its play command, and of a play command alone.
+    timing : HostTiming
+        How long uploads and play commands take on this host; told of each.
     counters : Counters
         Counts emissions, latencies and skipped work.
     played : callable, optional
@@ -56,6 +57,7 @@ class Playback:
     Attributes
     ----------
     occupancy : Occupancy
+    timing : HostTiming
     accepted : Accepted or None
         What `trigger` is to start.
     repeating : bool
@@ -71,20 +73,18 @@ class Playback:
         locate: Locate,
         *,
         slots: int,
-        upload_s: float,
-        command_s: float,
+        timing: HostTiming,
         counters: Counters,
         played: Callable[[Played], None] | None = None,
     ) -> None:
         self.occupancy = occupancy
         self.accepted: Accepted | None = None
         self.repeating = False
-        self.upload_s = upload_s
+        self.timing = timing
         self._session = session
         self._selection = selection
         self._clock_estimate = clock_estimate
         self._locate = locate
-        self._command_s = command_s
         self._counters = counters
         self._played = played
         self._slots = SlotCache(slots, selection.single_focus)
@@ -99,7 +99,7 @@ class Playback:
         self.stop()
         return self._clock_estimate.host_s(repetition.last_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s())))
 
-    def prepare(self, batch: Batch, started_ns: int, *, predicted: bool = True) -> Attempt:
+    def prepare(self, batch: Batch, started_ns: int, *, predicted: bool = True, points: list[Point] | None = None) -> Attempt:
         """Have a batch accepted for playing, and start it if the plate is free.
 
         Parameters
@@ -109,6 +109,8 @@ class Playback:
             When the work for it began (perf_counter_ns).
         predicted : bool
             Meet fingers where they will be. Where the bank has nothing there, they are met where they were.
+        points : list of Point, optional
+            Where to focus, if that has been decided.
 
         Raises
         ------
@@ -117,12 +119,16 @@ class Playback:
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, blocked_before_ns = self._session, self._session.link.wire_ns, self._session.link.blocked_ns
-        emissions, repetitions, period_s, at_s = batch
-        plan = self._plan(batch, predicted)
+        emissions, repetitions, period_s, at_s, _ = batch
+        begun_s = session.earliest_trigger_s()
+        plan = self._plan(batch, begun_s, predicted, points)
         if self._prefetch.predicted is not None:
             self._prefetch.compare(emissions, plan.key, self._selection)
         start, start_ticks = Start.TRIGGER, 0
-        if at_s is not None:
+        if plan.missed:
+            self._counters.late += 1
+            at_s = None
+        elif at_s is not None:
             start, start_ticks = Start.TIME, self._clock_estimate.ticks(plan.start_s)
         try:
             if plan.resident is None:
@@ -139,12 +145,13 @@ class Playback:
         except Refused as refusal:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
-                return self.prepare(batch._replace(at_s=None), started_ns)
+                self._arrived(begun_s, plan)
+                return self.prepare(batch._replace(at_s=None), started_ns, points=plan.points)  # its waveform is resident now
             if plan.resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot was dropped: uploaded again
                 return self.prepare(batch, started_ns, predicted=predicted)
             self._counters.skipped.refused += len(emissions)
             return Attempt(Outcome.REFUSED)
-        ready_s = session.earliest_trigger_s()
+        ready_s = self._arrived(begun_s, plan)
         blocked_ns = session.link.blocked_ns - blocked_before_ns
         accepted = Accepted(
             batch,
@@ -192,9 +199,13 @@ class Playback:
         if not likely or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
-            words = self._selection.words(key)
+            waveform = self._selection.waveform(key)
             slot = self._take()
-            self._session.upload(slot, words, self._selection.crc(key, words))
+            try:
+                self._session.upload(slot, waveform)
+            except Refused as refusal:
+                self._recheck(key, refusal)
+                raise
         except (BankError, Refused):
             return False
         self._slots.keep(key, slot)
@@ -249,27 +260,42 @@ class Playback:
         self.repeating = False
         self.occupancy.reset()
 
-    def _plan(self, batch: Batch, predicted: bool) -> Plan:
+    def _plan(self, batch: Batch, begun_s: float, predicted: bool, points: list[Point] | None) -> Plan:
         """Where and when a batch can be played: as a play command alone if that is enough, else with an upload before it.
 
         An upload starts later, and so meets a moving finger elsewhere: there another waveform may be resident.
         """
-        start_s = self._start_s(self._command_s, batch.at_s)
-        points = self._aim(batch.emissions, start_s, predicted)
-        key = self._selection.key(points)
+        start_s, missed = self._start(batch, begun_s, self.timing.command)
+        aimed = self._aim(batch.emissions, start_s, predicted) if points is None else points
+        key = self._selection.key(aimed)
         resident = self._slots.find(key)
         if resident is None:
-            start_s = self._start_s(self.upload_s, batch.at_s)
-            later = self._aim(batch.emissions, start_s, predicted)
-            if later != points:
-                points = later
-                key = self._selection.key(points)
+            start_s, missed = self._start(batch, begun_s, self.timing.upload)
+            later = self._aim(batch.emissions, start_s, predicted) if points is None else points
+            if later != aimed:
+                aimed = later
+                key = self._selection.key(aimed)
                 resident = self._slots.find(key)
-        return Plan(points, key, resident, start_s)
+        return Plan(aimed, key, resident, start_s, missed)
 
-    def _start_s(self, wire_s: float, at_s: FpgaTime | None) -> FpgaTime:
-        """Earliest start of what begins to go out now."""
-        return self.occupancy.earliest_start_s(self._clock_estimate.fpga_s(self._session.earliest_trigger_s() + wire_s), at_s)
+    def _start(self, batch: Batch, begun_s: float, way: Way) -> tuple[FpgaTime, bool]:
+        """Earliest start of what begins to go out now; whether that misses a beat, which is played on arrival then."""
+        at_s = batch.at_s
+        if at_s is None or not batch.has_begun:
+            arrived_s = self._clock_estimate.fpga_s(begun_s + (way.expected_s if at_s is None else way.promised_s))
+            return self.occupancy.earliest_start_s(arrived_s, at_s), False
+        arrived_s = self._clock_estimate.fpga_s(begun_s + way.expected_s)
+        start_s = max(self.occupancy.free_from_s(arrived_s), at_s)
+        return (arrived_s, True) if arrived_s > start_s else (start_s, False)
+
+    def _arrived(self, begun_s: float, plan: Plan) -> float:
+        """Take note that what was sent has arrived, and how long that took; host time."""
+        ready_s = self._session.earliest_trigger_s()
+        if plan.resident is None:
+            self.timing.uploaded(ready_s - begun_s)
+        else:
+            self.timing.command.record(ready_s - begun_s)
+        return ready_s
 
     def _aim(self, emissions: Sequence[Emission], start_s: FpgaTime, predicted: bool) -> list[Point]:
         """Where the focus of each emission is to be, and its amplitude."""
@@ -299,21 +325,27 @@ class Playback:
 
     def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
-        words = self._selection.words(key)
+        waveform = self._selection.waveform(key)
         if isinstance(key, int):
             self._counters.skipped.compositions += 1
-        slot, crc = self._take(), self._selection.crc(key, words)
+        slot = self._take()
         stop = self.occupancy.repetition is not None
         try:
-            self._session.upload_and_play(slot, words, count, period_s, stop=stop, start=start, when_ticks=start_ticks, crc=crc)
+            self._session.upload_and_play(slot, waveform, count, period_s, stop=stop, start=start, when_ticks=start_ticks)
         except Refused as refusal:
-            if refusal.result is Result.SLOT_DAMAGED:
-                self._selection.recheck(key)
+            self._recheck(key, refusal)
+            if refusal.result is Result.TOO_LATE:  # stored, not played
+                self._slots.keep(key, slot)
             raise
         finally:
             self._stopped()
         self._last_slot = slot
         self._slots.keep(key, slot)
+
+    def _recheck(self, key: Key, refusal: Refused) -> None:
+        """Ask the bank about an upload that the FPGA found damaged, frame by frame or as a whole: it may come from the file."""
+        if refusal.result in DAMAGED or refusal.result is Result.SLOT_DAMAGED:
+            self._selection.recheck(key)
 
     def _take(self) -> int:
         """A slot to upload to: not that of the newest play, which sounds, waits or is repeated, while there is another."""
@@ -329,7 +361,7 @@ class Playback:
 
     def _started(self, accepted: Accepted, start_s: float, trigger_ns: int) -> None:
         """Count a start, and what it took."""
-        (emissions, count, period_s, _), plan = accepted.batch, accepted.plan
+        (emissions, count, period_s, _, _), plan = accepted.batch, accepted.plan
         ticks, resident = accepted.start_ticks, plan.resident is not None
         fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else self._clock_estimate.fpga_s_of(ticks)
         self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)

@@ -56,12 +56,16 @@ class Batch(NamedTuple):
     at_s : FpgaTime or None
         When the FPGA shall start it by itself, or as soon after as it can; None: the trigger pin starts it
         as soon as the plate is free.
+    has_begun : bool
+        `at_s` is a beat of a train that has begun: it is kept, or missed and the beat played on arrival. Otherwise it is put off
+        until what is sent now has arrived for certain.
     """
 
     emissions: Sequence[Emission]
     repetitions: int = 1
     period_s: float = 0.0
     at_s: FpgaTime | None = None
+    has_begun: bool = False
 
 
 class Plan(NamedTuple):
@@ -77,12 +81,15 @@ class Plan(NamedTuple):
         Waveform in a slot of the FPGA that serves for it; None: it has to be uploaded.
     start_s : FpgaTime
         Earliest start.
+    missed : bool
+        The beat cannot arrive in time any more.
     """
 
     points: list[Point]
     key: Key
     resident: Key | None
     start_s: FpgaTime
+    missed: bool
 
 
 class Accepted(NamedTuple):

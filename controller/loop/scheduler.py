@@ -127,10 +127,11 @@ class Scheduler:
         self._make_room(emissions)
         self._add(emissions)
 
-    def advance(self, until_s: FpgaTime) -> None:
-        """Collect the beats of trains that are due up to `until_s`."""
+    def advance(self, now_s: FpgaTime, lead_s: float = 0.0) -> None:
+        """Collect the beats of trains that are due within `lead_s`, but none before the beat before it is due."""
         advanced = False
         for active in self._active.values():
+            until_s = now_s + (lead_s if lead_s < active.period_s else active.period_s)
             if active.next_s <= until_s:
                 self._add(active.advance(until_s))
                 advanced = True
@@ -197,6 +198,10 @@ class Scheduler:
     def next_s(self) -> FpgaTime:
         """When the next beat of a train is due; inf without a train."""
         return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
+
+    def collect_s(self, lead_s: float) -> FpgaTime:
+        """When `advance` next collects a beat; inf without a train."""
+        return min([active.next_s - min(lead_s, active.period_s) for active in self._active.values()], default=FPGA_NEVER)
 
     def predict(
         self, finger: int, locate: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float

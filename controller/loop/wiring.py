@@ -15,6 +15,7 @@ from controller.fpga.session import Session
 from controller.loop.commands import CommandSource, Outcome
 from controller.loop.dispatcher import Dispatcher
 from controller.loop.event_loop import EventLoop
+from controller.loop.host_timing import HostTiming
 from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.loop.records import Played
@@ -36,6 +37,7 @@ class Assembly:
     loop: EventLoop
     counters: Counters
     selection: Selection
+    timing: HostTiming
 
 
 def assemble(
@@ -70,15 +72,20 @@ def assemble(
     selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     counters = Counters()
     clock_estimate = ClockEstimate(board.link.clock_hz)
+    occupancy = Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty)
+    timing = HostTiming(
+        board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
+        board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
+        occupancy.apart_s,
+    )
     playback = Playback(
         session,
         selection,
         clock_estimate,
-        Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty),
+        occupancy,
         source.predict,
         slots=board.link.slots if slots is None else slots,
-        upload_s=board.link.wire_s(UPLOAD_BYTES + UPLOAD_COMMANDS * FRAME_BYTES),
-        command_s=board.link.wire_s(PLAY_COMMANDS * FRAME_BYTES),
+        timing=timing,
         counters=counters,
         played=played,
     )
@@ -90,7 +97,7 @@ def assemble(
     dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
     running = EventLoop(board, *parts, commands=commands, change=change, **loop)
-    return Assembly(running, counters, selection)
+    return Assembly(running, counters, selection, timing)
 
 
 def _nobody(ticket: int, outcome: Outcome, age_s: float) -> None:

@@ -17,7 +17,7 @@ from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_response import band_limited_response, pulse_response
 from controller.physics.plate import PlateModes
-from controller.physics.row_responses import in_rows, responses_in_rows
+from controller.physics.row_responses import RowResponses, flops_in_rows, in_rows
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -60,7 +60,8 @@ class ResponseModel:
             board.plate.decay_time_s,
         )
         self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
-        self._workspaces: dict[str, tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
+        self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
+        self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
 
     @property
     def modes(self) -> int:
@@ -107,25 +108,32 @@ class ResponseModel:
         """
         return self._responses(points_m, self._kernel(True, True, np.dtype(dtype)), out)
 
-    def rest_responses(
+    def entry_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """Responses outside the band, which `drive_order_responses` leaves out, as means over 8 samples in drive order.
+        """`drive_order_responses`, followed by what they leave out: responses outside the band, as means over 8 samples.
 
-        With them the displacement that bits give at a point is known to 1 %, not only in the band.
+        With the latter the displacement that bits give at a point is known to 1 %, not only in the band.
 
-        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a row for each 8 samples in place
-        of each sample; what the last row has beyond the last sample is zero.
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 8 samples; what
+        the last row has beyond the last sample is zero.
         """
         kind = np.dtype(dtype)
-        key = ("rest", kind.str)
+        key = ("entry", kind.str)
         if key not in self._kernels:
             rows = -(-self.samples // REST_SAMPLES)
             outside = np.zeros((self.modes, rows * REST_SAMPLES))
             outside[:, : self.samples] = (self.modal - self.modal_band)[:, ::-1]
             means = outside.reshape(self.modes, rows, REST_SAMPLES).mean(axis=2)
-            self._kernels[key] = np.ascontiguousarray(means.T, kind)
+            self._kernels[key] = np.concatenate([self._kernel(True, True, kind), means.T.astype(kind)])
         return self._responses(points_m, self._kernels[key], out)
+
+    def entry_flops(self, points_m: NDArray[np.float64]) -> float:
+        """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""
+        rows = self.samples + -(-self.samples // REST_SAMPLES)
+        if in_rows(points_m):
+            return flops_in_rows(self.plate_modes, rows, points_m)
+        return 2.0 * len(points_m) * self.modes * rows * CHANNELS
 
     def _kernel(self, band_limited: bool, reverse: bool, dtype: np.dtype[Any]) -> NDArray[np.floating[Any]]:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""
@@ -145,14 +153,16 @@ class ResponseModel:
         if out.shape != shape or out.dtype != kernel.dtype:
             raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
         if in_rows(points) and out.flags.c_contiguous:
-            responses_in_rows(self.plate_modes, self.forces, kernel, points, out)
+            if id(kernel) not in self._rows:
+                self._rows[id(kernel)] = RowResponses(self.plate_modes, self.forces, kernel)
+            self._rows[id(kernel)].fill(points, out)
         else:
             self._responses_anywhere(points, kernel, out)
         return out
 
     def _responses_anywhere(self, points: Floats, kernel: NDArray[np.floating[Any]], out: NDArray[np.floating[Any]]) -> None:
         """Fill `out` with the sum over all modes at each point: one GEMM for 16 points."""
-        forces, driven, product = self._workspace(kernel.dtype)
+        forces, driven, product = self._workspace(kernel)
         for first in range(0, len(points), POINTS_PER_GEMM):
             some = points[first : first + POINTS_PER_GEMM]
             columns = len(some) * CHANNELS
@@ -161,12 +171,13 @@ class ResponseModel:
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
             out[first : first + len(some)] = result.reshape(len(kernel), len(some), CHANNELS).swapaxes(0, 1)
 
-    def _workspace(self, dtype: np.dtype[Any]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    def _workspace(self, kernel: NDArray[np.floating[Any]]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Forces (32, mode), modal forces at points (point, 32, mode) and room for a product; kept."""
-        if dtype.str not in self._workspaces:
-            self._workspaces[dtype.str] = (
-                np.ascontiguousarray(self.forces.T, dtype),
-                np.empty((POINTS_PER_GEMM, CHANNELS, self.modes), dtype),
-                np.empty(self.samples * POINTS_PER_GEMM * CHANNELS, dtype),
+        key = (kernel.dtype.str, len(kernel))
+        if key not in self._workspaces:
+            self._workspaces[key] = (
+                np.ascontiguousarray(self.forces.T, kernel.dtype),
+                np.empty((POINTS_PER_GEMM, CHANNELS, self.modes), kernel.dtype),
+                np.empty(len(kernel) * POINTS_PER_GEMM * CHANNELS, kernel.dtype),
             )
-        return self._workspaces[dtype.str]
+        return self._workspaces[key]

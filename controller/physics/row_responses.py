@@ -1,12 +1,14 @@
-"""Responses of points that lie in rows, as the cells of a grid do: two small GEMMs in place of a large one.
+"""Responses of points that lie in rows, as the cells of a grid do: small GEMMs in place of a large one.
 
-A mode's shape is sin(m pi x / a) sin(n pi y / b), so the sum over modes can be taken over n first, once
-for each row of points with the same y, and then over m for each point: some 15 times fewer
-multiplications than the sum over all modes at every point, and each of them still in a GEMM.
+A mode's shape is sin(m pi x / a) sin(n pi y / b), so the sum over modes can be taken over n first, once for each row of points with
+the same y, and then over m for each point: some 15 times fewer multiplications than the sum over all modes at every point, and each
+of them still in a GEMM. The products of kernel and force are never written out: the forces of one order m, weighted for a row, are
+the right factor of a GEMM whose left factor is the kernel of that order.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,56 +19,68 @@ from controller.physics.plate import PlateModes
 
 Reals = NDArray[np.floating[Any]]
 
-SAMPLES_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough to stay in the cache
 POINTS_PER_ROW = 8  # fewer points a row than this on average, and the one large GEMM is as fast
 
 
 def in_rows(points_m: NDArray[np.float64]) -> bool:
-    """Whether enough of `points_m`, (point, 2), share their y for `responses_in_rows` to be faster."""
-    return len(points_m) >= POINTS_PER_ROW * len(np.unique(points_m[:, 1]))
+    """Whether enough of `points_m`, (point, 2), share their y for `RowResponses` to be faster."""
+    return len(points_m) >= POINTS_PER_ROW * _rows(points_m)
 
 
-def responses_in_rows(
-    modes: PlateModes, forces: NDArray[np.float64], kernel: Reals, points_m: NDArray[np.float64], out: Reals
-) -> None:
-    """Fill `out` (point, sample, 32) with sum over modes of shape(point) kernel(sample) force(channel).
+def flops_in_rows(modes: PlateModes, samples: int, points_m: NDArray[np.float64]) -> float:
+    """Additions and multiplications that the responses of `points_m`, (point, 2), need row by row, `samples` a channel."""
+    x_orders = int(modes.x_order.max())
+    return 2.0 * samples * CHANNELS * (modes.count * _rows(points_m) + x_orders * len(points_m))
+
+
+def _rows(points_m: NDArray[np.float64]) -> int:
+    return len(np.unique(points_m[:, 1]))
+
+
+class RowResponses:
+    """Sum over modes of shape(point) kernel(sample) force(channel), for points in rows.
 
     Parameters
     ----------
+    modes : PlateModes
     forces : (mode, 32) array
     kernel : (sample, mode) array
-    points_m : (point, 2) array
-        In any order; fastest when the points of a row follow each other.
-    out : (point, sample, 32) array, C-contiguous, of the kernel's type
+        float32 or float64; the type of the result.
     """
-    kind = kernel.dtype
-    samples = len(kernel)
-    x_orders, y_orders = int(modes.x_order.max()), int(modes.y_order.max())
-    place = (modes.x_order - 1) * y_orders + modes.y_order - 1  # modes as a rectangle of orders, zero where there is none
-    by_order = np.zeros((x_orders * y_orders, samples), kind)
-    by_order[place] = kernel.T
-    force_by_order = np.zeros((x_orders * y_orders, CHANNELS), kind)
-    force_by_order[place] = forces
 
-    rows_m, row_of = np.unique(points_m[:, 1], return_inverse=True)
-    y_sines = modes.y_sines(rows_m).astype(kind)
-    members = [_slice_or_index(np.flatnonzero(row_of == row)) for row in range(len(rows_m))]
-    x_sines = [modes.x_sines(points_m[some, 0]).astype(kind) for some in members]
+    def __init__(self, modes: PlateModes, forces: NDArray[np.float64], kernel: Reals) -> None:
+        by_order = np.argsort(modes.x_order, kind="stable")
+        ends = np.searchsorted(modes.x_order[by_order], np.arange(1, modes.x_order.max() + 2)).tolist()
+        self._modes = modes
+        self._y_index = modes.y_order[by_order] - 1
+        self._forces = forces[by_order].astype(kernel.dtype)
+        self._kernel = np.ascontiguousarray(kernel[:, by_order])
+        self._orders = [slice(first, last) for first, last in pairwise(ends)]  # the modes of each m
+        self._summed = np.empty((len(self._orders), len(kernel), CHANNELS), kernel.dtype)
 
-    flat = out.reshape(len(points_m), samples * CHANNELS)
-    driven = np.empty((x_orders * y_orders, SAMPLES_PER_GEMM, CHANNELS), kind)
-    summed = np.empty((x_orders, len(rows_m), SAMPLES_PER_GEMM * CHANNELS), kind)
-    for first in range(0, samples, SAMPLES_PER_GEMM):
-        last = min(first + SAMPLES_PER_GEMM, samples)
-        columns = (last - first) * CHANNELS
-        part = driven[:, : last - first]
-        np.multiply(by_order[:, first:last, None], force_by_order[:, None, :], out=part)
-        np.matmul(y_sines, part.reshape(x_orders, y_orders, columns), out=summed[:, :, :columns])
-        for row, (some, sines) in enumerate(zip(members, x_sines, strict=True)):
-            if isinstance(some, slice):
-                np.matmul(sines, summed[:, row, :columns], out=flat[some, first * CHANNELS : last * CHANNELS])
+    def fill(self, points_m: NDArray[np.float64], out: Reals) -> None:
+        """Compute the responses of points.
+
+        Parameters
+        ----------
+        points_m : (point, 2) array
+            In any order; fastest when the points of a row follow each other.
+        out : (point, sample, 32) array, C-contiguous, of the kernel's type
+        """
+        kernel, summed = self._kernel, self._summed
+        rows_m, row_of = np.unique(points_m[:, 1], return_inverse=True)
+        y_sines = self._modes.y_sines(rows_m).astype(kernel.dtype)
+        x_sines = self._modes.x_sines(points_m[:, 0]).astype(kernel.dtype)
+        flat_sum, flat = summed.reshape(len(summed), -1), out.reshape(len(points_m), -1)
+        for row, along_y in enumerate(y_sines[:, self._y_index]):
+            weighted = along_y[:, None] * self._forces
+            for order, some in enumerate(self._orders):
+                np.matmul(kernel[:, some], weighted[some], out=summed[order])
+            members = _slice_or_index(np.flatnonzero(row_of == row))
+            if isinstance(members, slice):
+                np.matmul(x_sines[members], flat_sum, out=flat[members])
             else:
-                flat[some, first * CHANNELS : last * CHANNELS] = sines @ summed[:, row, :columns]
+                flat[members] = x_sines[members] @ flat_sum
 
 
 def _slice_or_index(index: NDArray[np.intp]) -> slice | NDArray[np.intp]:

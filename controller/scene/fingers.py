@@ -55,9 +55,11 @@ class ActiveEffects:
         Index in the scene, or OUTSIDE.
     next_s : float
         When the next beat of a train is due; inf: no train is active.
+    period_s : float
+        Least time from beat to beat of its trains; inf: none has several.
     """
 
-    __slots__ = ("_progress", "_scene", "_trains", "finger", "next_s", "owner", "region", "x_m", "y_m")
+    __slots__ = ("_progress", "_scene", "_trains", "finger", "next_s", "owner", "period_s", "region", "x_m", "y_m")
 
     def __init__(self, scene: Scene, owner: int | str, x_m: float, y_m: float) -> None:
         self._scene = scene
@@ -67,6 +69,7 @@ class ActiveEffects:
         self.y_m = y_m
         self.region = OUTSIDE
         self.next_s = FPGA_NEVER
+        self.period_s = math.inf
         self._trains: list[ActiveTrain] = []
         self._progress: tuple[DistanceProgress | GridProgress, ...] = ()
 
@@ -247,10 +250,12 @@ class ActiveEffects:
     def _add(self, train: ActiveTrain) -> None:
         self._trains.append(train)
         self.next_s = min(self.next_s, train.next_s)
+        self.period_s = min(self.period_s, train.train.period_s or math.inf)
 
     def _set_trains(self, trains: list[ActiveTrain]) -> None:
         self._trains = trains
         self.next_s = min([train.next_s for train in trains], default=FPGA_NEVER)
+        self.period_s = min([train.train.period_s or math.inf for train in trains], default=math.inf)
 
 
 def _strongest(one: Emission, other: Emission) -> Emission:

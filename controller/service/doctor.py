@@ -196,7 +196,7 @@ def _bank(board: Board) -> str:
     with Bank.open(path, board) as bank:
         if wrong := wrong_pitch(bank, board):
             raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
-        cells = populate(bank, load_scene(scene_file, board), str(scene_file))
+        cells = populate(bank, load_scene(scene_file, board), str(scene_file), responses=True)
     return f"{path}, {cells:,} cells of the scene"
 
 

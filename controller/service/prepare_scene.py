@@ -1,6 +1,6 @@
 """Preparation of a scene before it is played: at the start of the service, and for a reload in a process of its own.
 
-Reads and checks the file, and reads the waveforms that the scene can need, so that they are in the page cache.
+Reads and checks the file, and the waveforms that the scene can need.
 """
 
 from __future__ import annotations
@@ -26,12 +26,22 @@ def prepare(board: Board, name: str, bank_file: Path) -> Scene:
     scene_file = find_scene(board, name)
     scene = load_scene(scene_file, board)
     with Bank.open(bank_file, board) as bank:
-        populate(bank, scene, str(scene_file))
+        populate(bank, scene, str(scene_file), responses=True)
     return scene
 
 
-def populate(bank: Bank, scene: Scene, called: str) -> int:
-    """Read and check all of a bank that a scene can ask for, so that nothing is read or checked while it plays.
+def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) -> int:
+    """Read and check what a scene can ask of a bank.
+
+    Parameters
+    ----------
+    bank : Bank
+    scene : Scene
+    called : str
+        Name of the scene, for errors.
+    responses : bool
+        Also the responses from which waveforms are composed: nine tenths of a bank. Otherwise they are read and checked when they
+        are used.
 
     Returns
     -------
@@ -49,6 +59,7 @@ def populate(bank: Bank, scene: Scene, called: str) -> int:
         raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")
     cells = wanted.nonzero()[0].tolist()
     for cell in cells:
-        bank.words(cell)
-        bank.response(cell)
+        bank.frames(cell)
+        if responses:
+            bank.response(cell)
     return len(cells)

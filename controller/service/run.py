@@ -121,4 +121,4 @@ def _figures(board: Board, assembly: Assembly, housekeeping: Housekeeping, sourc
         "bit_clock_scale": housekeeping.scale,
         "touch": source.figures(),
     }
-    return said | assembly.counters.export()
+    return said | assembly.counters.export() | {"schedule": assembly.timing.figures()}

@@ -11,7 +11,7 @@ contact: a slot keeps its position from one contact to the next.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable
 from itertools import count
 
 from controller.touch.associate import FIRST_SERIAL, Contact, associate
@@ -56,7 +56,7 @@ class Decoder:
     A palm (ABS_MT_TOOL_TYPE) is counted but not played. While ten fingers are played, a further finger is refused until it is
     lifted: a finger that began in the middle of its touch would feel like a press.
 
-    `feed` is on the hot path from touch to emission: it allocates only the samples.
+    `feed_report` is on the hot path from touch to emission: it allocates only the samples.
 
     Parameters
     ----------
@@ -84,6 +84,7 @@ class Decoder:
         self.counts: Counts = after.counts if after else Counts()
         self.warnings: Counter[str] = after.warnings if after else Counter()
         self._axes = axes
+        self._limits = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
         self._size_m = axes.size_m_per_unit
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
         single = protocol is Protocol.SINGLE
@@ -101,58 +102,58 @@ class Decoder:
         self._slot = slot
         self._current: Contact = self._contact_of(slot)
 
-    def feed_report(self, events: Sequence[Event], start: int, end: int, time_s: float) -> tuple[TouchSample, ...]:
-        """Take events `start` to `end` - 1, which all happened at `time_s`; the samples that the last of them gives."""
-        samples = None
-        for index in range(start, end):
-            kind, code, value, _ = events[index]
-            samples = self.feed(kind, code, value, time_s)
-        return samples or ()
-
     def feed(self, kind: int, code: int, value: int, time_s: float) -> tuple[TouchSample, ...] | None:
-        """Take one event.
+        """Take one event; parameters and result as in `feed_report`."""
+        return self.feed_report(((kind, code, value, time_s),), time_s)
+
+    def feed_report(self, events: Iterable[Event], time_s: float) -> tuple[TouchSample, ...] | None:
+        """Take events that all happened at one time; their own times are not looked at.
 
         Parameters
         ----------
-        kind, code, value : int
-            As in struct input_event.
+        events : iterable of Event
+            Type, code and value as in struct input_event.
         time_s : float
             Time of the samples.
 
         Returns
         -------
         tuple of TouchSample or None
-            At SYN_REPORT: fingers released, then fingers moved or begun; else None.
+            If the last event is SYN_REPORT: fingers released, then fingers moved or begun; else None.
         """
-        if kind == EV_ABS:
-            if self._dropping:
-                return None
-            current = self._current
-            if code == self._x_code:
-                if value != current.x:
-                    current.x = value
-                    current.moved = True
-            elif code == self._y_code:
-                if value != current.y:
-                    current.y = value
-                    current.moved = True
-            else:
-                self._axis(code, value)
-                return None
-            if current.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
-                current.identity = IMPLIED
-        elif kind == EV_SYN:
-            if code == SYN_REPORT:
-                return self._report(time_s)
-            if code == SYN_MT_REPORT:
-                if self.protocol is Protocol.A and not self._dropping:
-                    self._end_packet()
-            elif code == SYN_DROPPED and not self._dropping:
-                self._dropping = True
-                self.warnings["dropped"] += 1
-        elif kind == EV_KEY and code == BTN_TOUCH and not self._dropping:
-            self._button(value != 0)
-        return None
+        samples = None
+        x_code, y_code = self._x_code, self._y_code
+        for kind, code, value, _ in events:
+            samples = None
+            if kind == EV_ABS:
+                if self._dropping:
+                    continue
+                current = self._current
+                if code == x_code:
+                    if value != current.x:
+                        current.x = value
+                        current.moved = True
+                elif code == y_code:
+                    if value != current.y:
+                        current.y = value
+                        current.moved = True
+                else:
+                    self._axis(code, value)
+                    continue
+                if current.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
+                    current.identity = IMPLIED
+            elif kind == EV_SYN:
+                if code == SYN_REPORT:
+                    samples = self._report(time_s)
+                elif code == SYN_MT_REPORT:
+                    if self.protocol is Protocol.A and not self._dropping:
+                        self._end_packet()
+                elif code == SYN_DROPPED and not self._dropping:
+                    self._dropping = True
+                    self.warnings["dropped"] += 1
+            elif kind == EV_KEY and code == BTN_TOUCH and not self._dropping:
+                self._button(value != 0)
+        return samples
 
     def release(self, time_s: float) -> tuple[TouchSample, ...]:
         """Release every finger and forget the panel's state, at the end of the stream or after a loss of events.
@@ -314,12 +315,11 @@ class Decoder:
             finger = contact.finger = self._next_finger
             self._next_finger += 1
             self._played += 1
-        axes = self._axes
-        if axes.x.minimum <= x <= axes.x.maximum and axes.y.minimum <= y <= axes.y.maximum:
-            x_m, y_m = axes.position_m(x, y)
-        else:
+        x_low, x_high, y_low, y_high = self._limits
+        if not (x_low <= x <= x_high and y_low <= y <= y_high):
             self.warnings["outside_axes"] += 1
-            x_m, y_m = axes.position_m(*axes.clamp(x, y))
+            x, y = self._axes.clamp(x, y)
+        x_m, y_m = self._axes.position_m(x, y)
         contact.x_m = x_m
         contact.y_m = y_m
         contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0

@@ -106,14 +106,17 @@ class QuietBudget:
         Quiet time so far.
     retry_s : float
         When to ask again after a refusal, on the loop's clock; inf: nothing was refused.
+    asked : bool
+        Whether `begin` was called since the last `end`, which is needed then.
     """
 
-    __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "retry_s", "total_s")
+    __slots__ = ("_credit_s", "_last_s", "_max_credit_s", "_quiet", "asked", "retry_s", "total_s")
 
     def __init__(self, ghost_s: float) -> None:
         self._max_credit_s = self._credit_s = max(BURST_S, BURST_LIVES * ghost_s) * (1 - MAX_QUIET_SHARE)
         self._last_s = -inf
         self._quiet = False
+        self.asked = False
         self.retry_s = inf
         self.total_s = 0.0
 
@@ -131,6 +134,7 @@ class QuietBudget:
             False: refused, it would exceed the budget.
         """
         self.end(now_s, going_on=self._quiet)
+        self.asked = True
         cost_s = (until_s - now_s) * (1 - MAX_QUIET_SHARE)
         if not self._quiet and self._credit_s < min(cost_s, self._max_credit_s):
             self.retry_s = now_s + (min(cost_s, self._max_credit_s) - self._credit_s) / MAX_QUIET_SHARE
@@ -152,5 +156,5 @@ class QuietBudget:
         if self._quiet:
             self.total_s += since_s
         self._credit_s = min(self._credit_s + (MAX_QUIET_SHARE - self._quiet) * since_s, self._max_credit_s)
-        self._quiet = going_on
+        self._quiet = self.asked = going_on
         self.retry_s = inf

@@ -25,6 +25,11 @@ class LiveSource:
         Driver of the panel.
     board : Board
         Gives the plate and the map from the panel's axes to it.
+
+    Attributes
+    ----------
+    counts : Counts
+        Reports, contacts and fingers since the start, reconnections included.
     """
 
     def __init__(self, reader: EventReader, board: Board) -> None:
@@ -32,8 +37,8 @@ class LiveSource:
         self._board = board
         self._own_warnings: Counter[str] = Counter()
         self._clock = ReportClock(self._own_warnings)
-        self._decoder: Decoder | None = None
-        self._decoder = self._renewed()
+        self._decoder = self._renewed(None)
+        self.counts: Counts = self._decoder.counts
 
     @property
     def axes(self) -> Axes:
@@ -41,15 +46,9 @@ class LiveSource:
         return self._axes
 
     @property
-    def counts(self) -> Counts:
-        """Reports, contacts and fingers since the start, reconnections included."""
-        return self._decoder.counts if self._decoder else Counts()
-
-    @property
     def warnings(self) -> Counter[str]:
         """Anomalies found by driver, decoder and report clock, by kind."""
-        decoded = self._decoder.warnings if self._decoder else Counter[str]()
-        return self._reader.warnings + decoded + self._own_warnings
+        return self._reader.warnings + self._decoder.warnings + self._own_warnings
 
     @property
     def present(self) -> bool:
@@ -70,21 +69,20 @@ class LiveSource:
         if not events:
             return ()
         if self._reader.description is not self._description:
-            self._decoder = self._renewed()
-        assert self._decoder is not None
+            self._decoder = self._renewed(self._decoder)
         time_s = self._clock.corrected_s(events[-1][3], now_s)
-        return self._decoder.feed_report(events, 0, len(events), time_s)
+        return self._decoder.feed_report(events, time_s) or ()
 
     def close(self) -> None:
         """Close the device."""
         self._reader.close()
 
-    def _renewed(self) -> Decoder:
-        """Decoder for the device as its driver describes it now."""
+    def _renewed(self, before: Decoder | None) -> Decoder:
+        """Decoder for the device as its driver describes it now, after the one before a reconnection."""
         self._description = description = self._reader.description
         protocol = protocol_of_device(description.axes)
         codes = ev.POSITIONS_SINGLE if protocol is Protocol.SINGLE else ev.POSITIONS
         x, y = (AxisRange(description.axes[code].minimum, description.axes[code].maximum) for code in codes)
         self._axes = Axes(self._board, x, y)
         slots = description.axes.get(ev.ABS_MT_SLOT)
-        return Decoder(self._axes, protocol, last_slot=slots.maximum if slots else None, after=self._decoder)
+        return Decoder(self._axes, protocol, last_slot=slots.maximum if slots else None, after=before)

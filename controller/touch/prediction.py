@@ -62,12 +62,13 @@ class Motion:
         self._vx = vx = vx + BETA / step_s * off_x_m
         self._vy = vy = vy + BETA / step_s * off_y_m
         step_x_m, step_y_m = x_m - self.x_m, y_m - self.y_m
-        most = MAX_SPEED_RATIO * hypot(step_x_m, step_y_m) / step_s
-        speed = hypot(vx, vy)
         if vx * step_x_m + vy * step_y_m <= 0:
             vx = vy = 0.0
-        elif speed > most:
-            vx, vy = vx * most / speed, vy * most / speed
+        else:
+            most = MAX_SPEED_RATIO * hypot(step_x_m, step_y_m) / step_s
+            speed = hypot(vx, vy)
+            if speed > most:
+                vx, vy = vx * most / speed, vy * most / speed
         self.vx, self.vy = vx, vy
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
         if hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m) <= REST_RADIUS_M:

@@ -23,10 +23,16 @@ class RecordingSource:
         From `recording.axes(board)`.
     start_s : float
         Time of its first event on the loop's clock.
+
+    Attributes
+    ----------
+    counts : Counts
+        Reports, contacts and fingers replayed so far.
     """
 
     def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
         self._decoder = recording.decoder(axes)
+        self.counts: Counts = self._decoder.counts
         self._events = recording.events
         self._start_s = start_s
         self._next = 0  # first event not yet fed
@@ -35,11 +41,6 @@ class RecordingSource:
         self._warnings = recording.warnings
         self._ended = not self._events
         self._end_warnings: Counter[str] = Counter()
-
-    @property
-    def counts(self) -> Counts:
-        """Reports, contacts and fingers replayed so far."""
-        return self._decoder.counts
 
     @property
     def warnings(self) -> Counter[str]:
@@ -71,7 +72,7 @@ class RecordingSource:
             return released
         start, self._next = self._next, self._report_ends[self._report] + 1
         self._report += 1
-        return self._decoder.feed_report(self._events, start, self._next, due_s)
+        return self._decoder.feed_report(self._events[start : self._next], due_s) or ()
 
     def close(self) -> None:
         """End the replay."""

@@ -102,8 +102,10 @@ class ReportRate:
         index = int((time_s - last_s) / BIN_S)
         if 0 < index < BINS:
             self._counts[index] += 1
-            period_s = self.period_s * (1 + MEDIAN_STEP if time_s - last_s > self.period_s else 1 - MEDIAN_STEP)
-            self.period_s = min(max(period_s, MIN_PERIOD_S), MAX_PERIOD_S)
+            if time_s - last_s > self.period_s:
+                self.period_s = min(self.period_s * (1 + MEDIAN_STEP), MAX_PERIOD_S)
+            else:
+                self.period_s = max(self.period_s * (1 - MEDIAN_STEP), MIN_PERIOD_S)
 
     def pause(self) -> None:
         """Ignore the time until the next report: no finger is down."""

@@ -64,7 +64,7 @@ class TouchSource(Protocol):
 
     @property
     def counts(self) -> Counts:
-        """Reports, contacts and fingers so far."""
+        """Reports, contacts and fingers so far; the same object at any time."""
 
     @property
     def warnings(self) -> Counter[str]:

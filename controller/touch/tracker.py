@@ -98,6 +98,8 @@ class Tracker:
 
     Attributes
     ----------
+    counts : Counts
+        Reports, contacts and fingers of the source.
     tracking : TrackerCounts
         Contacts held back, bridged and refused.
     rate : ReportRate
@@ -113,6 +115,7 @@ class Tracker:
         bridged: Callable[[int, int], None] | None = None,
         motion: type[Motion] = Motion,
     ) -> None:
+        self.counts: Counts = source.counts
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
@@ -128,14 +131,9 @@ class Tracker:
         self._fingers: dict[int, _Contact] = {}  # played, by number in the loop's samples
         self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
         self._lost: list[_Contact] = []
-        self._reports = source.counts.reports
+        self._reports = self.counts.reports
         self._known_s = -inf  # time up to which all reports have been taken
         self._due_s = inf  # when a decision is due without a report
-
-    @property
-    def counts(self) -> Counts:
-        """Reports, contacts and fingers of the source."""
-        return self._source.counts
 
     @property
     def warnings(self) -> Counter[str]:
@@ -173,7 +171,7 @@ class Tracker:
             self._quiet.retry_s = inf
         samples = self._source.read(now_s)
         known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may follow this one
-        reports = self._source.counts.reports
+        reports = self.counts.reports
         reported = reports != self._reports
         if not samples and not reported and now_s < self._due_s:
             return ()
@@ -231,7 +229,8 @@ class Tracker:
             if contact.suspect and not contact.played and not contact.refused:
                 cleared_s = max(cleared_s, self._guard.cleared_if_quiet_s(contact.first_s, now_s))
         if cleared_s <= next_s:
-            self._quiet.end(now_s)
+            if self._quiet.asked:
+                self._quiet.end(now_s)
         elif self._quiet.begin(now_s, cleared_s):
             return cleared_s
         return now_s

@@ -8,10 +8,10 @@ and amplitudes to steps, so that a finger at rest asks for the same waveform aga
 from __future__ import annotations
 
 import math
-import zlib
 from collections.abc import Sequence
 
 from controller.bank.reader import Bank
+from controller.fpga.frames import ReadyFrames, Waveform
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
 
@@ -79,8 +79,10 @@ class Selection:
             return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
         return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), _step(amplitude)) for x_m, y_m, amplitude in points))
 
-    def words(self, key: Key) -> memoryview:
-        """Drive words of a key, valid until the next call.
+    def waveform(self, key: Key) -> Waveform:
+        """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
+
+        With frames comes the CRC-32 with which their entry was built, so that the FPGA finds whatever changed since.
 
         Raises
         ------
@@ -88,22 +90,15 @@ class Selection:
             If an entry it needs is damaged or not in the bank, or the file was changed in place.
         """
         if isinstance(key, int):
-            return self._bank.words(key)
+            return ReadyFrames(*self._bank.frames(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
         words = self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
         self._bank.require_unchanged()
         return words
 
-    def crc(self, key: Key, words: memoryview) -> int:
-        """CRC-32 of the drive words of a key.
-
-        For an entry it is the CRC-32 with which the entry was built, so that the FPGA finds whatever changed since.
-        """
-        return self._bank.drive_crc(key) if isinstance(key, int) else zlib.crc32(words)
-
     def recheck(self, key: Key) -> None:
-        """Check drive words of a key again that the FPGA refused for a wrong CRC.
+        """Check the entry of a key again, of which the FPGA refused a frame or the words for a wrong CRC.
 
         Raises
         ------

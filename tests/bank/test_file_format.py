@@ -45,7 +45,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         return read(data, fields, name)
 
     assert header("`HPNLBANK`") == b"HPNLBANK"
-    assert header("format version") == 2
+    assert header("format version") == 3
     assert header("bytes of the file") == len(data)
     assert header("SHA-256") == board.digest()
     assert (header("pitch"), header("x"), header("y")) == (5e-3, 5e-3, 6e-3)
@@ -71,7 +71,11 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         assert (entry >= 0) == CELLS[cell]
         if entry < 0:
             continue
-        words, levels = row_of("drive", entry), row_of("response", entry)
+        frames, levels = row_of("drive", entry), row_of("response", entry)
+        assert len(frames) == 8 + 36 + 4
+        assert struct.unpack("<HBBHH", frames[:8]) == (0xA55A, 3, 0, 36, 0)
+        assert struct.unpack("<I", frames[-4:])[0] == zlib.crc32(frames[:-4])
+        words = frames[8:-4]
         assert struct.unpack("<II", row_of("checksums", entry)) == (zlib.crc32(words), zlib.crc32(levels))
         (scale,) = struct.unpack("<f", row_of("scale", entry))
         for n, word in enumerate(struct.unpack("<9I", words)):
@@ -128,6 +132,7 @@ TABLE = 184
         (120, struct.pack("<d", np.nan), "cannot be"),  # pitch
         (164, struct.pack("<I", 16), "does not allow"),  # channels
         (160, struct.pack("<I", 0), "does not allow"),  # samples
+        (160, struct.pack("<I", 1001), "does not allow"),
         (172, struct.pack("<I", 1 << 30), "does not allow"),  # bytes of parameters
         (176, struct.pack("<I", 6), "does not allow"),  # sections
         (TABLE + 240, b"xx", "unreadable"),  # parameters that are not JSON

@@ -74,8 +74,10 @@ def test_verify_names_the_place_of_the_first_damage(bank_path):
         bank_path, 8 * in_entry_1
     )
     gap = drive.offset + drive.stride - 1
-    assert f"bytes {drive.offset + 36} to {gap}: padding" in refusal(bank_path, 8 * gap)
+    assert f"bytes {drive.offset + 48} to {gap}: padding" in refusal(bank_path, 8 * gap)
     assert "haptic-panel bank build --board simulated" in refusal(bank_path, 8 * gap)
+    in_frame = drive.offset + drive.stride + 10
+    assert "drive of entry 1 (cell 2): frame 0 is damaged; rebuild it" in refusal(bank_path, 8 * in_frame)
 
 
 def test_info_tells_what_a_bank_is_without_reading_its_entries(bank_path, board):

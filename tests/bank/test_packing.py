@@ -72,6 +72,14 @@ def test_refuses_an_idle_word_that_is_not_32_bits(idle_word):
         drive_words(np.zeros((1, CHANNELS)), idle_word)
 
 
+@given(st.integers(1, 1200), st.integers(0, 2**32 - 1))
+def test_edges_are_the_changes_of_each_channels_level(length, seed):
+    words = np.random.default_rng(seed).integers(0, 2**32, length, np.uint32)
+    words[::2] &= 0xFFFF_FFF0  # the last channels of every second sample: up to a change each sample
+    words[1::2] |= 0xF
+    assert edges(words).tolist() == np.abs(np.diff(channel_bits(words).astype(int), axis=0)).sum(axis=0).tolist()
+
+
 def test_edges_are_counted_for_each_channel():
     words = np.array([0b000, 0b001, 0b011, 0b010, 0b010], "<u4")
     assert edges(words).tolist() == [2, 1] + [0] * 30

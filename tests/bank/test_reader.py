@@ -1,3 +1,4 @@
+import errno
 import os
 import zlib
 from pathlib import Path
@@ -6,6 +7,7 @@ import numpy as np
 import pytest
 
 from controller.bank.file_format import PAGE
+from controller.bank.grid import Grid
 from controller.bank.packing import drive_words
 from controller.bank.reader import Bank, map_bytes
 from controller.errors import BankError
@@ -40,11 +42,12 @@ def test_hands_out_the_words_and_responses_of_the_cells_it_has(path, make_bank, 
                 bank.response(missing)
 
 
-def test_words_are_the_mapped_file_itself_and_cannot_be_written(path, make_bank):
+def test_frames_are_the_mapped_file_itself_and_cannot_be_written(path, make_bank):
     make_bank(path)
     with Bank.open(path) as bank:
-        first, again = np.frombuffer(bank.words(2), "<u4"), np.frombuffer(bank.words(2), "<u4")
+        first, again = (np.frombuffer(bank.frames(2)[0], np.uint8) for _ in range(2))
         assert np.shares_memory(first, again)  # no copy
+        assert bank.frames(2)[0].readonly
         assert bank.words(2).readonly
         assert not bank.response(2)[0].flags.writeable
 
@@ -65,7 +68,7 @@ def test_an_entry_s_checksum_is_computed_on_its_first_use_only(path, make_bank):
     make_bank(path)
     with Bank.open(path) as bank:
         for _ in range(3):
-            bank.words(1), bank.words(2), bank.response(1)
+            bank.frames(1), bank.frames(2), bank.response(1)
         assert (bank.counters.lookups, bank.counters.drive_checked, bank.counters.response_checked) == (6, 2, 1)
         assert bank.counters.bad == 0
 
@@ -77,7 +80,7 @@ def test_a_damaged_entry_is_refused_and_counted_and_the_others_still_serve(path,
         damaged, sound = bank.sections[section], {"drive": "response", "response": "drive"}[section]
     flip(path, damaged.offset + 3 * damaged.stride + damaged.row_bytes - 1, 0x80)
     with Bank.open(path) as bank:
-        use = {"drive": bank.words, "response": bank.response}
+        use = {"drive": bank.frames, "response": bank.response}
         for count in (1, 2):
             with pytest.raises(
                 BankError, match=rf"{section} of entry 3 \(cell 3\) is damaged; rebuild it: haptic-panel bank build"
@@ -86,6 +89,46 @@ def test_a_damaged_entry_is_refused_and_counted_and_the_others_still_serve(path,
             assert bank.counters.bad == count
         use[section](2)
         use[sound](3)
+
+
+def test_responses_around_a_cell_are_read_ahead_when_it_is_first_used(path, make_bank, monkeypatch):
+    grid = Grid(5e-3, 9, 7, 5e-3, 6e-3)
+    cells = [number % 9 != 3 for number in range(63)]  # a column is missing
+    make_bank(path, grid, cells)
+    asked = []
+    monkeypatch.setattr(os, "posix_fadvise", lambda *given: asked.append(given[1:]))
+    with Bank.open(path) as bank:
+        bank.frames(40)
+        assert asked == []
+        section, entry_of = bank.sections["response"], bank._entry_of
+
+        def span(first, last):
+            offset = section.offset + entry_of[first] * section.stride
+            return offset, (entry_of[last] + 1 - entry_of[first]) * section.stride, os.POSIX_FADV_WILLNEED
+
+        for cell, rows in (
+            (40, [(20, 24), (29, 33), (38, 42), (47, 51), (56, 60)]),  # 5 x 5 around column 4, row 4
+            (0, [(0, 2), (9, 11), (18, 20)]),
+            (62, [(42, 44), (51, 53), (60, 62)]),
+        ):
+            asked.clear()
+            bank.response(cell)
+            assert asked == [span(*row) for row in rows]
+            asked.clear()
+            bank.response(cell)
+            assert asked == []
+    bank.response(20)  # closed: the number of its file may be another's by now
+    assert asked == []
+
+
+def test_a_file_system_that_cannot_read_ahead_is_read_all_the_same(path, make_bank, monkeypatch):
+    def cannot(*_):
+        raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+
+    make_bank(path)
+    monkeypatch.setattr(os, "posix_fadvise", cannot)
+    with Bank.open(path) as bank:
+        assert bank.response(0)[0].shape == (9, 32)
 
 
 def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank, board):
@@ -108,7 +151,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         (lambda data: data[:4096], "is truncated"),
         (lambda data: data[:-1], "is truncated"),
         (lambda data: data + b"\0", "has grown"),
-        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 2"),
+        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 3"),
         (lambda data: data[:12] + b"\x01" + data[13:], "header of 4097 bytes"),
         (lambda data: data[:30] + b"!" + data[31:], "CRC-32 of the header"),
         (lambda data: data[:4096] + b"\x07" + data[4097:], "CRC-32 of section 'index'"),

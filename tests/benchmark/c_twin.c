@@ -709,11 +709,11 @@ static uint8_t *play(uint8_t *at, int sequence, int slot, int stop, int nops, in
     return seal(at, 32);
 }
 
-static uint8_t *upload(const uint8_t *payload, uint32_t crc, int sequence, int slot)
+static uint8_t *upload(const uint8_t *payload, int64_t stride, uint32_t crc, int sequence, int slot)
 {
     uint8_t *at = sent;
     for (int k = 0; k < CHUNKS; k++) {
-        memcpy(frame(at, 3, sequence++, CHUNK_BYTES, k), payload + k * CHUNK_BYTES, CHUNK_BYTES);
+        memcpy(frame(at, 3, sequence++, CHUNK_BYTES, k), payload + k * stride, CHUNK_BYTES);
         at = seal(at, 8 + CHUNK_BYTES);
     }
     uint8_t *p = frame(at, 4, sequence++, 24, slot);
@@ -805,13 +805,15 @@ int64_t twin_upload(const int *fingers, int count, const struct told *told)
 {
     int64_t began_ns = now_ns();
     const uint8_t *payload = (const uint8_t *)words;
+    int64_t stride = CHUNK_BYTES;
     struct key key;
     uint32_t crc;
     int error = aim(fingers, count, told->focus_s, &key);
     if (error) return error;
     find(&key);
     if (key.cell >= 0) {
-        payload = c.drive + c.entry_of[key.cell] * c.drive_stride;
+        payload = c.drive + c.entry_of[key.cell] * c.drive_stride + 8; /* in the bank's frames; headers and CRCs are made anew */
+        stride = CHUNK_BYTES + 12;
         crc = c.crc_of[c.entry_of[key.cell]];
     } else {
         double points[POINTS][2];
@@ -826,7 +828,7 @@ int64_t twin_upload(const int *fingers, int count, const struct told *told)
         crc = c.crc32(0, payload, 4 * SAMPLES);
     }
     resident[told->slot] = key;
-    play(upload(payload, crc, told->sequence, told->slot), told->sequence + CHUNKS + 1, told->slot, told->stop, told->nops,
+    play(upload(payload, stride, crc, told->sequence, told->slot), told->sequence + CHUNKS + 1, told->slot, told->stop, told->nops,
          told->count, told->start, told->period_ticks, told->when_ticks);
     return now_ns() - began_ns;
 }

@@ -23,7 +23,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from typing import Any
@@ -37,6 +37,7 @@ from controller.metrics import STAGES, Counters
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session
 from controller.touch.live_source import LiveSource
+from controller.touch.tracker import Tracker
 from tests.benchmark.looped_panel import LoopedPanel
 from tests.benchmark.null_link import NullLink
 from tests.benchmark.twin import PLAIN, VECTORS_128, Twin, Watched
@@ -64,8 +65,10 @@ def configuration() -> dict[str, bool]:
     return {"kernel": getattr(kernel, "COMPILED", False), "mypyc": source.endswith(tuple(EXTENSION_SUFFIXES))}
 
 
-def play(board: Board, bank: Bank, emissions: int, twin_folder: Path | None = None) -> tuple[Counters, Twin | None]:
-    """One run of the loop, with the twin beside it or alone."""
+def play(
+    board: Board, bank: Bank, emissions: int, twin_folder: Path | None = None, turn: Callable[[], None] = lambda: None
+) -> tuple[Counters, Twin | None]:
+    """One run of the loop, with the twin beside it or alone; `turn` is called when a turn begins."""
     scene = load_scene(HERE / "scene.toml", board)
     clock = VirtualClock()
     hooks: list[Twin] = []
@@ -79,22 +82,23 @@ def play(board: Board, bank: Bank, emissions: int, twin_folder: Path | None = No
     link = NullLink(board, clock.now_s, sent if twin_folder else None)
     session = open_session(link, board, clock.now_s)
     panel = LoopedPanel([board.folder / "demo.evemu", *RECORDINGS], clock.now_s() + 0.1, given if twin_folder else None)
-    source = Watched(LiveSource(panel, board), board.touch, board.plate.length_m, board.plate.width_m)
+    source: Any = Tracker(LiveSource(panel, board), board.touch, board.plate.length_m, board.plate.width_m)
     if twin_folder:
-        source.twin = Twin(twin_folder, board, scene, bank, panel.descriptions)
-        hooks.append(source.twin)
+        hooks.append(Twin(twin_folder, board, scene, bank, panel.descriptions))
+        source = Watched(source, hooks[0])
 
     def progress(_: float) -> None:
         if counters.emissions >= emissions:
             panel.stopped = True
-        if source.twin is not None:
-            source.twin.turn()
+        for twin in hooks:
+            twin.turn()
+        turn()
 
     assembly = assemble(board, scene, bank, clock, session, source, progress=progress)
     counters = assembly.counters
     assembly.selection.prepare()
     assembly.loop.run(link.answer_alone)
-    return counters, source.twin
+    return counters, hooks[0] if hooks else None
 
 
 @contextlib.contextmanager

@@ -4,29 +4,30 @@
 
 The loop of `host_latency.py` runs under `valgrind --tool=callgrind` (Debian: package valgrind); what the link does is not
 counted. The same on every machine of one kind, whatever else it does. An emission that was handed over while the
-one before still sounded is counted up to there: its trigger, in a later turn, is one call.
+one before still sounded is counted to the end of that turn: its trigger, in a later turn, is one call.
 """
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import re
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
-from controller.loop.event_loop import EventLoop
-from controller.loop.playback import Playback
+from controller.fpga.registers import FrameType
 from controller.metrics import Counters
 from tests.benchmark import host_latency
 from tests.benchmark.null_link import NullLink
 
 SOURCE = Path(__file__).with_name("marks.c")
+SHORTEST_UPLOAD = 8  # frames; a play alone has three at most
 WARM_UP = 100  # emissions that fill caches
 COUNTED = re.compile(r"^desc: Trigger: Client Request: (\w+)$.*?^(?:summary|totals): (\d+)", re.MULTILINE | re.DOTALL)
 
@@ -50,40 +51,51 @@ def _summary(counts: Sequence[int]) -> dict[str, int]:
 
 
 class Marks:
-    """Counts from the begin of a turn to the first trigger, or to the end of `Playback.prepare`, without the link."""
+    """Counts a turn from its begin to its trigger, or to its end if an emission was handed over before its time.
+
+    Works from outside of the loop, which may be a compiled one: by what is called in each turn, and by the link.
+    """
 
     def __init__(self, library: str) -> None:
         self._marks = ctypes.CDLL(library)
         self._on = False
-        self.emissions = 0
+        self._emissions = 0
+        self._kind = ""  # of what was handed over in this turn
 
-    def begin(self) -> None:
-        """A turn begins."""
-        if self.emissions == WARM_UP:
+    def turn(self) -> None:
+        """A turn begins, and the one before has ended."""
+        self.end()
+        if self._emissions == WARM_UP:
             self._marks.marks_begin()
-        if self.emissions >= WARM_UP:
+        if self._emissions >= WARM_UP:
             self._marks.marks_forget()
-            self.toggle()
+            self._toggle()
 
-    def toggle(self) -> bool:
-        """Begin, go on or pause; whether it counts now."""
+    @contextlib.contextmanager
+    def exchanging(self, sent: memoryview, lengths: Sequence[int]) -> Iterator[None]:
+        """What the link does is not counted."""
+        counting = self._on
+        if counting:
+            self._toggle()
+        yield
+        if sent[sum(lengths[:-2]) + 2] == FrameType.PLAY:  # its answer comes with the NOP behind it
+            self._kind = "uploads" if len(lengths) > SHORTEST_UPLOAD else "resident"
+        if counting:
+            self._toggle()
+
+    def end(self) -> None:
+        """Nothing more of this turn is counted."""
+        if self._on:
+            self._toggle()
+        if self._kind:
+            self._emissions += 1
+            if self._emissions > WARM_UP:
+                self._marks.marks_end(self._kind.encode())
+        self._kind = ""
+
+    def _toggle(self) -> None:
         self._marks.marks_toggle()
         self._on = not self._on
-        return self._on
-
-    def pause(self) -> bool:
-        """Pause; whether it counted."""
-        if self._on:
-            self.toggle()
-            return True
-        return False
-
-    def end(self, kind: str) -> None:
-        """What was counted since `begin` was of this kind."""
-        self.pause()
-        self.emissions += 1
-        if self.emissions > WARM_UP:
-            self._marks.marks_end(kind.encode())
 
 
 class CountedLink(NullLink):
@@ -93,42 +105,20 @@ class CountedLink(NullLink):
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """As `NullLink`."""
-        counting = self.marks.pause()
-        super().exchange(sent, lengths, received)
-        if counting:
-            self.marks.toggle()
+        with self.marks.exchanging(sent, lengths):
+            super().exchange(sent, lengths, received)
 
     def trigger(self) -> float:
         """As `NullLink`; what follows is not counted."""
-        self.marks.pause()
+        self.marks.end()
         return super().trigger()
 
 
 def play(board: Board, bank: Bank, emissions: int, marks: Marks) -> Counters:
     """The loop, with marks."""
-    turn, prepare = EventLoop._turn, Playback.prepare
-
-    def counted_turn(loop: EventLoop) -> float | None:
-        marks.begin()
-        try:
-            return turn(loop)
-        finally:
-            marks.pause()
-
-    def counted_prepare(playback: Playback, *arguments: Any, **more: Any) -> Any:
-        counters = playback._counters
-        before = counters.uploads, counters.resident
-        attempt = prepare(playback, *arguments, **more)
-        if playback.accepted is not None:
-            marks.end("uploads" if playback.accepted.plan.resident is None else "resident")
-        elif before != (counters.uploads, counters.resident):
-            marks.end("uploads" if counters.uploads > before[0] else "resident")
-        return attempt
-
     CountedLink.marks = marks
-    EventLoop._turn, Playback.prepare = counted_turn, counted_prepare  # type: ignore[method-assign]
     host_latency.NullLink = CountedLink  # type: ignore[misc]
-    return host_latency.play(board, bank, emissions)[0]
+    return host_latency.play(board, bank, emissions, turn=marks.turn)[0]
 
 
 def main() -> None:

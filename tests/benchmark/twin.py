@@ -242,13 +242,20 @@ class Twin:
         return config
 
 
-class Watched(Tracker):
-    """A tracker that tells the twin what it was asked."""
+class Watched:
+    """A tracker that tells the twin what it was asked.
 
-    twin: Twin | None = None
+    Not a class of its kind: the tracker may be a compiled one.
+    """
+
+    def __init__(self, tracker: Tracker, twin: Twin) -> None:
+        self._tracker = tracker
+        self._twin = twin
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._tracker, name)
 
     def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """As the tracker's."""
-        if self.twin is not None:
-            self.twin.aimed(finger, at_s)
-        return super().predict(finger, at_s)
+        self._twin.aimed(finger, at_s)
+        return self._tracker.predict(finger, at_s)

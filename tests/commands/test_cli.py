@@ -294,7 +294,7 @@ def test_a_bank_can_be_built_told_of_and_verified(capsys, small_board, tmp_path)
     file = tmp_path / "small.bank"
     report = json.loads(printed(capsys, "bank", "build", "--board", small_board, "--out", file, "--json").out)
     assert report["cells"] == 20 * 13
-    assert {"cells", "modes", "seconds", "response_seconds", "gemm_fraction", "peak_memory_mb"} <= set(report)
+    assert {"cells", "modes", "seconds", "response_seconds", "sgemm_share", "peak_memory_mb"} <= set(report)
     scene = json.loads(printed(capsys, "bank", "build", "--board", small_board, "--scene", "scene", "--out", file, "--json").out)
     assert 4 <= scene["cells"] < 60
     info = json.loads(printed(capsys, "bank", "info", file, "--json").out)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from controller import kernel
 from controller.fpga import frames, registers
-from controller.fpga.upload_image import upload_slices
+from controller.fpga.frames import upload_slices
 from controller.kernel import twin
 
 WORDS = bytes((37 * n * n + n >> 3) & 0xFF for n in range(4000))

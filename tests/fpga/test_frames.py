@@ -21,8 +21,8 @@ from controller.fpga.registers import (
     State,
 )
 from controller.fpga.status import Status, pack_status, parse_status
-from controller.fpga.upload_image import UploadImage, upload_slices
 from controller.gateware_model.decoder import decode
+from controller.kernel import pack_loads
 
 u8, u16, u32 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32))
 bytes_of_words = st.integers(1, 125).flatmap(lambda words: st.binary(min_size=4 * words, max_size=4 * words))
@@ -219,9 +219,9 @@ def test_a_frame_with_a_bit_flipped_or_bytes_lost_or_added_is_refused(payload, d
 def test_load_frames_lie_where_upload_slices_say(length):
     words = bytes(range(256)) * 16
     buffer = bytearray(frames.UPLOAD_BYTES)
-    end = UploadImage(memoryview(buffer), length).pack(250, memoryview(words)[: 4 * length])
-    slices = upload_slices(length)
-    assert slices[-1].stop == end
+    pack_loads(buffer, 250, memoryview(words)[: 4 * length])
+    slices = frames.upload_slices(length)
+    end = slices[-1].stop
     assert slices[0].start == 0
     received = b""
     for chunk, place in enumerate(slices):
@@ -235,4 +235,4 @@ def test_load_frames_lie_where_upload_slices_say(length):
 @pytest.mark.parametrize("length", [0, 1001])
 def test_a_waveform_of_an_impossible_length_is_refused(length):
     with pytest.raises(ValueError, match="1 to 1000 words"):
-        upload_slices(length)
+        frames.upload_slices(length)

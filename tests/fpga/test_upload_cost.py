@@ -1,4 +1,4 @@
-"""Cost of an upload on the host: the payload is copied once, into the frames, with one CRC pass there and one for its slot."""
+"""Cost of an upload on the host: a payload is copied once, into the frames; that of a bank is not read for a CRC."""
 
 import tracemalloc
 import zlib
@@ -6,27 +6,25 @@ import zlib
 import numpy as np
 import pytest
 from alone import alone
-from hypothesis import given
-from hypothesis import strategies as st
 
 from controller.bank import reader
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
-from controller.fpga import frames, session, upload_image
+from controller.fpga import frames, play_messages
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.upload_image import UploadImage, upload_slices
+from controller.fpga.frames import ReadyFrames
+from controller.kernel import pack_loads, twin
 from controller.loop.commands import Outcome
+from controller.loop.host_timing import HostTiming
 from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.loop.records import Batch
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.service.drivers import open_session, open_simulated
-from controller.waveforms import selection as selection_module
 from controller.waveforms.selection import Selection
 
 WORDS = memoryview(np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32).view(np.uint8))
-BUFFER = memoryview(bytearray(frames.UPLOAD_BYTES))
 
 
 def test_packing_copies_nothing_but_into_the_frame():
@@ -45,7 +43,8 @@ def test_packing_copies_nothing_but_into_the_frame():
     assert alone(peak_bytes) < 2_000
 
 
-def count_crcs(monkeypatch, *modules):
+def count_crcs(monkeypatch):
+    """Lengths of what is read for a CRC from now on, by the kernel's twin: what the compiled one does is the same."""
     checked = []
 
     class CountingZlib:
@@ -54,31 +53,33 @@ def count_crcs(monkeypatch, *modules):
             checked.append(len(data))
             return zlib.crc32(data)
 
-    for module in modules:
-        monkeypatch.setattr(module, "zlib", CountingZlib)
+    monkeypatch.setattr(twin, "zlib", CountingZlib)
+    for module, names in ((play_messages, ("pack_loads", "renumber_loads", "seal_short_frames")), (reader, ("unpack_loads",))):
+        for name in names:
+            monkeypatch.setattr(module, name, getattr(twin, name))
     return checked
 
 
-def test_packing_an_upload_is_one_crc_pass(monkeypatch):
-    checked = count_crcs(monkeypatch, upload_image)
-    UploadImage(BUFFER, 1000).pack(0, WORDS)
-    assert checked == [8 + 500] * 8
+def ready():
+    page = bytearray(frames.UPLOAD_BYTES)
+    return ReadyFrames(memoryview(page).toreadonly(), pack_loads(page, 0, WORDS))
 
 
-@pytest.mark.parametrize(("crc", "more"), [(None, [4000]), (zlib.crc32(WORDS), [])], ids=["composed", "of the bank"])
-def test_an_upload_is_one_crc_pass_and_one_more_for_words_without_a_banks_crc(monkeypatch, board, crc, more):
+@pytest.mark.parametrize(("waveform", "crcs"), [(WORDS, [*[8 + 500] * 8, 4000]), (ready(), [])], ids=["composed", "of the bank"])
+def test_composed_words_are_read_for_the_crcs_of_frames_and_slot_and_ready_frames_not_at_all(monkeypatch, board, waveform, crcs):
     clock = VirtualClock()
     link = open_simulated(board, clock.now_s)
     fpga = open_session(link, board, clock.now_s)
-    checked = count_crcs(monkeypatch, frames, session, upload_image)
-    fpga.upload(0, WORDS, crc)
-    long = sorted(size for size in checked if size > frames.FRAME_BYTES)
-    assert long == [*[8 + 500] * 8, *more]
+    twin.number_changes(512)  # made once
+    checked = count_crcs(monkeypatch)
+    fpga.upload(0, waveform)
+    assert [size for size in checked if size > 32] == crcs
     assert link.bytes_sent > frames.UPLOAD_BYTES
+    assert fpga.exchange.read_slot_crc(0) == zlib.crc32(WORDS)
 
 
-def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(monkeypatch, board, bank_file):
-    """First uses are checked by the host; later ones by the FPGA, against the bank's own table."""
+def test_an_entry_that_was_used_before_is_sent_without_reading_its_payload_for_a_crc(monkeypatch, board, bank_file):
+    """First uses are checked by the host; later ones by the FPGA, against the CRCs of the frames and the bank's own table."""
     clock, counters = VirtualClock(), Counters()
     link = open_simulated(board, clock.now_s)
     fpga = open_session(link, board, clock.now_s)
@@ -88,10 +89,10 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
         selection = Selection(bank, 1e-3, board.idle_word)
         estimate = ClockEstimate(link.clock_hz)
         playback = Playback(
-            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4, upload_s=1.4e-3, command_s=1e-5,
-            counters=counters,
+            fpga, selection, estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=4,
+            timing=HostTiming(1.4e-3, 1e-5, 2e-3), counters=counters,
         )  # fmt: skip
-        checked = count_crcs(monkeypatch, frames, session, upload_image, reader, selection_module)
+        checked = count_crcs(monkeypatch)
         passes = []
         for x_m, y_m in [tuple(place) for place in bank.grid.points()[[60, 61, 62, 63, 64]]] * 2:  # of four slots none serves
             checked.clear()
@@ -99,24 +100,4 @@ def test_an_entry_that_was_used_before_is_passed_by_the_crc_of_its_frames_only(m
             assert playback.prepare(Batch([Emission(0.0, x_m, y_m, None, "")]), 0).outcome is Outcome.PLAYED
             passes.append(sum(size > frames.FRAME_BYTES for size in checked))
     assert counters.uploads == 10
-    assert passes == [8 + 1] * 5 + [8] * 5
-
-
-def test_every_byte_of_the_payload_arrives_in_its_chunk():
-    UploadImage(BUFFER, 1000).pack(0, WORDS)
-    payload = b"".join(bytes(BUFFER[piece][8:-4]) for piece in upload_slices(1000))
-    assert payload == bytes(WORDS)
-
-
-@given(st.integers(1, 1000), st.integers(0, 255), st.binary(min_size=36, max_size=36))
-def test_an_upload_image_equals_packing_frame_by_frame(samples, sequence, between):
-    words = WORDS[: 4 * samples]
-    plain, kept = (memoryview(bytearray(frames.UPLOAD_BYTES)) for _ in range(2))
-    image = UploadImage(kept, samples)
-    image.pack(sequence ^ 0x55, WORDS[-4 * samples :])
-    kept[: len(between)] = between
-    end = 0
-    for chunk in range(-(-samples // 125)):
-        end = frames.pack_load(plain, end, sequence + chunk, chunk, words[500 * chunk : 500 * (chunk + 1)])
-    assert image.pack(sequence, words) == end == sum(image.lengths)
-    assert kept[:end] == plain[:end]
+    assert passes == [8 + 1] * 5 + [0] * 5

@@ -199,7 +199,7 @@ def test_two_fingers_due_at_once_are_one_emission_with_two_foci(perform, board, 
     assert {(round(e.x_m * 1e3), round(e.y_m * 1e3)) for e in run.played[0].emissions} == {(60, 54), (150, 94)}
     with Bank.open(bank_file, board) as bank:
         selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
-        words = selection.words(selection.key([(0.06, 0.054, 1.0), (0.15, 0.094, 1.0)]))
+        words = selection.waveform(selection.key([(0.06, 0.054, 1.0), (0.15, 0.094, 1.0)]))
         assert np.array_equal(words_before(run, int(run.capture.focus_ticks[0])), np.frombuffer(words, "<u4"))
 
 
@@ -286,7 +286,8 @@ def test_a_bad_entry_is_left_out_counted_and_the_loop_goes_on(perform, bank_file
     number, place = cell
     damaged = tmp_path / "damaged.bank"
     content = bytearray(bank_file.read_bytes())
-    at = content.index(entry(bank_file, number).tobytes())
+    with Bank.open(bank_file) as bank:
+        at = content.index(bank.frames(number)[0])
     content[at + 100] ^= 1
     damaged.write_bytes(content)
     other = (place[0] + 20, place[1])
@@ -307,7 +308,7 @@ def test_a_bank_that_is_changed_in_place_never_plays_wrong_bits(board, bank_file
         entries = {cell: np.frombuffer(bytes(bank.words(cell)), "<u4") for cell in (130, 46)}
         selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
         points = [(x_mm * 1e-3, y_mm * 1e-3, 1.0) for x_mm, y_mm in (one, two)]
-        both = np.frombuffer(bytes(selection.words(selection.key(points))), "<u4")
+        both = np.frombuffer(bytes(selection.waveform(selection.key(points))), "<u4")
         for name in ("drive", "response"):
             section = bank.sections[name]
             changed = np.frombuffer(content, np.uint8, section.size, section.offset)
@@ -718,7 +719,7 @@ def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
     assert counters.emissions > 80
     during = [at_s for at_s in ahead_s if at_s < 1.0]  # the train goes on
     assert len(during) > 5
-    assert min(during) > loop._dispatcher.lead_s + PREFETCH_SLACK_S
+    assert min(during) > loop._timing.lead_s + PREFETCH_SLACK_S
     assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
 
 

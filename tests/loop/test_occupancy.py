@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from controller.clocks import NEVER
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.loop.occupancy import HANDOVER_S, MARGIN_S, Occupancy, Repetition
+from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 
 T_S = 2e-3
 OFFSET_S, ERROR_S = 100.0, 5e-6
@@ -20,7 +20,7 @@ def occupancy(max_duty=1.0):
 
 def test_a_plate_that_has_not_played_is_free_and_a_command_may_start_as_it_arrives():
     assert occupancy().earliest_start_s(101.0, None) == 101.0
-    assert occupancy().earliest_start_s(101.0, 100.5) == 101.0 + HANDOVER_S
+    assert occupancy().earliest_start_s(101.0, 100.5) == 101.0
     assert occupancy().earliest_start_s(101.0, 102.0) == 102.0
 
 
@@ -57,7 +57,8 @@ def test_no_emission_starts_before_its_command_or_within_the_pause_of_the_former
         now_s += after_s
         at_s = now_s + wanted_s if by_clock else None
         start_s = plate.earliest_start_s(now_s, at_s)
-        assert start_s >= now_s + (HANDOVER_S if by_clock else 0.0)
+        assert start_s >= now_s
+        assert start_s >= plate.free_from_s(now_s)
         assert start_s >= last_s + T_S * scale / max_duty + MARGIN_S - 1e-9
         assert at_s is None or start_s >= at_s
         plate.started(start_s - OFFSET_S, start_s, by_clock=by_clock)

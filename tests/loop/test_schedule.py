@@ -14,10 +14,11 @@ from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
-from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
+from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, ReadyFrames
+from controller.kernel import pack_loads
 from controller.loop.commands import Outcome
-from controller.loop.dispatcher import BEAT_LEAD_S
-from controller.loop.occupancy import HANDOVER_S, MARGIN_S, Occupancy
+from controller.loop.host_timing import BEAT_LEAD_S, HANDOVER_S, HostTiming
+from controller.loop.occupancy import MARGIN_S, Occupancy
 from controller.loop.playback import Playback
 from controller.loop.records import ENDLESS, Batch
 from controller.loop.wiring import assemble
@@ -170,9 +171,10 @@ def test_the_age_of_a_report_when_read_is_recorded(run, late_s):
 
 
 def test_a_beat_that_comes_too_late_for_its_time_is_played_at_once_and_counted(run):
-    done = run(TAPS, train(50, 80.0), slow_s=1.5 * HANDOVER_S)
-    assert done.counters.late == 5, "the first of each touch, which is wanted as soon as can be"
-    assert (done.counters.emissions, done.counters.scheduled) == (20, 15)
+    done = run(TAPS, train(50, 80.0), slow_s=2.0 * HANDOVER_S)
+    assert done.counters.late == 1, "the first of the first touch, which is wanted as soon as can be: then the host is known"
+    assert (done.counters.emissions, done.counters.scheduled) == (20, 19)
+    assert done.counters.uploads == 4, "of five places: what came too late is not sent again"
     assert done.counters.skipped.refused == 0
     assert len(done.starts) == 20
 
@@ -275,7 +277,7 @@ def by_hand(board, bank_file):
         clock_estimate = ClockEstimate(link.clock_hz)
         done.playback = Playback(
             session, Selection(bank, 1e-3, board.idle_word), clock_estimate, Occupancy(clock_estimate, T_S, DUTY), where, slots=4,
-            upload_s=1.4e-3, command_s=23e-6, counters=done.counters, played=done.played.append,
+            timing=HostTiming(1.4e-3, 23e-6, T_S / DUTY), counters=done.counters, played=done.played.append,
         )  # fmt: skip
         yield done
 
@@ -303,7 +305,7 @@ def test_the_duration_of_an_emission_before_a_beat_is_reserved(by_hand):
     playback, clock = by_hand.playback, by_hand.clock
 
     def free_after_next_s():
-        return playback.occupancy.free_after_next_s(clock.now_s(), 1.4e-3)
+        return playback.occupancy.free_after_next_s(clock.now_s(), 1.4e-3, 1.6e-3)
 
     assert free_after_next_s() == pytest.approx(clock.now_s() + 1.4e-3 + T_S / DUTY + 2 * MARGIN_S)
     playback.prepare(focus(0.05), 0)
@@ -325,14 +327,14 @@ def test_after_a_fault_nothing_waits_for_former_plays(by_hand, at_s):
 
 def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_one(by_hand, monkeypatch):
     by_hand.place = (0.15, 0.05)
-    words = Selection.words
+    waveform = Selection.waveform
 
     def damaged(selection, key):
         if key == selection.key(((*by_hand.place, 1.0),)):
             raise BankError("damaged")
-        return words(selection, key)
+        return waveform(selection, key)
 
-    monkeypatch.setattr(Selection, "words", damaged)
+    monkeypatch.setattr(Selection, "waveform", damaged)
     assert by_hand.playback.prepare(focus(0.05, finger=0), 0).outcome is Outcome.PLAYED
     assert [emission.x_m for played in by_hand.played for emission in played.emissions] == [0.05]
     assert by_hand.counters.skipped.bad_entries == 0
@@ -340,9 +342,16 @@ def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_on
 
 def test_a_prefetched_waveform_damaged_in_its_slot_is_sent_again(by_hand, monkeypatch):
     playback, clock, places_m = by_hand.playback, by_hand.clock, (0.05, 0.08, 0.11)
+    waveform = Selection.waveform
+
+    def with_a_wrong_crc(selection, key):
+        page = bytearray(UPLOAD_BYTES)
+        pack_loads(page, 0, waveform(selection, key))
+        return ReadyFrames(memoryview(page), 1)
+
     for place_m in places_m:
         if place_m == places_m[-1]:
-            monkeypatch.setattr(Selection, "crc", lambda *_: 1)
+            monkeypatch.setattr(Selection, "waveform", with_a_wrong_crc)
         sent = playback.prefetch(0, place_m, 0.05, 1.0)
         monkeypatch.undo()
         clock._now_s += 0.03

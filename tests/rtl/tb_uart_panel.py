@@ -16,7 +16,7 @@ from controller.fpga import frames, serial_link
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Result, State
 from controller.fpga.status import parse_status
-from controller.fpga.upload_image import UploadImage
+from controller.kernel import load_frames_bytes, pack_loads
 
 WORDS = np.random.default_rng(3).integers(0, 1 << 32, 1000, dtype=np.uint32)
 WORDS[100:140] = 0
@@ -83,9 +83,10 @@ def pack_message(upload, sequence):
     lengths = []
     end = 0
     if upload:
-        image = UploadImage(sent, len(WORDS))
-        end = image.pack(sequence, memoryview(WORDS).cast("B"))
-        lengths = [*image.lengths]
+        words = memoryview(WORDS).cast("B")
+        pack_loads(sent, sequence, words)
+        end = load_frames_bytes(words.nbytes)
+        lengths = [piece.stop - piece.start for piece in frames.upload_slices(len(WORDS))]
     for _ in range(2 if upload else 5):
         end = frames.pack_nop(sent, end, sequence + len(lengths))
         lengths.append(FRAME_BYTES)

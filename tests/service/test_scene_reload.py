@@ -259,6 +259,17 @@ def test_a_bank_that_lacks_what_the_scene_reaches_is_refused(board, bank, folder
     assert populate(bank, scene, "scene.toml") == bank.grid.cells
 
 
+def test_at_the_start_every_entry_is_checked_and_no_response_is_read(board, bank_file, folder):
+    """Nine tenths of a bank are responses: they are read where a finger is, when it comes there."""
+    scene = load_scene(folder / "scene.toml", board)
+    with Bank.open(bank_file, board) as bank:
+        cells = populate(bank, scene, "scene.toml")
+        assert (bank.counters.drive_checked, bank.counters.response_checked) == (cells, 0)
+        assert set(bank.counters.mapped_bytes) == {"drive"}
+        assert populate(bank, scene, "scene.toml", responses=True) == cells
+        assert (bank.counters.drive_checked, bank.counters.response_checked) == (cells, cells)
+
+
 # What the other process says
 
 

@@ -23,7 +23,7 @@ def scene(count, amplitude):
 
 def play(selection, points):
     key = selection.key(points)
-    selection.words(key)
+    selection.waveform(key)
     selection.reusable(key, 7)
 
 

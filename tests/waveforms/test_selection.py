@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from controller.bank.packing import edges
 from controller.bank.reader import Bank
+from controller.fpga.frames import ReadyFrames
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer
 from controller.waveforms.selection import LATTICE_M, Selection
@@ -29,7 +30,7 @@ def test_a_lone_finger_near_a_cell_plays_the_banks_entry_and_maps_no_responses(b
     x_m, y_m = bank.grid.points()[50]
     key = selection.key([(x_m + 0.6e-3, y_m - 0.6e-3, 1.0)])
     assert key == 50
-    assert selection.words(key) == bank.words(50)
+    assert selection.waveform(key) == ReadyFrames(*bank.frames(50))
     assert not selection.composes
     assert "response" not in bank.counters.mapped_bytes
 
@@ -38,7 +39,7 @@ def test_a_finger_between_cells_is_interpolated(bank, selection, board):
     x_m, y_m = bank.grid.points()[50]
     key = selection.key([(x_m + 1.5e-3, y_m, 1.0)])
     assert not isinstance(key, int)
-    words = bytes(selection.words(key))
+    words = bytes(selection.waveform(key))
     assert words == bytes(Composer(bank, board.idle_word).compose([(x_m + 1.5e-3, y_m, 1.0)]))
     assert words != bytes(bank.words(50))
     assert selection.composes
@@ -58,7 +59,7 @@ def test_the_order_of_the_fingers_does_not_matter_but_their_amplitudes_do(select
 
 def test_two_fingers_on_cells_are_composed_all_the_same(bank, selection):
     (ax, ay), (bx, by) = bank.grid.points()[[50, 120]]
-    words = bytes(selection.words(selection.key([(ax, ay, 1.0), (bx, by, 1.0)])))
+    words = bytes(selection.waveform(selection.key([(ax, ay, 1.0), (bx, by, 1.0)])))
     assert words not in {bytes(bank.words(50)), bytes(bank.words(120))}
 
 
@@ -66,7 +67,7 @@ def test_less_than_full_amplitude_is_composed_on_a_cell_too(bank, selection):
     x_m, y_m = bank.grid.points()[50]
     key = selection.key([(x_m, y_m, 0.5)])
     assert not isinstance(key, int)
-    held, full = (np.frombuffer(words, "<u4") for words in (selection.words(key), bank.words(50)))
+    held, full = (np.frombuffer(words, "<u4") for words in (selection.waveform(key), bank.words(50)))
     assert edges(held).sum() < 0.7 * edges(full).sum()
 
 

@@ -17,6 +17,7 @@ from controller.metrics import STAGES
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, tracked
 from controller.touch.live_source import LiveSource
+from controller.waveforms.selection import Selection
 from tests.benchmark.looped_panel import LoopedPanel
 
 FORM = sys.argv[1]
@@ -27,15 +28,16 @@ UPLOADED, RESIDENT = (0, 3, 7, 11), (2, 0, 3, 1, 1)  # cells, each in a slot of 
 print(f"{FORM}: started and imported in {time.process_time():.2f} s of CPU", flush=True)
 
 
-def play_entries(session, bank):
+def play_entries(board, session, bank):
     """Entries uploaded and played, then played from their slots: by a trigger each. Prints the cells in order."""
     armed_s = session.arm()
     while time.monotonic() < armed_s:
         session.heartbeat()
     session.require_armed()
+    selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
     played, begun = [], session.heartbeat().emissions
     for slot, cell in enumerate(UPLOADED):
-        session.upload_and_play(slot, bank.words(cell), 1, 0.0, stop=False, crc=bank.drive_crc(cell))
+        session.upload_and_play(slot, selection.waveform(cell), 1, 0.0, stop=False)
         played.append(cell)
         finish(session, begun + len(played))
     for slot in RESIDENT:
@@ -91,7 +93,7 @@ def main():
     session = open_session(link, board, clock.now_s)
     print(f"{FORM}: sck_hz {link.sck_hz:.0f} bufsiz {link.bufsiz}", flush=True)
     with Bank.open(Path("/root/panel.bank"), board) as bank:
-        play_entries(session, bank)
+        play_entries(board, session, bank)
         session.bring_up()
         play_loop(board, clock, session, bank)
     link.close()

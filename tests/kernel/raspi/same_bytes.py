@@ -34,7 +34,8 @@ def main(folder):
             x_m, y_m = random.uniform(0.02, 0.19, fingers), random.uniform(0.02, 0.12, fingers)
             amplitudes = random.uniform(0.25, 1.0, fingers) if number % 2 else np.ones(fingers)
             points = [(float(x), float(y), float(a)) for x, y, a in zip(x_m, y_m, amplitudes, strict=True)]
-            words.update(selection.words(selection.key(points)))
+            key = selection.key(points)
+            words.update(bank.words(key) if isinstance(key, int) else selection.waveform(key))
     print("words", words.hexdigest())
     print("kernel", "compiled" if kernel.COMPILED else "numpy", file=sys.stderr)
 
