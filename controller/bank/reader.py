@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import mmap
 import os
 import weakref
@@ -41,11 +40,6 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
-
-    Attributes
-    ----------
-    scale_of_cell : list of float
-        m per V of one level of each cell's response; NaN where the bank has no entry.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -62,7 +56,6 @@ class Bank:
         self._fd = fd
         self.close = weakref.finalize(self, os.close, fd)
         self._entry_of, self._crc_of, self._scale_of = tables
-        self.scale_of_cell = [self._scale_of[entry] if entry >= 0 else math.nan for entry in self._entry_of]
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
@@ -237,38 +230,34 @@ class Bank:
         levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
-    def response_patch(self, cell: int, columns: int, rows: int) -> NDArray[np.int8]:
-        """Responses of up to four neighbouring cells as one array, for one pass over all of them.
+    @property
+    def responses(self) -> memoryview:
+        """The response section, in which entry n begins at n strides; empty until the first response was checked."""
+        return self._response
 
-        Parameters
-        ----------
-        cell : int
-            The one with the lowest x and y.
-        columns, rows : int
-            1 or 2 each.
+    def response_tables(self) -> tuple[list[int], list[float], bytearray]:
+        """What is needed to find responses in their section.
 
         Returns
         -------
-        (rows, columns, (samples + rest_rows) * 32) int8 array
-            In drive order, then the rest outside the band; a read-only view of the file.
+        entries : list of int
+            Entry of each cell, -1 for none.
+        scales : list of float
+            m per V of one level of each entry's response.
+        good : bytearray
+            For each entry whether its response was found good: the bank's own, which changes with `check_response`.
+        """
+        return self._entry_of, self._scale_of, self._response_good
+
+    def check_response(self, cell: int) -> None:
+        """Map the responses and check a cell's, if that was not done.
 
         Raises
         ------
         BankError
-            If a cell has no entry, or a damaged one.
+            If the cell has no entry, or a damaged one.
         """
-        checked, stride = self._checked_response, self._response_stride
-        first = checked(cell)
-        if columns == 2:
-            checked(cell + 1)  # entries are numbered as cells are: the next one in the file
-        up = 0
-        if rows == 2:
-            above = cell + self.grid.nx
-            up = checked(above) - first
-            if columns == 2:
-                checked(above + 1)
-        shape = (rows, columns, self._response_bytes)
-        return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
+        self._checked_response(cell)
 
     def _checked_response(self, cell: int) -> int:
         """Entry of a cell whose response is mapped and good."""

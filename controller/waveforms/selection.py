@@ -47,7 +47,7 @@ class Selection:
         return self._composer is not None
 
     def prepare(self) -> None:
-        """Take the memory for composing, that of the linear algebra (32 MB) included, before playing begins.
+        """Take the memory for composing, and map the responses, before playing begins.
 
         Raises
         ------
