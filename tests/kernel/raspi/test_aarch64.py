@@ -54,9 +54,15 @@ def test_bank_and_composed_words_are_those_of_x86_64(package, ours, tmp_path, ke
     root = machine() / "arm64"
     libraries = ":".join(f"{root}/{folder}/aarch64-linux-gnu" for folder in ("usr/lib", "lib"))
     path = ":".join(map(str, (package, root / "usr/lib/device", root / "usr/lib/offline", root / "usr/lib/python3/dist-packages")))
-    wanted = ["-E", f"PYTHONPATH={path}", "-E", f"HAPTIC_PANEL_KERNEL={kernel}", "-E", f"LD_LIBRARY_PATH={libraries}"]
-    wanted += ["-E", "OPENBLAS_NUM_THREADS=1", "-E", "PYTHONDONTWRITEBYTECODE=1"]
-    emulator = machine() / "qemu/usr/bin/qemu-aarch64-static"
-    said, used = output_of(emulator, "-L", root, *wanted, root / "usr/bin/python3.11", HERE / "same_bytes.py", tmp_path)
+    variables = {
+        "PYTHONPATH": path,
+        "HAPTIC_PANEL_KERNEL": kernel,
+        "LD_LIBRARY_PATH": libraries,
+        "OPENBLAS_NUM_THREADS": "1",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    given = [word for name, value in variables.items() for word in ("-E", f"{name}={value}")]
+    emulator = [machine() / "qemu/usr/bin/qemu-aarch64-static", "-cpu", "cortex-a72", "-L", root]
+    said, used = output_of(*emulator, *given, root / "usr/bin/python3.11", HERE / "same_bytes.py", tmp_path)
     assert used == [kernel]
     assert said == ours
