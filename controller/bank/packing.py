@@ -94,8 +94,8 @@ def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], 
     levels : (sample, channel) int8 array
         -127 to 127.
     scale_m_per_v : float
-        `max|drive_order| / 127`, rounded up to `SCALE_BITS` significant bits: the last bits of `drive_order` depend on the machine's
-        linear algebra, and hardly ever show in it; 0 for a response that is zero throughout.
+        `max|drive_order| / 127`, rounded up to `SCALE_BITS` significant bits: the last bits of `drive_order` depend on
+        the machine's linear algebra, and hardly ever show in it; 0 for a response that is zero throughout.
 
     Raises
     ------

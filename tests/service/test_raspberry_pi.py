@@ -1,14 +1,18 @@
 """What `doctor` finds in the files of a Raspberry Pi: a tree of them stands for the machine."""
 
+import re
+import subprocess
+
 import msgspec
 import pytest
 
 from controller.board.board import load_board
 from controller.board.devices import Realtime
-from controller.board.lookup import find_board
+from controller.board.lookup import data_folder, find_board
 from controller.board.touch_panels import Gt911Touch
+from controller.fpga.frames import UPLOAD_BYTES
 from controller.service import doctor
-from controller.service.raspberry_pi import look_at_pi
+from controller.service.raspberry_pi import _numbers, look_at_pi
 
 PI_4, PI_5 = load_board(find_board("ulx3s")), load_board(find_board("ulx3s_pi5"))
 OWN_CORE = Realtime(cpu=3)
@@ -162,3 +166,79 @@ def test_nothing_is_said_of_a_board_without_spi(found):
 def test_doctor_looks_at_the_pi(monkeypatch):
     monkeypatch.setattr(doctor, "look_at_pi", lambda _: [doctor.Finding("governor", True, "performance")])
     assert doctor.look(PI_4, lambda: 0.0)[-1].about == "governor"
+
+
+CONFIG = "# For more options see the documentation\ndtparam=audio=on\n[cm4]\notg_mode=1\n[pi4]\ncore_freq_min=250\n"
+CMDLINE = "console=serial0,115200 console=tty1 root=PARTUUID=4e639091-02 rootfstype=ext4 rootwait isolcpus=2 quiet\n"
+
+
+@pytest.fixture
+def image(tmp_path):
+    """The files of an image of Raspberry Pi OS that the script changes."""
+    (tmp_path / "boot/firmware").mkdir(parents=True)
+    (tmp_path / "boot/firmware/config.txt").write_text(CONFIG)
+    (tmp_path / "boot/firmware/cmdline.txt").write_text(CMDLINE)
+    return tmp_path
+
+
+def set_up(root):
+    command = ["sh", data_folder("boards") / "raspberry_pi.sh", root]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def contents(root):
+    return {path.relative_to(root): path.read_text() for path in root.rglob("*") if path.is_file()}
+
+
+def test_the_script_sets_what_doctor_asks_for_and_keeps_what_was_there(image):
+    done = set_up(image)
+    assert (done.returncode, done.stderr) == (0, "")
+    after = {str(path): text for path, text in contents(image).items()}
+    assert sorted(after) == ["boot/firmware/cmdline.txt", "boot/firmware/config.txt", "etc/sysctl.d/60-haptic-panel.conf"]
+    assert after["boot/firmware/config.txt"].startswith(CONFIG)
+    (line,) = after["boot/firmware/cmdline.txt"].splitlines()
+    kept = [word for word in CMDLINE.split() if word != "isolcpus=2"]
+    assert line.split()[: len(kept)] == kept
+    words = dict(word.split("=", 1) for word in line.split()[len(kept) :])
+    machine = AS_THE_PAGE_SAYS | {  # what firmware and kernel make of it
+        "boot/firmware/config.txt": after["boot/firmware/config.txt"],
+        "sys/module/spi_bcm2835/parameters/polling_limit_us": words["spi_bcm2835.polling_limit_us"],
+        "sys/devices/system/cpu/cpu3/cpufreq/scaling_governor": words["cpufreq.default_governor"],
+        "sys/devices/system/cpu/isolated": words["isolcpus"],
+        "proc/irq/default_smp_affinity": f"{sum(1 << core for core in _numbers(words['irqaffinity'])):x}",
+        "proc/sys/kernel/sched_rt_runtime_us": re.search(
+            r"sched_rt_runtime_us = (\S+)", after["etc/sysctl.d/60-haptic-panel.conf"]
+        )[1],
+    }
+    for path, text in machine.items():
+        (image / path).parent.mkdir(parents=True, exist_ok=True)
+        (image / path).write_text(text)
+    findings = look_at_pi(msgspec.structs.replace(PI_4, realtime=OWN_CORE), image)
+    assert {verdict(finding) for finding in findings} == {"ok"}
+    assert int(words["spidev.bufsiz"]) >= 2 * UPLOAD_BYTES
+
+
+def test_a_second_call_changes_nothing(image):
+    set_up(image)
+    before = contents(image)
+    assert set_up(image).returncode == 0
+    assert contents(image) == before
+
+
+def test_a_tree_that_is_no_raspberry_pi_os_stays_as_it_was(image):
+    (image / "boot/firmware/cmdline.txt").unlink()
+    before = contents(image)
+    done = set_up(image)
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"raspberry_pi.sh: there is no {image}/boot/firmware/cmdline.txt: ")
+    assert done.stderr.count("\n") == 1
+    assert contents(image) == before
+
+
+def test_the_page_names_every_setting_of_the_script():
+    page = (data_folder("boards") / "raspberry_pi.md").read_text()
+    script = (data_folder("boards") / "raspberry_pi.sh").read_text()
+    (settings,) = re.findall(r"^settings='(.*)'$", script, re.MULTILINE)
+    for setting in [*settings.split(), "dtparam=spi=on", "core_freq_min=500", "kernel.sched_rt_runtime_us = -1"]:
+        assert setting in script
+        assert setting in page

@@ -87,7 +87,7 @@ def test_lines_are_found_by_name(probe):
 
 
 def test_frames_are_polled_with_the_limit_that_the_page_names(probe):
-    polled = dict(re.findall(r"^message limit (\d+) bytes 512 .*polling (\d+)", probe.log, re.MULTILINE))
+    polled = dict(re.findall(r"^message limit (\d+) bytes 512 .*; polling (\d+)", probe.log, re.MULTILINE))
     assert polled == {"30": "20", "250": "100"}, "at 30 only those of 36 bytes"
 
 
