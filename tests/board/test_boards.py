@@ -201,3 +201,19 @@ def test_a_bitstream_comes_out_in_time(name, tmp_path):
     assert all(clock["achieved"] >= clock["constraint"] for clock in report["fmax"].values())
     assert max(clock["constraint"] for clock in report["fmax"].values()) >= load_board(find_board(name)).link.clock_hz / 1e6 - 0.01
     assert (tmp_path / ("top.bin" if name == "ice40_hx8k" else "top.bit")).stat().st_size > 10_000
+
+
+def test_the_picture_of_the_wires_shows_those_of_the_table():
+    """By their colours: each label of the Pi's side has that of one label of the FPGA's."""
+    text = (BOARDS / "ulx3s" / "raspberry_pi.svg").read_text()
+    labels = re.findall(r'fill="(#\w+)">(?:(\d+)  GPIO(\d+)|(G[PN]\d+))  ', text)
+    ends = {colour: place for colour, _, _, place in labels if place}
+    drawn = {(gpio, int(pin), ends[colour]) for colour, pin, gpio, place in labels if not place}
+    (rows,) = re.findall(r"^\| Pi \|.*\n\|[-|]+\n((?:\|.*\n)+)", (BOARDS / "ulx3s" / "README.md").read_text(), re.MULTILINE)
+    told = set()
+    for row in rows.splitlines():
+        pi, pins, place = row.strip("|").split("|")
+        gpios, places = re.findall(r"\d+", pi.split("(")[0]), re.findall(r"G[PN]\d+", place)
+        told |= set(zip(gpios, map(int, re.findall(r"\d+", pins)), places, strict=False))
+    assert drawn == told
+    assert len(drawn) == 7
