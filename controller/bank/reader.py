@@ -7,6 +7,7 @@ import mmap
 import os
 import weakref
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -164,6 +165,31 @@ class Bank:
             self._drive_good[entry] = 1
         return view, self._crc_of[entry][0]
 
+    def check_frames(self, cells: Iterable[int]) -> None:
+        """Check the frames of cells that have an entry, so that their first use need not.
+
+        They are read, not mapped: then they are in the page cache, but no memory of this process, which may be locked.
+
+        Raises
+        ------
+        BankError
+            If one is damaged, or cannot be read.
+        """
+        self._require_open()
+        row = memoryview(bytearray(self._drive_bytes))
+        offset = self.sections["drive"].offset
+        for cell in cells:
+            entry = self._entry_of[cell]
+            self.counters.drive_checked += 1
+            try:
+                whole = os.preadv(self._fd, [row], offset + entry * self._drive_stride) == len(row)
+            except OSError as error:
+                raise BankError(f"{self.path}: cannot be read ({error.strerror}); rebuild it: {self.rebuild}") from error
+            if not whole:
+                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, row, entry, cell)
+            self._drive_good[entry] = 1
+
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
@@ -299,9 +325,12 @@ class Bank:
         self.counters.bad += 1
         return BankError(f"{self.path}: {section} of entry {entry} (cell {cell}) is damaged; rebuild it: {self.rebuild}")
 
-    def _map(self, name: str) -> memoryview:
+    def _require_open(self) -> None:
         if not self.close.alive:
             raise ValueError("the bank is closed")
+
+    def _map(self, name: str) -> memoryview:
+        self._require_open()
         section = self.sections[name]
         self.counters.mapped_bytes[name] = section.size
         return map_bytes(self._fd, section.offset, section.size)
