@@ -7,6 +7,7 @@ import mmap
 import os
 import weakref
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -59,7 +60,7 @@ class Bank:
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
-        self._response_good = bytearray(header.entries)
+        self._response_good = memoryview(mmap.mmap(-1, max(header.entries, 1)))  # shared with forked processes (`verify_response`)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
         self._checked_words = bytearray(4 * header.samples)  # room for a check
@@ -164,6 +165,31 @@ class Bank:
             self._drive_good[entry] = 1
         return view, self._crc_of[entry][0]
 
+    def check_frames(self, cells: Iterable[int]) -> None:
+        """Check the frames of cells that have an entry, so that their first use need not.
+
+        They are read, not mapped: then they are in the page cache, but no memory of this process, which may be locked.
+
+        Raises
+        ------
+        BankError
+            If one is damaged, or cannot be read.
+        """
+        self._require_open()
+        row = memoryview(bytearray(self._drive_bytes))
+        offset = self.sections["drive"].offset
+        for cell in cells:
+            entry = self._entry_of[cell]
+            self.counters.drive_checked += 1
+            try:
+                whole = os.preadv(self._fd, [row], offset + entry * self._drive_stride) == len(row)
+            except OSError as error:
+                raise BankError(f"{self.path}: cannot be read ({error.strerror}); rebuild it: {self.rebuild}") from error
+            if not whole:
+                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, row, entry, cell)
+            self._drive_good[entry] = 1
+
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
@@ -227,15 +253,17 @@ class Bank:
         """
         entry = self._checked_response(cell)
         start = entry * self._response_stride
-        levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
+        levels: NDArray[np.int8] = np.frombuffer(self.responses, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
     @property
     def responses(self) -> memoryview:
-        """The response section, in which entry n begins at n strides; empty until the first response was checked."""
+        """The response section, in which entry n begins at n strides; mapped when it is first asked for."""
+        if not self._response:
+            self._response = self._map("response")
         return self._response
 
-    def response_tables(self) -> tuple[list[int], list[float], bytearray]:
+    def response_tables(self) -> tuple[list[int], list[float], memoryview]:
         """What is needed to find responses in their section.
 
         Returns
@@ -244,8 +272,8 @@ class Bank:
             Entry of each cell, -1 for none.
         scales : list of float
             m per V of one level of each entry's response.
-        good : bytearray
-            For each entry whether its response was found good: the bank's own, which changes with `check_response`.
+        good : memoryview
+            For each entry, one byte: whether its response was found good. The bank's own, which changes with `check_response`.
         """
         return self._entry_of, self._scale_of, self._response_good
 
@@ -259,18 +287,32 @@ class Bank:
         """
         self._checked_response(cell)
 
+    def verify_response(self, cell: int) -> None:
+        """Read and check the response of a cell that has an entry, without mapping it.
+
+        A process forked from one that has the bank open does this beside it: what it finds good, the other one uses unchecked.
+
+        Raises
+        ------
+        BankError
+            If it is damaged.
+        """
+        entry = self._entry_of[cell]
+        offset = self.sections["response"].offset + entry * self._response_stride
+        if zlib.crc32(self.read(offset, self._response_bytes)) != self._crc_of[entry][1]:
+            raise self._bad("response", entry, cell)
+        self._response_good[entry] = 1
+
     def _checked_response(self, cell: int) -> int:
         """Entry of a cell whose response is mapped and good."""
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
         if not self._response_good[entry]:
-            if not self._response:
-                self._response = self._map("response")
             self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
-            if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
+            if zlib.crc32(self.responses[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry
@@ -299,9 +341,12 @@ class Bank:
         self.counters.bad += 1
         return BankError(f"{self.path}: {section} of entry {entry} (cell {cell}) is damaged; rebuild it: {self.rebuild}")
 
-    def _map(self, name: str) -> memoryview:
+    def _require_open(self) -> None:
         if not self.close.alive:
             raise ValueError("the bank is closed")
+
+    def _map(self, name: str) -> memoryview:
+        self._require_open()
         section = self.sections[name]
         self.counters.mapped_bytes[name] = section.size
         return map_bytes(self._fd, section.offset, section.size)

@@ -5,7 +5,6 @@ import zlib
 import numpy as np
 import pytest
 
-from controller import kernel
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.waveforms.composition import Composer
@@ -23,17 +22,6 @@ def bank(tmp_path_factory, make_bank):
 
 def test_frames_of_a_cell(benchmark, bank):
     benchmark(bank.frames, 20)
-
-
-def test_frames_of_a_cell_numbered_anew(benchmark, bank):
-    """What the send buffer gets of a lone cell: its LOADs."""
-    ready, _ = bank.frames(20)
-    benchmark(kernel.renumber_loads, memoryview(bytearray(4096)), 77, ready)
-
-
-def test_frames_of_words(benchmark, bank):
-    """The same of words that were composed, with their CRC-32."""
-    benchmark(kernel.pack_loads, memoryview(bytearray(4096)), 77, bank.words(20))
 
 
 def places(count):
