@@ -123,23 +123,24 @@ def wandering(seed, duration_s, fingers):
 
 
 @pytest.mark.parametrize("name", ["scene.toml", "library.toml"])
-def test_in_each_scene_alone_at_most_a_fifth_of_what_is_sent_ahead_is_never_played(perform, board, name):
-    """Of fingers that turn where nobody can know it: a waveform is sent ahead only of one that goes on as it was expected to."""
+def test_of_two_fingers_that_turn_at_random_a_quarter_of_what_is_sent_ahead_is_never_played(perform, board, name):
+    """Where they turn nobody can know: a waveform is sent ahead only of one that has gone as expected, and is played alone."""
     text = (board.folder / name).read_text()
     runs = [perform(wandering(seed, 8.0, 2), text).counters for seed in range(3)]
     sent, wasted = (sum(getattr(counters, what) for counters in runs) for what in ("prefetched", "prefetch_wasted"))
     assert sent >= 25, "it is of use"
-    assert 0 < wasted <= 0.2 * sent
+    assert 0 < wasted <= 0.25 * sent
 
 
 def test_at_most_a_fifth_of_prefetched_waveforms_is_never_played(perform, board, bank_file):
-    """Over the recordings of real panels on the board's own scene, and over strokes to and fro on textures."""
-    scene = load_scene(board.folder / "scene.toml", board)
+    """Over the recordings of real panels on each scene of the board alone, and over strokes to and fro on textures."""
+    scene, library = (load_scene(board.folder / name, board) for name in ("scene.toml", "library.toml"))
     recordings = sorted((Path(__file__).parent.parent / "touch" / "recordings").glob("*.ev*"))
     with Bank.open(bank_file, board) as bank:
         real = [play(board, scene, bank, Recording.open(file), real_time=False).counters for file in recordings]
+        alone = [play(board, library, bank, Recording.open(file), real_time=False).counters for file in recordings]
     strokes = [perform(rubbing(9, 3.0), TEXTURE.replace("5.0", spacing)).counters for spacing in ("1.0", "2.0", "5.0")]
-    for runs, least in ((real, 30), (strokes, 200)):
+    for runs, least in ((real, 30), (alone, 10), (strokes, 200)):
         sent, wasted = (sum(getattr(counters, name) for counters in runs) for name in ("prefetched", "prefetch_wasted"))
         assert sent >= least, "it is of use"
         assert 0 < wasted <= 0.2 * sent
