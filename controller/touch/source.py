@@ -59,6 +59,19 @@ class Counts:
     max_fingers: int = 0
 
 
+@dataclass(slots=True)
+class Silence:
+    """What the loop tells the source of a panel before each read.
+
+    Attributes
+    ----------
+    known : bool
+        The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked.
+    """
+
+    known: bool = False
+
+
 class TouchSource(Protocol):
     """A touch panel, or a recording of one."""
 
