@@ -33,10 +33,11 @@ class LatencyHistogram:
 
     def record(self, duration_ns: int) -> None:
         """Count one duration; a negative one (the clock was stepped) counts as 0."""
-        duration_ns = max(duration_ns, 0)
+        duration_ns = 0 if duration_ns < 0 else duration_ns
         self.count += 1
-        self.worst_ns = max(self.worst_ns, duration_ns)
-        octave = max(duration_ns.bit_length() - SUB_BITS - 1, 0)
+        self.worst_ns = duration_ns if duration_ns > self.worst_ns else self.worst_ns
+        octave = duration_ns.bit_length() - SUB_BITS - 1
+        octave = 0 if octave < 0 else octave
         self._buckets[(octave << SUB_BITS) + (duration_ns >> octave)] += 1
 
     def percentiles_ns(self, fractions: Sequence[float]) -> list[float]:

@@ -70,33 +70,6 @@ class Grid:
         iy = 0 if iy < 0 else iy if iy < self.ny else self.ny - 1
         return iy * nx + ix, math.hypot(x_m - ix * pitch_m, y_m - iy * pitch_m)
 
-    def patch(self, x_m: float, y_m: float) -> tuple[int, int, int, float, float]:
-        """Cells around the point (x_m, y_m) that have a weight, and where the point lies between them.
-
-        Returns
-        -------
-        cell : int
-            The one of smallest x and y; the others are `cell + 1`, `cell + nx`, `cell + nx + 1`.
-        columns, rows : int
-            1 or 2; 1 if the point lies on a column or row of cells, or beyond the outermost.
-        right, up : float
-            Place between the columns and the rows, in pitches; 0 if there is only one.
-        """
-        ix, right = self._along(x_m - self.x0_m, self.nx - 1)
-        iy, up = self._along(y_m - self.y0_m, self.ny - 1)
-        return iy * self.nx + ix, 2 if right else 1, 2 if up else 1, right, up
-
-    def _along(self, distance_m: float, last: int) -> tuple[int, float]:
-        """Index of a row and the distance beyond it, in pitches; 0 outside the grid.
-
-        The distance is rounded to a millionth of a pitch, so that a point on a cell needs no neighbours.
-        """
-        millionths = round(distance_m / self.pitch_m * 1e6)
-        if millionths <= 0:
-            return 0, 0.0
-        index, beyond = divmod(millionths, 1_000_000)
-        return (last, 0.0) if index >= last else (index, beyond * 1e-6)
-
     def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
         """Four cells around the point (x_m, y_m) and their bilinear weights, which sum to one.
 

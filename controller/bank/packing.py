@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from controller.board.panel import CHANNELS
 
-__all__ = ["CHANNELS", "WORD", "WordPacker", "channel_bits", "drive_words", "edges", "quantise"]
+__all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "edges", "quantise"]
 
 WORD = np.dtype("<u4")
 
@@ -54,35 +54,6 @@ def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDA
 
 def _pack(bits: NDArray[np.bool_]) -> NDArray[np.uint32]:
     return np.packbits(bits, axis=1, bitorder="little").view(WORD)[:, 0]
-
-
-class WordPacker:
-    """Packs bits into drive words without allocating, where `numpy.packbits` would return a new array.
-
-    Eight bits lie in the bytes of a uint64; one multiplication moves all of them to its highest byte:
-    bit k from 8 k to 56 + k, by the term 56 - 7 k of the factor, and no two terms of the product meet.
-
-    Attributes
-    ----------
-    bits : (samples * 32,) bool array
-        To be filled, channels of a sample together.
-    words : (samples,) uint32 array
-        Filled by `pack`.
-    """
-
-    def __init__(self, samples: int) -> None:
-        self.bits = np.zeros(samples * CHANNELS, np.bool_)
-        self.words = np.zeros(samples, WORD)
-        self._eights = self.bits.view("<u8")
-        self._factor = np.array(0x0102_0408_1020_4080, "<u8")
-        self._product = np.empty(samples * CHANNELS // 8, "<u8")
-        self._highest = self._product.view(np.uint8)[7::8]
-        self._bytes = self.words.view(np.uint8)
-
-    def pack(self) -> None:
-        """Fill `words` from `bits`."""
-        np.multiply(self._eights, self._factor, out=self._product)
-        np.copyto(self._bytes, self._highest)
 
 
 def _check(drive_order: NDArray[np.number[Any]]) -> None:

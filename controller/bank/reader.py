@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import mmap
 import os
 import weakref
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -41,11 +41,6 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
-
-    Attributes
-    ----------
-    scale_of_cell : list of float
-        m per V of one level of each cell's response; NaN where the bank has no entry.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -62,7 +57,6 @@ class Bank:
         self._fd = fd
         self.close = weakref.finalize(self, os.close, fd)
         self._entry_of, self._crc_of, self._scale_of = tables
-        self.scale_of_cell = [self._scale_of[entry] if entry >= 0 else math.nan for entry in self._entry_of]
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
@@ -171,6 +165,31 @@ class Bank:
             self._drive_good[entry] = 1
         return view, self._crc_of[entry][0]
 
+    def check_frames(self, cells: Iterable[int]) -> None:
+        """Check the frames of cells that have an entry, so that their first use need not.
+
+        They are read, not mapped: then they are in the page cache, but no memory of this process, which may be locked.
+
+        Raises
+        ------
+        BankError
+            If one is damaged, or cannot be read.
+        """
+        self._require_open()
+        row = memoryview(bytearray(self._drive_bytes))
+        offset = self.sections["drive"].offset
+        for cell in cells:
+            entry = self._entry_of[cell]
+            self.counters.drive_checked += 1
+            try:
+                whole = os.preadv(self._fd, [row], offset + entry * self._drive_stride) == len(row)
+            except OSError as error:
+                raise BankError(f"{self.path}: cannot be read ({error.strerror}); rebuild it: {self.rebuild}") from error
+            if not whole:
+                raise self._bad("drive", entry, cell)
+            self._unpack(self._checked_words, row, entry, cell)
+            self._drive_good[entry] = 1
+
     def words(self, cell: int) -> memoryview:
         """Drive words of a cell, 4 bytes a sample: a copy, taken out of its frames.
 
@@ -237,38 +256,34 @@ class Bank:
         levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
-    def response_patch(self, cell: int, columns: int, rows: int) -> NDArray[np.int8]:
-        """Responses of up to four neighbouring cells as one array, for one pass over all of them.
+    @property
+    def responses(self) -> memoryview:
+        """The response section, in which entry n begins at n strides; empty until the first response was checked."""
+        return self._response
 
-        Parameters
-        ----------
-        cell : int
-            The one with the lowest x and y.
-        columns, rows : int
-            1 or 2 each.
+    def response_tables(self) -> tuple[list[int], list[float], bytearray]:
+        """What is needed to find responses in their section.
 
         Returns
         -------
-        (rows, columns, (samples + rest_rows) * 32) int8 array
-            In drive order, then the rest outside the band; a read-only view of the file.
+        entries : list of int
+            Entry of each cell, -1 for none.
+        scales : list of float
+            m per V of one level of each entry's response.
+        good : bytearray
+            For each entry whether its response was found good: the bank's own, which changes with `check_response`.
+        """
+        return self._entry_of, self._scale_of, self._response_good
+
+    def check_response(self, cell: int) -> None:
+        """Map the responses and check a cell's, if that was not done.
 
         Raises
         ------
         BankError
-            If a cell has no entry, or a damaged one.
+            If the cell has no entry, or a damaged one.
         """
-        checked, stride = self._checked_response, self._response_stride
-        first = checked(cell)
-        if columns == 2:
-            checked(cell + 1)  # entries are numbered as cells are: the next one in the file
-        up = 0
-        if rows == 2:
-            above = cell + self.grid.nx
-            up = checked(above) - first
-            if columns == 2:
-                checked(above + 1)
-        shape = (rows, columns, self._response_bytes)
-        return np.ndarray(shape, np.int8, self._response, first * stride, (up * stride, stride, 1))
+        self._checked_response(cell)
 
     def _checked_response(self, cell: int) -> int:
         """Entry of a cell whose response is mapped and good."""
@@ -310,9 +325,12 @@ class Bank:
         self.counters.bad += 1
         return BankError(f"{self.path}: {section} of entry {entry} (cell {cell}) is damaged; rebuild it: {self.rebuild}")
 
-    def _map(self, name: str) -> memoryview:
+    def _require_open(self) -> None:
         if not self.close.alive:
             raise ValueError("the bank is closed")
+
+    def _map(self, name: str) -> memoryview:
+        self._require_open()
         section = self.sections[name]
         self.counters.mapped_bytes[name] = section.size
         return map_bytes(self._fd, section.offset, section.size)

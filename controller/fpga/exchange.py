@@ -6,7 +6,7 @@ The result of a frame is in the answer to the next one, so each message ends wit
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import accumulate
+from typing import TypeVar
 
 from controller.errors import FaultError, LinkError
 from controller.fpga import frames
@@ -14,12 +14,13 @@ from controller.fpga.diagnosis import diagnose
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES
 from controller.fpga.link import Link
 from controller.fpga.registers import READ_SLOT_CRC, Control, Fault, Register, Result
-from controller.fpga.status import DamagedStatus, Status, all_ok, parse_status, status_ok
+from controller.fpga.status import DONE, DamagedStatus, Status, parse_status
+from controller.kernel import statuses_good
 
 ATTEMPTS = 3
+ALL_BUT_LAST = (False, *[True] * (ATTEMPTS - 2))  # whether each is a repetition
 COMMANDS = 8  # short frames that the buffers hold after an upload
-PATTERNS_MAX = 32  # patterns of frame lengths that are remembered; the loop has fewer
-Answers = tuple[tuple[memoryview, int], ...]
+T = TypeVar("T")
 DAMAGED = frozenset({Result.BAD_SYNC, Result.BAD_LENGTH, Result.BAD_CRC, Result.INCOMPLETE})
 
 
@@ -80,9 +81,8 @@ class Exchange:
         self._link = link
         self._now_s = now_s
         self._heartbeat_interval_s = heartbeat_interval_s
-        self._answers: dict[tuple[int, ...], Answers] = {}
 
-    def send(self, lengths: Sequence[int], *, raise_faults: bool = True, implied: int = 0) -> Status:
+    def send(self, lengths: Sequence[int], *, raise_faults: bool = True) -> Status:
         """Send the frames packed in `sent` and check every answer.
 
         Parameters
@@ -91,9 +91,6 @@ class Exchange:
             Bytes of each frame.
         raise_faults : bool
             Whether a latched fault is an error.
-        implied : int
-            This many frames at the beginning are not checked if all answers after them are good: LOADs before their STORE,
-            which succeeds only if everything it stores arrived intact.
 
         Returns
         -------
@@ -111,32 +108,28 @@ class Exchange:
         LinkError
             If a frame or an answer was damaged or lost.
         """
-        sequence = self.sequence
-        self.sequence = (sequence + len(lengths)) & 0xFF
-        self._link.exchange(self.sent, lengths, self.received)
-        self.heartbeat_due_s = self._now_s() + self._heartbeat_interval_s
-        answers = self._answers_to(tuple(lengths))
-        start = 0
-        try:
-            if not implied or not all_ok(answers, sequence, implied):  # find the first bad answer, which has the reason
-                for answer, start in answers:
-                    if not status_ok(answer, sequence & 0xFF):
-                        self._explain(parse_status(self.received, start), raise_faults)
-                    sequence += 1
-            start = answers[-1][1] if answers else 0
-            status = parse_status(self.received, start)
-        except DamagedStatus as error:
-            why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
-            raise DamagedStatus(why) from error
-        if status.faults:
-            self._explain(status, raise_faults)
-        return status
+        return self._check(lengths, self._exchange(lengths), raise_faults)
+
+    def deliver(self, lengths: Sequence[int], loads: int = 0) -> None:
+        """Send the frames packed in `sent` of which nobody needs a status; raises as `send`.
+
+        Parameters
+        ----------
+        lengths : sequence of int
+            Bytes of each frame.
+        loads : int
+            This many frames at the beginning are LOADs before their STORE, which succeeds only if everything that it stores
+            arrived intact: their answers are not checked if all after them are good. All frames after them are short.
+        """
+        sequence = self._exchange(lengths)
+        if not statuses_good(self.received, sum(lengths[: loads + 1]), len(lengths) - loads - 1, DONE, sequence + loads):
+            self._check(lengths, sequence, True)  # raises: it finds the first bad answer, which has the reason
 
     def send_short(self, end: int, *, raise_faults: bool = True) -> Status:
         """Send the short frames packed in `sent` from 0 to `end`; `raise_faults`, result and errors as in `send`."""
         return self.send([FRAME_BYTES] * (end // FRAME_BYTES), raise_faults=raise_faults)
 
-    def retry(self, send: Callable[[bool], Status]) -> Status:
+    def retry(self, send: Callable[[bool], T]) -> T:
         """Send a message up to three times, until no frame and no answer of it is damaged; after the last failure, STOP.
 
         Parameters
@@ -146,8 +139,7 @@ class Exchange:
 
         Returns
         -------
-        Status
-            What `send` returned.
+        What `send` returned.
 
         Raises
         ------
@@ -156,7 +148,7 @@ class Exchange:
         LinkError
             After the last attempt.
         """
-        for again in (False, *[True] * (ATTEMPTS - 2)):
+        for again in ALL_BUT_LAST:
             try:
                 return send(again)
             except LinkError as error:
@@ -204,9 +196,7 @@ class Exchange:
 
     def send_unchecked(self, lengths: list[int]) -> int:
         """Send frames of these lengths in bytes and accept any result; returns how many answers were damaged."""
-        self.sequence = (self.sequence + len(lengths)) & 0xFF
-        self._link.exchange(self.sent, lengths, self.received)
-        self.heartbeat_due_s = self._now_s() + self._heartbeat_interval_s
+        self._exchange(lengths)
         damaged = start = 0
         for length in lengths:
             try:
@@ -216,15 +206,31 @@ class Exchange:
             start += length
         return damaged
 
-    def _answers_to(self, lengths: tuple[int, ...]) -> Answers:
-        """Views of the answers to frames of these lengths, with their offsets; not the first, which concerns the message before."""
-        known = self._answers.get(lengths)
-        if known is None:
-            if len(self._answers) >= PATTERNS_MAX:
-                self._answers.clear()
-            known = tuple((self.received[start : start + FRAME_BYTES], start) for start in accumulate(lengths[:-1]))
-            self._answers[lengths] = known
-        return known
+    def _exchange(self, lengths: Sequence[int]) -> int:
+        """Send the frames packed in `sent` and receive the answers; the sequence number of the first frame."""
+        sequence = self.sequence
+        self.sequence = (sequence + len(lengths)) & 0xFF
+        self._link.exchange(self.sent, lengths, self.received)
+        self.heartbeat_due_s = self._now_s() + self._heartbeat_interval_s
+        return sequence
+
+    def _check(self, lengths: Sequence[int], sequence: int, raise_faults: bool) -> Status:
+        """Check each answer but the first, which concerns the message before; the last one."""
+        start = 0
+        try:
+            status = parse_status(self.received) if len(lengths) == 1 else None
+            for number, length in enumerate(lengths[:-1]):
+                start += length
+                status = parse_status(self.received, start)
+                if status.result is not Result.OK or status.faults or status.sequence != sequence + number & 0xFF:
+                    self._explain(status, raise_faults)
+        except DamagedStatus as error:
+            why = diagnose(bytes(self.received[start : start + FRAME_BYTES]), bytes(self.sent[start : start + FRAME_BYTES]))
+            raise DamagedStatus(why) from error
+        assert status is not None  # there is at least one frame
+        if status.faults:
+            self._explain(status, raise_faults)
+        return status
 
     def _explain(self, status: Status, raise_faults: bool) -> None:
         """Raise the error that an answer reports, if any."""

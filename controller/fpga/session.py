@@ -74,7 +74,7 @@ class Session(Supervision):
             If every attempt was damaged; nothing is left to play then.
         """
 
-        def send(again: bool) -> Status:
+        def send(again: bool) -> None:
             lengths = self._messages.play(
                 self.exchange.sequence,
                 slot,
@@ -85,7 +85,7 @@ class Session(Supervision):
                 mask=mask,
                 stop=stop or again,
             )
-            return self.exchange.send(lengths)
+            self.exchange.deliver(lengths)
 
         try:
             self.exchange.retry(send)
@@ -110,9 +110,9 @@ class Session(Supervision):
             If every attempt was damaged.
         """
 
-        def send(_: bool) -> Status:
+        def send(_: bool) -> None:
             lengths = self._messages.upload(self.exchange.sequence, slot, waveform)
-            return self.exchange.send(lengths, implied=self._messages.loads)
+            self.exchange.deliver(lengths, self._messages.loads)
 
         self.exchange.retry(send)
 
@@ -149,7 +149,7 @@ class Session(Supervision):
             If every attempt was damaged; nothing is left to play then.
         """
 
-        def send(again: bool) -> Status:
+        def send(again: bool) -> None:
             lengths = self._messages.upload_and_play(
                 self.exchange.sequence,
                 slot,
@@ -160,7 +160,7 @@ class Session(Supervision):
                 when_ticks=when_ticks,
                 stop=stop or again,
             )
-            return self.exchange.send(lengths, implied=self._messages.loads)
+            self.exchange.deliver(lengths, self._messages.loads)
 
         try:
             self.exchange.retry(send)

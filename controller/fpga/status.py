@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from controller.errors import LinkError
@@ -16,6 +15,7 @@ from controller.fpga.frames import CRC, FRAME_BYTES, ReadableBuffer, WritableBuf
 from controller.fpga.registers import STATUS_SYNC, Fault, Result, State
 
 STATUS: Final = struct.Struct("<HBBHHIIQIBBHI")
+DONE: Final = STATUS_SYNC | Result.OK << 16  # how the status about a frame that was done begins
 
 
 class DamagedStatus(LinkError):
@@ -72,38 +72,6 @@ def parse_status(buffer: ReadableBuffer, offset: int = 0) -> Status:
     return Status(code, sequence, _STATES[state], Fault(faults) if faults else _NO_FAULT, *counters)
 
 
-def all_ok(answers: Sequence[tuple[ReadableBuffer, int]], sequence: int, first: int) -> bool:
-    """Whether answers `first` and later are good: `status_ok` of each.
-
-    Parameters
-    ----------
-    answers : sequence of (bytes-like, int)
-        The answers of a message; the second of each is not looked at.
-    sequence : int
-        Of the message's first frame.
-    first : int
-        Answers before it are not looked at.
-    """
-    for index in range(first, len(answers)):  # noqa: SIM110 — a generator would cost as much as the answers
-        if not status_ok(answers[index][0], (sequence + index) & 0xFF):
-            return False
-    return True
-
-
-def status_ok(answer: ReadableBuffer, sequence: int) -> bool:
-    """Whether an answer is a valid status that reports this frame as done and no fault; the fast form of `parse_status`.
-
-    Parameters
-    ----------
-    answer : bytes-like
-        36 bytes. The CRC-32 over a message and its own CRC is the same for every valid message.
-    sequence : int
-        Of the frame that the status is about, 0 to 255.
-    """
-    head, faults = _ANSWER.unpack_from(answer)
-    return head == _DONE | sequence << 24 and not faults and zlib.crc32(answer) == _VALID
-
-
 def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
     """Fields between sync word and CRC of a status, after both were compared."""
     sync, *fields, crc = STATUS.unpack_from(buffer, offset)
@@ -118,6 +86,3 @@ def _checked(buffer: ReadableBuffer, offset: int) -> tuple[int, ...]:
 _RESULTS = {int(result): result for result in Result}
 _STATES: dict[int, State] = {}  # seen so far: making a flag takes longer than all the rest of a status
 _NO_FAULT = Fault(0)
-_ANSWER = struct.Struct("<I2xH")  # sync, result and sequence as one number; faults
-_DONE = STATUS_SYNC | Result.OK << 16
-_VALID = 0x2144DF1C

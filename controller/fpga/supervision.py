@@ -117,7 +117,8 @@ class Supervision:
 
     def earliest_trigger_s(self) -> float:
         """Earliest time at which a trigger requested now would rise, on the loop's clock."""
-        return max(self._now_s(), self.link.wire_free_s())
+        now_s, free_s = self._now_s(), self.link.wire_free_s()
+        return now_s if now_s > free_s else free_s
 
     def arm(self) -> float:
         """Arm the outputs: the high voltage settles, then all channels ramp to their idle levels.

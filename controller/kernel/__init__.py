@@ -1,6 +1,6 @@
-"""Inner loops of the device on buffers that the caller owns: waveforms to frames.
+"""Inner loops of the device on buffers that the caller owns: points to drive words, waveforms to frames.
 
-They are compiled where the package was built with a C compiler, else `twin` serves, with the same integers.
+They are compiled where the package was built with a C compiler, else `twin` and `words_twin` serve, with the same integers.
 `HAPTIC_PANEL_KERNEL=numpy` or `=compiled` in the environment chooses one; a compiled one that is missing is then an error.
 """
 
@@ -18,16 +18,36 @@ from controller.kernel.twin import (
     pack_loads,
     renumber_loads,
     seal_short_frames,
+    statuses_good,
     unpack_loads,
+)
+from controller.kernel.words_twin import (
+    MAX_BLOCK_SAMPLES,
+    MAX_FOCI,
+    MAX_SAMPLES,
+    PLAN,
+    REST_SAMPLES,
+    Point,
+    compose,
+    room_bytes,
 )
 
 __all__ = [
     "COMPILED",
+    "MAX_BLOCK_SAMPLES",
+    "MAX_FOCI",
+    "MAX_SAMPLES",
+    "PLAN",
+    "REST_SAMPLES",
     "SHORT_FRAME_BYTES",
+    "Point",
+    "compose",
     "load_frames_bytes",
     "pack_loads",
     "renumber_loads",
+    "room_bytes",
     "seal_short_frames",
+    "statuses_good",
     "unpack_loads",
 ]
 
@@ -56,4 +76,4 @@ def _has_compiled(wanted: str) -> bool:
 COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
 
 if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
-    from controller.kernel._kernel import seal_short_frames
+    from controller.kernel._kernel import compose, pack_loads, renumber_loads, seal_short_frames, statuses_good, unpack_loads

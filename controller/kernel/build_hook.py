@@ -30,7 +30,7 @@ from packaging.tags import platform_tags, sys_tags
 SOURCE = "controller/kernel/kernel.c"
 EXTENSION = "controller/kernel/_kernel.abi3.so"
 OPTIONS = (
-    *("-std=gnu11", "-O3", "-ffp-contract=off", "-Wall", "-Wextra"),
+    *("-std=gnu11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Wextra"),
     *("-shared", "-fPIC", "-fvisibility=hidden", "-DPy_LIMITED_API=0x030B0000", "-Wl,--strip-all,--no-as-needed"),
 )
 

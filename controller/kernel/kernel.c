@@ -1,41 +1,832 @@
-/* The compiled kernel; its specification is twin.py. Buffers are the caller's; nothing is allocated, no Python object is touched in loops. */
+/* The compiled kernel: points to drive words, drive words to LOAD frames.
+
+   Its specification is words_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
+   weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
+   functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed stride and
+   vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
+#include <string.h>
 
-enum { SHORT_FRAME_BYTES = 36, NUMBER_AT = 3, CRC_BYTES = 4 };
+#if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "words and levels are read as they lie in the bank: little-endian"
+#endif
+#if FLT_EVAL_METHOD != 0
+#error "doubles have to be rounded after every operation"
+#endif
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif /* GCC has it from its command line: -ffp-contract=off */
 
-static uint32_t crc_of_byte[256];
+#define INLINE static inline __attribute__((always_inline))
+#define APART static __attribute__((noinline)) /* so that loops are made into vectors one by one */
 
-static void fill_tables(void) {
-    for (uint32_t byte = 0; byte < 256; byte++) {
-        uint32_t crc = byte;
-        for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (0xEDB88320u & -(crc & 1));
-        crc_of_byte[byte] = crc;
+/* ---- words: numbers of words_twin.py ---- */
+
+enum {
+    CHANNELS = 32,
+    REST_SAMPLES = 8,
+    MAX_FOCI = 10,
+    MAX_SAMPLES = 2000,
+    MAX_BLOCK_SAMPLES = 256,
+    WEIGHT_SUM = 256,
+    POINT_WEIGHT_SUM = 32767,
+    STRENGTH_SHIFT = 8,
+    THRESHOLD_BITS = 24,
+    MAX_ROUNDS = 5,
+    ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
+    LINE_BYTES = 64,
+};
+static const double TOLERANCE = 0.01;
+static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
+static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
+
+struct plan {
+    int64_t samples, stride, nx, ny, entries, idle_word, block_samples;
+    double pitch_m, x0_m, y0_m;
+};
+
+struct bank {
+    struct plan plan;
+    Py_ssize_t response_bytes;
+    const uint8_t *entries, *scales, *good, *response;
+};
+
+struct patch {
+    const uint8_t *levels[4];
+    int16_t weight[4];
+    int cells;
+};
+
+/* Values lie in the order of channels 0, 2, .., 14, 1, 3, .., 15 and the same from 16 on: as 16 bytes fall into halves of 16 bits. */
+struct work {
+    int count;
+    int64_t values, rest_rows, block_rows; /* values of a response in the band; rows of eight samples, in a block of samples too */
+    uint32_t idle_word;
+    int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
+    int32_t *strength, *threshold; /* of each block and channel */
+    uint32_t *words;
+    double norm[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
+};
+
+typedef uint8_t bytes16 __attribute__((vector_size(16)));
+typedef int16_t shorts __attribute__((vector_size(16)));
+typedef uint16_t ushorts __attribute__((vector_size(16)));
+typedef uint32_t uints __attribute__((vector_size(16)));
+
+INLINE ushorts load(const void *from) {
+    ushorts read;
+    memcpy(&read, from, sizeof read);
+    return read;
+}
+
+INLINE void store(void *to, ushorts value) { memcpy(to, &value, sizeof value); }
+
+INLINE ushorts at_odd(ushorts levels) { return (ushorts)((shorts)levels >> 8); }
+
+INLINE ushorts at_even(ushorts levels) { return (ushorts)((shorts)(levels << 8) >> 8); }
+
+/* Halves of 16 bits, all ones or zero, to the bits of 16 channels. */
+INLINE uint32_t bits_of(ushorts even, ushorts odd) {
+    ushorts ones = {1, 1, 1, 1, 1, 1, 1, 1};
+    union {
+        ushorts vector;
+        uint64_t eight[2];
+    } bits = {.vector = (even & ones) | (odd & (ones << 8))};
+    uint64_t packing = 0x0102040810204080u; /* moves the lowest bits of eight bytes to the highest byte */
+    return (uint32_t)(bits.eight[0] * packing >> 56 | bits.eight[1] * packing >> 56 << 8);
+}
+
+/* What a channel that idles high turns into: all ones, by which a value is negated, for 16 channels from `first` on. */
+INLINE void turned(uint32_t idle_word, int first, ushorts *even, ushorts *odd) {
+    for (int lane = 0; lane < 8; lane++) {
+        (*even)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane) & 1);
+        (*odd)[lane] = (uint16_t) - (idle_word >> (first + 2 * lane + 1) & 1);
     }
 }
 
-static uint32_t crc32(const uint8_t *bytes, Py_ssize_t length) {
-    uint32_t crc = ~0u;
-    for (Py_ssize_t at = 0; at < length; at++) crc = crc >> 8 ^ crc_of_byte[(uint8_t)(crc ^ bytes[at])];
-    return ~crc;
+INLINE ushorts negated(ushorts value, ushorts where) { return (value ^ where) - where; }
+
+INLINE void interpolate_16(const struct patch *patch, int cells, int64_t at, const ushorts *weight, ushorts *even, ushorts *odd) {
+    *even = *odd = (ushorts){0};
+    for (int cell = 0; cell < cells; cell++) {
+        ushorts levels = load(patch->levels[cell] + at);
+        *even += at_even(levels) * weight[cell];
+        *odd += at_odd(levels) * weight[cell];
+    }
 }
 
-static void put_u32(uint8_t *to, uint32_t value) {
-    for (int at = 0; at < 4; at++) to[at] = (uint8_t)(value >> 8 * at);
+INLINE ushorts positive(ushorts value) { return (ushorts)((shorts)value > 0); }
+
+/* Words of a single point at full amplitude. */
+INLINE void sign_of(struct work *work, const struct patch *patch, int cells) {
+    ushorts weight[4], even[2], odd[2], turn_even[2], turn_odd[2];
+    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
+    for (int half = 0; half < 2; half++) turned(work->idle_word, 16 * half, turn_even + half, turn_odd + half);
+    for (int64_t at = 0; at < work->values; at += CHANNELS) {
+        uint32_t word = 0;
+        for (int half = 0; half < 2; half++) {
+            interpolate_16(patch, cells, at + 16 * half, weight, even + half, odd + half);
+            word |= bits_of(positive(negated(even[half], turn_even[half])), positive(negated(odd[half], turn_odd[half]))) << 16 * half;
+        }
+        work->words[at / CHANNELS] = word ^ work->idle_word;
+    }
 }
 
-static PyObject *seal_short_frames(PyObject *module, PyObject *const *args, Py_ssize_t given) {
+INLINE uints add_absolute(uints sum, ushorts value) {
+    ushorts sign = (ushorts)((shorts)value >> 15);
+    uints two = (uints)negated(value, sign);
+    return sum + (two >> 16) + (two & 0xffff);
+}
+
+/* Values of a response of a point, negated in channels that idle high; returns the sum of their absolute values. */
+INLINE int64_t interpolate_cells(uint32_t idle_word, const struct patch *patch, int cells, int64_t from, int64_t values, int16_t *out) {
+    ushorts weight[4], even, odd, turn_even[2], turn_odd[2];
+    uints sum = {0};
+    for (int cell = 0; cell < cells; cell++) weight[cell] = (ushorts){0} + (uint16_t)patch->weight[cell];
+    for (int half = 0; half < 2; half++) turned(idle_word, 16 * half, turn_even + half, turn_odd + half);
+    for (int64_t at = 0; at < values; at += CHANNELS)
+        for (int half = 0; half < 2; half++) {
+            int64_t here = at + 16 * half;
+            interpolate_16(patch, cells, from + here, weight, &even, &odd);
+            even = negated(even, turn_even[half]);
+            odd = negated(odd, turn_odd[half]);
+            store(out + here, even);
+            store(out + here + 8, odd);
+            sum = add_absolute(add_absolute(sum, even), odd);
+        }
+    return (int64_t)sum[0] + sum[1] + sum[2] + sum[3];
+}
+
+APART int64_t interpolate(uint32_t idle_word, const struct patch *patch, int64_t from, int64_t values, int16_t *out) {
+    switch (patch->cells) {
+    case 1: return interpolate_cells(idle_word, patch, 1, from, values, out);
+    case 2: return interpolate_cells(idle_word, patch, 2, from, values, out);
+    default: return interpolate_cells(idle_word, patch, 4, from, values, out);
+    }
+}
+
+APART void compose_one(struct work *work, const struct patch *patch) {
+    switch (patch->cells) {
+    case 1: sign_of(work, patch, 1); break;
+    case 2: sign_of(work, patch, 2); break;
+    default: sign_of(work, patch, 4);
+    }
+}
+
+APART void weigh_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] = p * a[i];
+}
+
+APART void weigh_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
+    for (int i = 0; i < ROW; i++) sum[i] = p * a[i] + q * b[i];
+}
+
+APART void add_one(int32_t *restrict sum, const int16_t *restrict a, int16_t p) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i];
+}
+
+APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int16_t p, int16_t q) {
+    for (int i = 0; i < ROW; i++) sum[i] += p * a[i] + q * b[i];
+}
+
+/* Sums of eight samples from value `at` on. */
+INLINE void add_up(const struct work *work, const int16_t *weight, int64_t at, int32_t *sum) {
+    int row = 2;
+    if (work->count == 1)
+        weigh_one(sum, work->response[0] + at, weight[0]);
+    else
+        weigh_two(sum, work->response[0] + at, work->response[1] + at, weight[0], weight[1]);
+    for (; row + 1 < work->count; row += 2)
+        add_two(sum, work->response[row] + at, work->response[row + 1] + at, weight[row], weight[row + 1]);
+    if (row < work->count) add_one(sum, work->response[row] + at, weight[row]);
+}
+
+/* Where sums are above their threshold: -1, else 0. */
+APART void compare(int16_t *restrict above, const int32_t *restrict sum, const int32_t *restrict threshold) {
+    for (int sample = 0; sample < REST_SAMPLES; sample++)
+        for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(sum[CHANNELS * sample + i] > threshold[i]);
+}
+
+APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
+    int32_t sum = 0;
+    for (int i = 0; i < values; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+APART void add_samples(int16_t *restrict sum, const int16_t *restrict values, int samples) {
+    for (int i = 0; i < CHANNELS; i++) sum[i] = 0;
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++) sum[i] += values[CHANNELS * sample + i];
+}
+
+APART void add_strength(int32_t *restrict strength, const int32_t *restrict sum, int samples) {
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++) {
+            int32_t value = sum[CHANNELS * sample + i];
+            strength[i] += (value < 0 ? -value : value) >> STRENGTH_SHIFT;
+        }
+}
+
+INLINE void write_words(const struct work *work, int64_t at, int samples, const int16_t *above) {
+    for (int sample = 0; sample < samples; sample++, above += CHANNELS) {
+        uint32_t low = bits_of(load(above), load(above + 8)), high = bits_of(load(above + 16), load(above + 24));
+        work->words[at / CHANNELS + sample] = (low | high << 16) ^ work->idle_word;
+    }
+}
+
+/* ---- words: weights and thresholds ---- */
+
+INLINE double nearest(double value) { return (value + 0x1.8p52) - 0x1.8p52; } /* whole number; of two the even one */
+
+static double product(const double *left, const double *right, int count) {
+    double total = 0;
+    for (int i = 0; i < count; i++) total += left[i] * right[i];
+    return total;
+}
+
+static double masking_threshold(double share) {
+    for (int i = 1; i < SHARES_GIVEN; i++)
+        if (share >= SHARES[i]) {
+            double part = (SHARES[i - 1] - share > 0 ? SHARES[i - 1] - share : 0) / (SHARES[i - 1] - SHARES[i]);
+            return THRESHOLDS[i - 1] + part * (THRESHOLDS[i] - THRESHOLDS[i - 1]);
+        }
+    return THRESHOLDS[SHARES_GIVEN - 1];
+}
+
+/* Whole numbers next to the weights divided by the norms, times what is returned. */
+static double whole_weights(const struct work *work, const double *weights, int16_t *whole) {
+    double share[MAX_FOCI], total = 0;
+    for (int i = 0; i < work->count; i++) {
+        share[i] = weights[i] / work->norm[i];
+        total += fabs(share[i]);
+    }
+    double unit = total > 0 && total < INFINITY ? POINT_WEIGHT_SUM / total : 0;
+    for (int i = 0; i < work->count; i++) whole[i] = unit != 0 ? (int16_t)nearest(share[i] * unit) : 0;
+    return unit;
+}
+
+/* Words where the weighted sum is above its threshold, and what they give at each point. */
+static void mask_and_measure(struct work *work, const int16_t *weight, const int32_t *threshold, int measured) {
+    int32_t sum[ROW];
+    int16_t above[ROW], count[CHANNELS];
+    int64_t total[MAX_FOCI] = {0};
+    for (int64_t row = 0; row < work->rest_rows; row++) {
+        int64_t at = row * ROW, left = (work->values - at) / CHANNELS;
+        int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
+        add_up(work, weight, at, sum);
+        compare(above, sum, threshold + row / work->block_rows * CHANNELS);
+        write_words(work, at, samples, above);
+        if (!measured) continue;
+        add_samples(count, above, samples);
+        for (int i = 0; i < work->count; i++) {
+            total[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
+            total[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
+        }
+    }
+    for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->norm[i];
+}
+
+static void measure_strength(struct work *work, const int16_t *weight) {
+    int32_t sum[ROW];
+    int64_t blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
+    memset(work->strength, 0, (size_t)blocks * CHANNELS * sizeof *work->strength);
+    for (int64_t row = 0; row < work->rest_rows; row++) {
+        int64_t at = row * ROW, left = (work->values - at) / CHANNELS;
+        add_up(work, weight, at, sum);
+        add_strength(work->strength + row / work->block_rows * CHANNELS, sum, left < REST_SAMPLES ? (int)left : REST_SAMPLES);
+    }
+}
+
+static void set_threshold(struct work *work, double threshold) {
+    int64_t blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
+    double scale = threshold / (double)(work->block_rows * REST_SAMPLES) * (1 << THRESHOLD_BITS);
+    int64_t whole = scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
+    for (int64_t i = 0; i < blocks * CHANNELS; i++) {
+        int64_t scaled = work->strength[i] * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
+        work->threshold[i] = scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+    }
+}
+
+static void solve(struct work *work, const double *asked) {
+    int count = work->count;
+    int16_t weight[MAX_FOCI];
+    double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], gain = 0;
+    double first_unit = whole_weights(work, asked, weight), unit = first_unit, first_norm = sqrt(product(asked, asked, count));
+    measure_strength(work, weight);
+    memcpy(now, asked, sizeof now);
+    memcpy(before, asked, sizeof before);
+    memcpy(residual_before, asked, sizeof residual_before);
+    for (int turn = 0; turn < MAX_ROUNDS; turn++) {
+        double norm = sqrt(product(now, now, count));
+        if (norm == 0) norm = first_norm;
+        if (turn && count > 1) {
+            for (int i = 0; i < count; i++) scaled[i] = now[i] * first_norm / norm;
+            unit = whole_weights(work, scaled, weight);
+        }
+        set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
+        int last = turn == MAX_ROUNDS - 1, reached = 1;
+        mask_and_measure(work, weight, work->threshold, !last);
+        if (last) return;
+        for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
+        if (reached) return;
+        if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
+        if (!(gain > 0)) return;
+        double change[MAX_FOCI], mixing = 0;
+        for (int i = 0; i < count; i++) {
+            residual[i] = (work->wanted[i] - work->measured[i]) / gain;
+            change[i] = residual[i] - residual_before[i];
+        }
+        if (turn) {
+            double squared = product(change, change, count);
+            mixing = squared > 0 ? product(residual, change, count) / squared : 0;
+        }
+        for (int i = 0; i < count; i++) {
+            double further = now[i] + residual[i], old = before[i] + residual_before[i];
+            before[i] = now[i];
+            residual_before[i] = residual[i];
+            now[i] = turn ? further + mixing * (old - further) : further;
+        }
+    }
+}
+
+/* Compose; what is asked for and patches of `work->count` points. */
+static void compose_points(struct work *work, const struct patch *patches, const double *asked) {
+    static const int32_t zeros[MAX_SAMPLES / REST_SAMPLES * CHANNELS];
+    static const double ones[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    int full = 1;
+    int16_t weight[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
+    if (full && work->count == 1) {
+        compose_one(work, patches);
+        return;
+    }
+    for (int i = 0; i < work->count; i++) {
+        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        work->norm[i] = norm ? (double)norm : 1;
+        memset(work->response[i] + work->values, 0, (size_t)(work->rest_rows * ROW - work->values) * sizeof(int16_t));
+        if (!full) interpolate(work->idle_word, patches + i, work->values, work->rest_rows * CHANNELS, work->rest[i]);
+    }
+    whole_weights(work, ones, weight);
+    mask_and_measure(work, weight, zeros, !full);
+    if (full) return;
+    for (int i = 0; i < work->count; i++) work->wanted[i] = asked[i] * work->measured[i];
+    solve(work, asked);
+}
+
+/* Index of a row of cells and the distance beyond it, in pitches. */
+static int64_t along(double distance_m, double pitch_m, int64_t last, double *beyond) {
+    double millionths = distance_m / pitch_m * 1e6;
+    *beyond = 0;
+    if (!(millionths > 0)) return 0;
+    if (millionths >= (double)last * 1e6) return last;
+    int64_t whole = (int64_t)nearest(millionths);
+    *beyond = (double)(whole % 1000000) * 1e-6;
+    return whole / 1000000;
+}
+
+/* Responses around a point, with their weights. Returns -1; or the first cell without a response; or -2, with an exception. */
+static int64_t find_patch(const struct bank *bank, double x_m, double y_m, struct patch *patch) {
+    const struct plan *plan = &bank->plan;
+    double right, up, share[4], total = 0;
+    int64_t ix = along(x_m - plan->x0_m, plan->pitch_m, plan->nx - 1, &right);
+    int64_t iy = along(y_m - plan->y0_m, plan->pitch_m, plan->ny - 1, &up);
+    int64_t needed = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    patch->cells = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        int to_right = corner & 1, upwards = corner >> 1;
+        if ((to_right && right == 0) || (upwards && up == 0)) continue;
+        int64_t cell = (iy + upwards) * plan->nx + ix + to_right;
+        int32_t entry;
+        float scale;
+        memcpy(&entry, bank->entries + 4 * cell, sizeof entry);
+        if (entry < 0 || entry >= plan->entries || !bank->good[entry]) return cell;
+        if (entry * plan->stride + needed > bank->response_bytes) {
+            PyErr_SetString(PyExc_ValueError, "the responses are too short for the plan");
+            return -2;
+        }
+        memcpy(&scale, bank->scales + 4 * (int64_t)entry, sizeof scale);
+        if (!(scale >= 0 && scale < INFINITY)) {
+            PyErr_Format(PyExc_ValueError, "the scale of response %d is not finite, or below 0", (int)entry);
+            return -2;
+        }
+        patch->levels[patch->cells] = bank->response + entry * plan->stride;
+        share[patch->cells] = (upwards ? up : 1 - up) * (to_right ? right : 1 - right) * (double)scale;
+        total += share[patch->cells++];
+    }
+    double unit = total > 0 ? WEIGHT_SUM / total : 0;
+    for (int i = 0; i < patch->cells; i++) patch->weight[i] = (int16_t)nearest(share[i] * unit);
+    if (patch->cells == 1) patch->weight[0] = WEIGHT_SUM;
+    return -1;
+}
+
+/* ---- words: from Python ---- */
+
+static int valid(const struct plan *plan) {
+    if (plan->samples < 1 || plan->samples > MAX_SAMPLES) {
+        PyErr_Format(PyExc_ValueError, "%lld samples to compose, not 1 to %d", (long long)plan->samples, (int)MAX_SAMPLES);
+        return 0;
+    }
+    int64_t block = plan->block_samples;
+    if (block < REST_SAMPLES || block > MAX_BLOCK_SAMPLES || block % REST_SAMPLES) {
+        PyErr_Format(
+            PyExc_ValueError, "blocks of %lld samples: not %d to %d, in eights", (long long)block, (int)REST_SAMPLES, (int)MAX_BLOCK_SAMPLES);
+        return 0;
+    }
+    int64_t values = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
+    if (plan->idle_word >= 0 && plan->idle_word <= UINT32_MAX && plan->nx >= 1 && plan->nx <= INT32_MAX && plan->ny >= 1 &&
+        plan->ny <= INT32_MAX && plan->entries >= 0 && plan->entries <= INT32_MAX && values <= plan->stride && plan->stride <= INT32_MAX &&
+        plan->pitch_m > 0 && plan->pitch_m < INFINITY && isfinite(plan->x0_m) && isfinite(plan->y0_m))
+        return 1;
+    PyErr_SetString(PyExc_ValueError, "a number of the plan is beyond its range");
+    return 0;
+}
+
+/* Numbers of a point; 0 with an exception if they are not three, or beyond their range. */
+static int read_point(PyObject *points, Py_ssize_t index, double *read) {
+    PyObject *point = PySequence_GetItem(points, index);
+    if (!point) return 0;
+    Py_ssize_t size = PySequence_Size(point);
+    int good = size == 3;
+    if (!good && !PyErr_Occurred()) PyErr_SetString(PyExc_ValueError, "points to compose have x_m, y_m and amplitude");
+    for (int i = 0; good && i < 3; i++) {
+        PyObject *number = PySequence_GetItem(point, i);
+        read[i] = number ? PyFloat_AsDouble(number) : -1;
+        Py_XDECREF(number);
+        good = !(read[i] == -1 && PyErr_Occurred());
+    }
+    Py_DECREF(point);
+    if (!good) return 0;
+    if (!isfinite(read[0]) || !isfinite(read[1]))
+        PyErr_SetString(PyExc_ValueError, "a place of the points to compose is not finite");
+    else if (!(read[2] > 0 && read[2] <= 1))
+        PyErr_SetString(PyExc_ValueError, "an amplitude of the points to compose is not above 0 and at most 1");
+    else
+        return 1;
+    return 0;
+}
+
+static Py_ssize_t room_needed(int64_t samples) {
+    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES;
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES));
+}
+
+static void lay_out(struct work *work, const struct plan *plan, int count, uint8_t *room, void *words) {
+    work->count = count;
+    work->values = plan->samples * CHANNELS;
+    work->rest_rows = (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES;
+    work->block_rows = plan->block_samples / REST_SAMPLES;
+    work->idle_word = (uint32_t)plan->idle_word;
+    work->words = words;
+    room += -(uintptr_t)room % LINE_BYTES;
+    for (int i = 0; i < count; i++) {
+        work->response[i] = (int16_t *)room;
+        work->rest[i] = work->response[i] + work->rest_rows * ROW;
+        room += work->rest_rows * (ROW + CHANNELS) * (int64_t)sizeof(int16_t);
+    }
+    work->strength = (int32_t *)room;
+    work->threshold = work->strength + work->rest_rows * CHANNELS;
+}
+
+enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };
+
+static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
+    struct bank bank;
+    struct work work;
+    struct patch patches[MAX_FOCI];
+    double point[MAX_FOCI][3], asked[MAX_FOCI];
+    if (buffer[PLAN].len != sizeof bank.plan)
+        return PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof bank.plan, buffer[PLAN].len);
+    memcpy(&bank.plan, buffer[PLAN].buf, sizeof bank.plan);
+    const struct plan *plan = &bank.plan;
+    if (!valid(plan)) return NULL;
+    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries)
+        return PyErr_Format(PyExc_ValueError, "the tables are too short for the plan");
+    bank.entries = buffer[ENTRIES].buf;
+    bank.scales = buffer[SCALES].buf;
+    bank.good = buffer[GOOD].buf;
+    bank.response = buffer[RESPONSE].buf;
+    bank.response_bytes = buffer[RESPONSE].len;
+    Py_ssize_t count = PySequence_Size(points);
+    if (count < 0) return NULL;
+    if (count < 1 || count > MAX_FOCI)
+        return PyErr_Format(PyExc_ValueError, "%zd points to compose, not 1 to %d", count, (int)MAX_FOCI);
+    for (Py_ssize_t i = 0; i < count; i++) {
+        if (!read_point(points, i, point[i])) return NULL;
+        asked[i] = point[i][2];
+    }
+    if (buffer[WORDS].len < 4 * plan->samples)
+        return PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)plan->samples, buffer[WORDS].len);
+    if (buffer[ROOM].len < room_needed(plan->samples))
+        return PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)plan->samples,
+                            room_needed(plan->samples), buffer[ROOM].len);
+    for (Py_ssize_t i = 0; i < count; i++) {
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        if (cell == -2) return NULL;
+        if (cell >= 0) return PyLong_FromLongLong(cell);
+    }
+    lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
+    compose_points(&work, patches, asked);
+    return PyLong_FromLong(-1);
+}
+
+static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    (void)module;
+    if (given != COMPOSE_ARGUMENTS) return PyErr_Format(PyExc_TypeError, "compose takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS, given);
+    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
+    if (taken == BUFFERS) answer = compose_in(buffer, arguments[POINTS]);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
+
+/* ---- frames: numbers of twin.py ---- */
+
+enum {
+    FRAME_SYNC = 0xA55A,
+    LOAD = 3,
+    CHUNK_BYTES = 500,
+    PADDED_BYTES = 20,
+    CHUNKS = 8,
+    SHORT_FRAME_BYTES = 36,
+    HEADER_BYTES = 8,
+    NUMBER_AT = 3,
+    CRC_BYTES = 4,
+    FULL_FRAME_BYTES = HEADER_BYTES + CHUNK_BYTES + CRC_BYTES,
+    ABREAST = 4, /* frames whose CRCs are computed together: one waits for each of its lookups */
+};
+
+static const uint32_t CRC_OF_INTACT = 0x2144DF1Cu; /* of any message with its own CRC behind it */
+
+static uint32_t crc_table[8][256]; /* [n]: a byte, then n zero bytes */
+static uint32_t chunk_table[4][256]; /* [n]: byte n of a state, then as many zero bytes as a chunk has */
+static uint32_t number_change[256]; /* of a full frame's CRC, by number ^ number */
+
+/* States are CRCs without the inversions before and after: linear in the bytes. */
+INLINE uint32_t crc_eight(uint32_t state, uint64_t bytes) {
+    bytes ^= state;
+    return crc_table[7][bytes & 255] ^ crc_table[6][bytes >> 8 & 255] ^ crc_table[5][bytes >> 16 & 255] ^ crc_table[4][bytes >> 24 & 255] ^
+           crc_table[3][bytes >> 32 & 255] ^ crc_table[2][bytes >> 40 & 255] ^ crc_table[1][bytes >> 48 & 255] ^ crc_table[0][bytes >> 56];
+}
+
+INLINE uint64_t get_eight(const uint8_t *from) {
+    uint64_t bytes;
+    memcpy(&bytes, from, sizeof bytes);
+    return bytes;
+}
+
+INLINE uint32_t get_u32(const uint8_t *from) {
+    uint32_t value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+INLINE void put_u32(uint8_t *to, uint32_t value) { memcpy(to, &value, sizeof value); }
+
+static uint32_t crc_state(uint32_t state, const uint8_t *bytes, Py_ssize_t length) {
+    for (; length >= 8; length -= 8, bytes += 8) state = crc_eight(state, get_eight(bytes));
+    for (; length > 0; length--, bytes++) state = state >> 8 ^ crc_table[0][(uint8_t)(state ^ *bytes)];
+    return state;
+}
+
+static uint32_t crc32(const uint8_t *bytes, Py_ssize_t length) { return ~crc_state(~0u, bytes, length); }
+
+static uint32_t crc_of_zeros(uint32_t state, Py_ssize_t length) {
+    for (; length >= 8; length -= 8) state = crc_eight(state, 0);
+    for (; length > 0; length--) state = state >> 8 ^ crc_table[0][(uint8_t)state];
+    return state;
+}
+
+INLINE uint32_t after_chunk(uint32_t state) {
+    return chunk_table[0][state & 255] ^ chunk_table[1][state >> 8 & 255] ^ chunk_table[2][state >> 16 & 255] ^ chunk_table[3][state >> 24];
+}
+
+static uint32_t change_of(uint8_t numbers, Py_ssize_t frame_bytes) {
+    return crc_of_zeros(crc_table[0][numbers], frame_bytes - CRC_BYTES - NUMBER_AT - 1);
+}
+
+static void fill_tables(void) {
+    for (uint32_t byte = 0; byte < 256; byte++) {
+        uint32_t state = byte;
+        for (int bit = 0; bit < 8; bit++) state = state >> 1 ^ (0xEDB88320u & -(state & 1));
+        crc_table[0][byte] = state;
+    }
+    for (int n = 1; n < 8; n++)
+        for (int byte = 0; byte < 256; byte++)
+            crc_table[n][byte] = crc_table[n - 1][byte] >> 8 ^ crc_table[0][(uint8_t)crc_table[n - 1][byte]];
+    for (int n = 0; n < 4; n++)
+        for (uint32_t byte = 0; byte < 256; byte++) chunk_table[n][byte] = crc_of_zeros(byte << 8 * n, CHUNK_BYTES);
+    for (int numbers = 0; numbers < 256; numbers++) number_change[numbers] = change_of((uint8_t)numbers, FULL_FRAME_BYTES);
+}
+
+/* Full frames, and bytes of the shorter one behind them: with header, payload and CRC. */
+struct loads {
+    Py_ssize_t full, rest;
+};
+
+static Py_ssize_t frames_bytes(struct loads loads) { return loads.full * FULL_FRAME_BYTES + loads.rest; }
+
+static int loads_of_words(Py_ssize_t words_bytes, struct loads *loads) {
+    if (words_bytes < 4 || words_bytes > CHUNKS * CHUNK_BYTES || words_bytes % 4) {
+        PyErr_Format(PyExc_ValueError, "a waveform has 4 to %d bytes, a multiple of 4, not %zd", (int)(CHUNKS * CHUNK_BYTES), words_bytes);
+        return 0;
+    }
+    Py_ssize_t rest = words_bytes % CHUNK_BYTES;
+    loads->full = words_bytes / CHUNK_BYTES;
+    loads->rest = rest ? HEADER_BYTES + (rest < PADDED_BYTES ? PADDED_BYTES : rest) + CRC_BYTES : 0;
+    return 1;
+}
+
+static int loads_of_frames(Py_ssize_t total, struct loads *loads) {
+    Py_ssize_t full = total / FULL_FRAME_BYTES, rest = total % FULL_FRAME_BYTES;
+    if (!total || full + !!rest > CHUNKS || (rest && (rest < HEADER_BYTES + PADDED_BYTES + CRC_BYTES || rest % 4))) {
+        PyErr_Format(PyExc_ValueError, "%zd bytes are not the LOAD frames of a waveform", total);
+        return 0;
+    }
+    *loads = (struct loads){full, rest};
+    return 1;
+}
+
+static int fits(const Py_buffer *out, Py_ssize_t total) {
+    if (out->len >= total) return 1;
+    PyErr_Format(PyExc_ValueError, "%zd bytes of frames do not fit into %zd", total, out->len);
+    return 0;
+}
+
+INLINE uint64_t load_header(uint8_t number, Py_ssize_t frame_bytes, Py_ssize_t chunk) {
+    uint64_t payload_bytes = (uint64_t)(frame_bytes - HEADER_BYTES - CRC_BYTES);
+    return FRAME_SYNC | LOAD << 16 | (uint64_t)number << 24 | payload_bytes << 32 | (uint64_t)chunk << 48;
+}
+
+INLINE void put_header(uint8_t *frame, uint64_t header) { memcpy(frame, &header, sizeof header); }
+
+/* States of full frames that lie back to back. */
+static void crc_of_full_frames(const uint8_t *frames, Py_ssize_t count, uint32_t *state) {
+    enum { COVERED = FULL_FRAME_BYTES - CRC_BYTES, EIGHTS = COVERED / 8 * 8 };
+    for (; count >= ABREAST; count -= ABREAST, frames += ABREAST * FULL_FRAME_BYTES, state += ABREAST) {
+        uint32_t a = ~0u, b = ~0u, c = ~0u, d = ~0u;
+        const uint8_t *bytes = frames;
+        for (int at = 0; at < EIGHTS; at += 8, bytes += 8) {
+            a = crc_eight(a, get_eight(bytes));
+            b = crc_eight(b, get_eight(bytes + FULL_FRAME_BYTES));
+            c = crc_eight(c, get_eight(bytes + 2 * FULL_FRAME_BYTES));
+            d = crc_eight(d, get_eight(bytes + 3 * FULL_FRAME_BYTES));
+        }
+        state[0] = crc_state(a, bytes, COVERED - EIGHTS);
+        state[1] = crc_state(b, bytes + FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[2] = crc_state(c, bytes + 2 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+        state[3] = crc_state(d, bytes + 3 * FULL_FRAME_BYTES, COVERED - EIGHTS);
+    }
+    for (; count; count--, frames += FULL_FRAME_BYTES, state++) *state = crc_state(~0u, frames, COVERED);
+}
+
+/* State of all words, from those of the full frames that have them: what the header and the words before leave behind is added at
+   the end of a frame's words. */
+static uint32_t crc_of_words(const uint8_t *frame, Py_ssize_t count, const uint32_t *state) {
+    uint32_t all = ~0u;
+    for (; count; count--, frame += FULL_FRAME_BYTES, state++) all = *state ^ after_chunk(all ^ crc_eight(~0u, get_eight(frame)));
+    return all;
+}
+
+/* Pack words of a length that was checked; returns their CRC. */
+static uint32_t pack_chunks(uint8_t *out, uint8_t sequence, const uint8_t *words, Py_ssize_t words_bytes, struct loads loads) {
+    uint32_t state[CHUNKS], all;
+    Py_ssize_t chunk;
+    uint8_t *frame = out;
+    for (chunk = 0; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES) {
+        put_header(frame, load_header((uint8_t)(sequence + chunk), FULL_FRAME_BYTES, chunk));
+        memcpy(frame + HEADER_BYTES, words + chunk * CHUNK_BYTES, CHUNK_BYTES);
+    }
+    crc_of_full_frames(out, loads.full, state);
+    all = crc_of_words(out, loads.full, state);
+    for (chunk = 0, frame = out; chunk < loads.full; chunk++, frame += FULL_FRAME_BYTES)
+        put_u32(frame + FULL_FRAME_BYTES - CRC_BYTES, ~state[chunk]);
+    if (loads.rest) {
+        Py_ssize_t rest = words_bytes - loads.full * CHUNK_BYTES, covered = loads.rest - CRC_BYTES;
+        put_header(frame, load_header((uint8_t)(sequence + chunk), loads.rest, chunk));
+        memcpy(frame + HEADER_BYTES, words + loads.full * CHUNK_BYTES, (size_t)rest);
+        memset(frame + HEADER_BYTES + rest, 0, (size_t)(covered - HEADER_BYTES - rest));
+        put_u32(frame + covered, crc32(frame, covered));
+        all = crc_state(all, frame + HEADER_BYTES, rest);
+    }
+    return ~all;
+}
+
+static void renumber(uint8_t *out, uint8_t sequence, const uint8_t *ready, struct loads loads) {
+    memcpy(out, ready, (size_t)frames_bytes(loads));
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, out += FULL_FRAME_BYTES) {
+        Py_ssize_t size = chunk < loads.full ? FULL_FRAME_BYTES : loads.rest;
+        uint8_t number = (uint8_t)(sequence + chunk), numbers = (uint8_t)(number ^ chunk);
+        uint8_t *crc = out + size - CRC_BYTES;
+        put_header(out, load_header(number, size, chunk));
+        put_u32(crc, get_u32(crc) ^ (size == FULL_FRAME_BYTES ? number_change[numbers] : change_of(numbers, size)));
+    }
+}
+
+/* Take the words out of frames; the chunk of one that is damaged, or -1. */
+static Py_ssize_t unpack_chunks(uint8_t *words, Py_ssize_t words_bytes, const uint8_t *frames, struct loads loads, uint32_t *crc) {
+    uint32_t state[CHUNKS], all;
+    const uint8_t *frame = frames;
+    crc_of_full_frames(frames, loads.full, state);
+    all = crc_of_words(frames, loads.full, state);
+    for (Py_ssize_t chunk = 0; chunk < loads.full + !!loads.rest; chunk++, frame += FULL_FRAME_BYTES) {
+        int full = chunk < loads.full;
+        Py_ssize_t frame_bytes = full ? FULL_FRAME_BYTES : loads.rest, covered = frame_bytes - CRC_BYTES;
+        Py_ssize_t size = full ? CHUNK_BYTES : words_bytes - chunk * CHUNK_BYTES;
+        uint32_t found = full ? ~state[chunk] : crc32(frame, covered);
+        if (get_eight(frame) != load_header((uint8_t)chunk, frame_bytes, chunk) || get_u32(frame + covered) != found) return chunk;
+        for (Py_ssize_t at = HEADER_BYTES + size; at < covered; at++)
+            if (frame[at]) return chunk;
+        memcpy(words + chunk * CHUNK_BYTES, frame + HEADER_BYTES, (size_t)size);
+        if (!full) all = crc_state(all, frame + HEADER_BYTES, size);
+    }
+    *crc = ~all;
+    return -1;
+}
+
+/* ---- frames: from Python ---- */
+
+/* Buffers to write and to read, or an exception. */
+static int take_two(PyObject *written, PyObject *read, Py_buffer *to, Py_buffer *from) {
+    if (PyObject_GetBuffer(written, to, PyBUF_WRITABLE)) return 0;
+    if (!PyObject_GetBuffer(read, from, PyBUF_SIMPLE)) return 1;
+    PyBuffer_Release(to);
+    return 0;
+}
+
+static PyObject *pack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, words;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "pack_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &words)) return NULL;
+    if (loads_of_words(words.len, &loads) && fits(&out, frames_bytes(loads)))
+        answer = PyLong_FromUnsignedLong(pack_chunks(out.buf, (uint8_t)sequence, words.buf, words.len, loads));
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&words);
+    return answer;
+}
+
+static PyObject *renumber_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer out, ready;
+    struct loads loads;
+    (void)module;
+    if (given != 3) return PyErr_Format(PyExc_TypeError, "renumber_loads takes 3 arguments, not %zd", given);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[1]);
+    if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
+    if (!take_two(arguments[0], arguments[2], &out, &ready)) return NULL;
+    int good = loads_of_frames(ready.len, &loads) && fits(&out, ready.len);
+    if (good) renumber(out.buf, (uint8_t)sequence, ready.buf, loads);
+    PyBuffer_Release(&out);
+    PyBuffer_Release(&ready);
+    if (!good) return NULL;
+    Py_RETURN_NONE;
+}
+
+static PyObject *unpack_loads(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer words, ready;
+    struct loads loads;
+    PyObject *answer = NULL;
+    (void)module;
+    if (given != 2) return PyErr_Format(PyExc_TypeError, "unpack_loads takes 2 arguments, not %zd", given);
+    if (!take_two(arguments[0], arguments[1], &words, &ready)) return NULL;
+    if (loads_of_words(words.len, &loads)) {
+        if (ready.len != frames_bytes(loads)) {
+            PyErr_Format(PyExc_ValueError, "%zd bytes are not the frames of %zd bytes of words", ready.len, words.len);
+        } else {
+            uint32_t crc;
+            Py_ssize_t damaged = unpack_chunks(words.buf, words.len, ready.buf, loads, &crc);
+            if (damaged >= 0)
+                PyErr_Format(PyExc_ValueError, "frame %zd is damaged", damaged);
+            else
+                answer = PyLong_FromUnsignedLong(crc);
+        }
+    }
+    PyBuffer_Release(&words);
+    PyBuffer_Release(&ready);
+    return answer;
+}
+
+static PyObject *seal_short_frames(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
     (void)module;
     if (given != 4) return PyErr_Format(PyExc_TypeError, "seal_short_frames takes 4 arguments, not %zd", given);
-    Py_ssize_t start = PyLong_AsSsize_t(args[1]);
+    Py_ssize_t start = PyLong_AsSsize_t(arguments[1]);
     if (start == -1 && PyErr_Occurred()) return NULL;
-    Py_ssize_t count = PyLong_AsSsize_t(args[2]);
+    Py_ssize_t count = PyLong_AsSsize_t(arguments[2]);
     if (count == -1 && PyErr_Occurred()) return NULL;
-    unsigned long sequence = PyLong_AsUnsignedLongMask(args[3]);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(arguments[3]);
     if (sequence == (unsigned long)-1 && PyErr_Occurred()) return NULL;
     Py_buffer out;
-    if (PyObject_GetBuffer(args[0], &out, PyBUF_WRITABLE)) return NULL;
+    if (PyObject_GetBuffer(arguments[0], &out, PyBUF_WRITABLE)) return NULL;
     if (start < 0 || count < 0 || start > out.len || count > (out.len - start) / SHORT_FRAME_BYTES) {
         PyErr_Format(PyExc_ValueError, "%zd frames from byte %zd on do not fit into %zd bytes", count, start, out.len);
         PyBuffer_Release(&out);
@@ -43,14 +834,45 @@ static PyObject *seal_short_frames(PyObject *module, PyObject *const *args, Py_s
     }
     uint8_t *frame = (uint8_t *)out.buf + start;
     for (Py_ssize_t number = 0; number < count; number++, frame += SHORT_FRAME_BYTES) {
-        frame[NUMBER_AT] = (uint8_t)(sequence + number);
+        frame[NUMBER_AT] = (uint8_t)(sequence + (unsigned long)number);
         put_u32(frame + SHORT_FRAME_BYTES - CRC_BYTES, crc32(frame, SHORT_FRAME_BYTES - CRC_BYTES));
     }
     PyBuffer_Release(&out);
     Py_RETURN_NONE;
 }
 
+static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize_t given) {
+    (void)module;
+    if (given != 5) return PyErr_Format(PyExc_TypeError, "statuses_good takes 5 arguments, not %zd", given);
+    Py_ssize_t start = PyLong_AsSsize_t(args[1]);
+    Py_ssize_t count = PyLong_AsSsize_t(args[2]);
+    unsigned long head = PyLong_AsUnsignedLongMask(args[3]);
+    unsigned long sequence = PyLong_AsUnsignedLongMask(args[4]);
+    if (PyErr_Occurred()) return NULL;
+    Py_buffer answers;
+    if (PyObject_GetBuffer(args[0], &answers, PyBUF_SIMPLE)) return NULL;
+    if (start < 0 || count < 0 || start > answers.len || count > (answers.len - start) / SHORT_FRAME_BYTES) {
+        PyErr_Format(PyExc_ValueError, "%zd statuses from byte %zd on are not within %zd bytes", count, start, answers.len);
+        PyBuffer_Release(&answers);
+        return NULL;
+    }
+    const uint8_t *status = (const uint8_t *)answers.buf + start;
+    int good = 1;
+    for (Py_ssize_t number = 0; good && number < count; number++, status += SHORT_FRAME_BYTES) {
+        uint32_t first = status[0] | status[1] << 8 | status[2] << 16 | (uint32_t)status[3] << 24;
+        good = first == ((uint32_t)head | (uint32_t)(uint8_t)(sequence + number) << 24) && !(status[6] | status[7]) &&
+               crc32(status, SHORT_FRAME_BYTES) == CRC_OF_INTACT;
+    }
+    PyBuffer_Release(&answers);
+    return PyBool_FromLong(good);
+}
+
 static PyMethodDef methods[] = {
+    {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
+    {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
+    {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
+    {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
+    {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},
     {"seal_short_frames", (PyCFunction)(void (*)(void))seal_short_frames, METH_FASTCALL, "seal_short_frames(out, start, count, sequence)"},
     {NULL, NULL, 0, NULL},
 };

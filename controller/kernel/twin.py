@@ -29,6 +29,8 @@ HEADER: Final = struct.Struct("<HBBHH")  # sync word, type, sequence number, byt
 CRC: Final = struct.Struct("<I")
 FULL_FRAME_BYTES: Final = HEADER.size + CHUNK_BYTES + CRC.size
 NUMBER_AT: Final = 3  # byte of the header
+STATUS_HEAD: Final = struct.Struct("<I2xH")  # sync word, result and sequence number as one; faults
+CRC_OF_INTACT: Final = 0x2144DF1C  # of any message with its own CRC behind it
 
 
 def load_frames_bytes(words_bytes: int) -> int:
@@ -171,6 +173,38 @@ def seal_short_frames(out: Writable, start: int, count: int, sequence: int) -> N
         filled[start + NUMBER_AT] = number & 0xFF
         CRC.pack_into(filled, end, zlib.crc32(filled[start:end]))
         start = end + CRC.size
+
+
+def statuses_good(answers: Readable, start: int, count: int, head: int, sequence: int) -> bool:
+    """Whether statuses that lie back to back are intact, say the same result, name one frame after the other, and no fault.
+
+    Parameters
+    ----------
+    answers : buffer of bytes
+    start : int
+        Where the first status begins.
+    count : int
+        Number of statuses.
+    head : int
+        Sync word and result, as the first three bytes of a status have them.
+    sequence : int
+        Sequence number that the first one names, taken modulo 256; each further one is the next.
+
+    Raises
+    ------
+    ValueError
+        If they are not all within `answers`.
+    """
+    given = memoryview(answers)
+    if start < 0 or count < 0 or start + count * SHORT_FRAME_BYTES > given.nbytes:
+        raise ValueError(f"{count} statuses from byte {start} on are not within {given.nbytes} bytes")
+    for number in range(sequence, sequence + count):
+        first, faults = STATUS_HEAD.unpack_from(given, start)
+        end = start + SHORT_FRAME_BYTES
+        if first != head | (number & 0xFF) << 24 or faults or zlib.crc32(given[start:end]) != CRC_OF_INTACT:
+            return False
+        start = end
+    return True
 
 
 class Frame(NamedTuple):

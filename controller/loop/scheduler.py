@@ -64,7 +64,8 @@ class Scheduler:
         self._max_unconfirmed = max_unconfirmed
         self._outcomes = outcomes
         self._active: dict[Owner, ActiveEffects] = {}  # fingers by number, commands at a point by their owner
-        self._emission_counts: dict[int, int] = {}  # emissions of each finger so far
+        self._unlimited: set[int] = set()  # fingers known to be confirmed
+        self._emission_counts: dict[int, int] = {}  # emissions so far of each of the others
         self.due: dict[Owner, Emission] = {}
 
     def touch(self, sample: TouchSample, time_s: FpgaTime) -> None:
@@ -197,7 +198,10 @@ class Scheduler:
 
     def next_s(self) -> FpgaTime:
         """When the next beat of a train is due; inf without a train."""
-        return min([active.next_s for active in self._active.values()], default=FPGA_NEVER)
+        next_s = FPGA_NEVER
+        for active in self._active.values():
+            next_s = active.next_s if active.next_s < next_s else next_s
+        return next_s
 
     def collect_s(self, lead_s: float) -> FpgaTime:
         """When `advance` next collects a beat; inf without a train."""
@@ -265,6 +269,7 @@ class Scheduler:
         self._add(last)
         self._discard_waiting_of(finger, last, now_s)
         self._emission_counts.pop(finger, None)  # after the emissions of its release were counted
+        self._unlimited.discard(finger)
 
     def _discard_waiting_of(self, finger: int, last: tuple[Emission, ...], now_s: FpgaTime) -> None:
         """Discard what is due for a finger that was lifted, but for the emissions of its release."""
@@ -306,18 +311,24 @@ class Scheduler:
         self._counters.due += len(emissions)
         for emission in emissions:
             finger = emission.finger
-            if finger is not None:
-                given = self._emission_counts.get(finger, 0) + 1
-                if given > self._max_unconfirmed and not self._confirmed(finger):
-                    self._counters.skipped.unconfirmed += 1
-                    self.discarded([emission], Outcome.SKIPPED, emission.time_s)
-                    continue
-                self._emission_counts[finger] = given
+            if finger is not None and finger not in self._unlimited and not self._may_have_another(finger):
+                self._counters.skipped.unconfirmed += 1
+                self.discarded([emission], Outcome.SKIPPED, emission.time_s)
+                continue
             before = self.due.get(emission.owner)
             if before is not None:
                 self._counters.skipped.merged += 1
                 self.discarded([before], Outcome.MERGED, emission.time_s)
             self.due[emission.owner] = emission
+
+    def _may_have_another(self, finger: int) -> bool:
+        """Whether a finger may have one more emission: only so many before it is confirmed."""
+        if self._confirmed(finger):
+            self._unlimited.add(finger)
+            return True
+        given = self._emission_counts.get(finger, 0)
+        self._emission_counts[finger] = given + 1
+        return given < self._max_unconfirmed
 
     def _make_room(self, emissions: tuple[Emission, ...]) -> None:
         """Let a command at a point replace one for the same place; if too many wait, skip the oldest."""

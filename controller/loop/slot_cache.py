@@ -36,10 +36,10 @@ class SlotCache:
     def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = REUSE_RADIUS_M) -> None:
         self.slots = slots
         self._single_focus = single_focus
-        self._near_m2 = near_m**2
+        self._near_m = near_m
         self.held: OrderedDict[int, Key | None] = OrderedDict()
         self._slot_of: dict[Key, int] = {}
-        self._single_focus_of: dict[int, tuple[Key, SingleFocus]] = {}  # what a slot holds, if that is one focus
+        self._single_focus_of: dict[int, tuple[Key, float, float, int]] = {}  # what a slot holds, if that is one focus
         self._pinned: set[Key] = set()
         self.clear()
 
@@ -47,13 +47,17 @@ class SlotCache:
         """Key of a resident waveform that can be played for `key`: the same, or one for a place near by; None if there is none."""
         if key in self._slot_of:
             return key
-        wanted = self._focus_of(key)
+        wanted = self._single_focus(key)
         if wanted is None:
             return None
         x_m, y_m, step = wanted
-        for resident, (there_x_m, there_y_m, there_step) in self._single_focus_of.values():
-            if (x_m - there_x_m) ** 2 + (y_m - there_y_m) ** 2 <= self._near_m2 and step == there_step:
-                return resident
+        near_m = self._near_m
+        for resident, there_x_m, there_y_m, there_step in self._single_focus_of.values():
+            off_x_m = x_m - there_x_m
+            if -near_m <= off_x_m <= near_m and step == there_step:
+                off_y_m = y_m - there_y_m
+                if off_x_m * off_x_m + off_y_m * off_y_m <= near_m * near_m:
+                    return resident
         return None
 
     def use(self, key: Key) -> int:
@@ -95,9 +99,9 @@ class SlotCache:
         self.held[slot] = key
         self.held.move_to_end(slot)
         self._slot_of[key] = slot
-        focus = self._focus_of(key)
+        focus = self._single_focus(key)
         if focus is not None:
-            self._single_focus_of[slot] = key, focus
+            self._single_focus_of[slot] = key, *focus
 
     def drop(self, slot: int) -> None:
         """Take note that what a slot holds cannot be played; it is the next one to be taken."""
@@ -118,6 +122,3 @@ class SlotCache:
         self._single_focus_of.clear()
         self.held.clear()
         self.held.update(dict.fromkeys(range(self.slots)))
-
-    def _focus_of(self, key: Key) -> SingleFocus | None:
-        return None if isinstance(key, tuple) and len(key) > 1 else self._single_focus(key)

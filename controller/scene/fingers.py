@@ -110,11 +110,14 @@ class ActiveEffects:
         self.x_m, self.y_m = x_m, y_m
         left = self.region
         if index == left:
-            amplitude = self._spacing_amplitude()
+            amplitude = 0.0  # of the strongest spacing that is completed here
+            for progress in self._progress:
+                if progress.crossed(x_m, y_m) and progress.amplitude > amplitude:
+                    amplitude = progress.amplitude
             if not amplitude:
                 return ()
             inside = scene.regions[index]
-            return (Emission(time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, alternate=inside.alternate),)
+            return (Emission(time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate),)
         self._enter(index)
         emission = None
         if left != OUTSIDE:
@@ -211,14 +214,6 @@ class ActiveEffects:
         self._progress = tuple([spacing.begin(self.x_m, self.y_m) for spacing in spacings])
         if self._trains:
             self._set_trains([train for train in self._trains if not train.ends_on_leave])
-
-    def _spacing_amplitude(self) -> float:
-        """Largest amplitude of the spacings that the finger's new place completes; 0: none."""
-        amplitude = 0.0
-        for progress in self._progress:
-            if progress.crossed(self.x_m, self.y_m) and progress.amplitude > amplitude:
-                amplitude = progress.amplitude
-        return amplitude
 
     def _begin(
         self, trains: tuple[Train, ...], region: int, time_s: FpgaTime, *, ends_on_leave: bool, strongest: Emission | None = None

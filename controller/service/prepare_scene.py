@@ -58,8 +58,8 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
     if missing:
         raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")
     cells = wanted.nonzero()[0].tolist()
-    for cell in cells:
-        bank.frames(cell)
-        if responses:
+    bank.check_frames(cells)
+    if responses:
+        for cell in cells:
             bank.response(cell)
     return len(cells)

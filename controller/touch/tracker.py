@@ -236,29 +236,27 @@ class Tracker:
         return now_s
 
     def _take(self, sample: TouchSample, out: list[TouchSample]) -> None:
-        contact = self._contacts.get(sample.finger)
-        if not sample.contact:
+        number, x_m, y_m, time_s, down, size_m = sample
+        contact = self._contacts.get(number)
+        if not down:
             if contact is not None:
-                del self._contacts[sample.finger]
-                self._lift(contact, sample.time_s)
+                del self._contacts[number]
+                self._lift(contact, time_s)
             return
-        x_m, y_m, time_s = sample.x_m, sample.y_m, sample.time_s
         if contact is None:
             contact = self._begin(sample)
             if not contact.played:
                 return
         if contact.refused:
             return
-        if sample.size_m > self._max_size_m:
+        if size_m > self._max_size_m:
             self._refuse(contact, time_s, out)
             return
         contact.motion.report(x_m, y_m, time_s)
         contact.reports += 1
-        contact.size_m = sample.size_m
+        contact.size_m = size_m
         if contact.played:
-            out.append(
-                sample if contact.finger == sample.finger else TouchSample(contact.finger, x_m, y_m, time_s, True, sample.size_m)
-            )
+            out.append(sample if contact.finger == number else TouchSample(contact.finger, x_m, y_m, time_s, True, size_m))
 
     def _begin(self, sample: TouchSample) -> _Contact:
         """Contact for a new number of the source: a lost finger found again, or a contact that waits."""

@@ -47,7 +47,7 @@ class Selection:
         return self._composer is not None
 
     def prepare(self) -> None:
-        """Take the memory for composing, that of the linear algebra (32 MB) included, before playing begins.
+        """Take the memory for composing, and map the responses, before playing begins.
 
         Raises
         ------
@@ -71,13 +71,17 @@ class Selection:
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
-            step = _step(amplitude)
+            step = 0 if amplitude == 1 else amplitude_step(amplitude)
             if step == 0:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
                     return cell
             return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
-        return tuple(sorted((round(x_m / LATTICE_M), round(y_m / LATTICE_M), _step(amplitude)) for x_m, y_m, amplitude in points))
+        lattice = []
+        for x_m, y_m, amplitude in points:
+            lattice.append((round(x_m / LATTICE_M), round(y_m / LATTICE_M), 0 if amplitude == 1 else amplitude_step(amplitude)))
+        lattice.sort()
+        return tuple(lattice)
 
     def waveform(self, key: Key) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
@@ -131,7 +135,3 @@ class Selection:
             return None
         x, y, step = key[0]
         return x * LATTICE_M, y * LATTICE_M, step
-
-
-def _step(amplitude: float) -> int:
-    return 0 if amplitude == 1 else amplitude_step(amplitude)

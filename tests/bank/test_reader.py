@@ -121,6 +121,42 @@ def test_responses_around_a_cell_are_read_ahead_when_it_is_first_used(path, make
     assert asked == []
 
 
+def test_frames_are_checked_in_advance_without_mapping_them(path, make_bank):
+    make_bank(path, cells=CELLS)
+    with Bank.open(path) as bank:
+        bank.check_frames([0, 2, 5])
+        assert (bank.counters.drive_checked, bank.counters.mapped_bytes) == (3, {})
+        for cell in (0, 2, 3, 5):
+            bank.frames(cell)
+        assert bank.counters.drive_checked == 4, "cell 3 on its first use"
+        section = bank.sections["drive"]
+    with pytest.raises(ValueError, match="closed"):
+        bank.check_frames([0])
+    flip(path, section.offset + 2 * section.stride + 8)
+    with Bank.open(path) as bank:
+        bank.check_frames([0, 2])
+        for check in (lambda: bank.check_frames([5, 3]), lambda: bank.frames(3)):
+            with pytest.raises(BankError, match=r"drive of entry 2 \(cell 3\) is damaged; rebuild it: haptic-panel bank build"):
+                check()
+
+
+def test_a_bank_that_is_cut_off_or_unreadable_while_it_is_checked_is_refused(path, make_bank, monkeypatch):
+    make_bank(path, responses=dict.fromkeys(range(6), np.ones((9, 32))))  # a row that is missing must not pass as the one before
+    with Bank.open(path) as bank:
+        section = bank.sections["drive"]
+        with path.open("r+b") as file:
+            file.truncate(section.offset + 4 * section.stride + 20)
+        with pytest.raises(BankError, match=r"drive of entry 4 \(cell 4\) is damaged"):
+            bank.check_frames(range(6))
+
+        def broken(*_):
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+        monkeypatch.setattr(os, "preadv", broken)
+        with pytest.raises(BankError, match=r"bank: cannot be read \(Input/output error\); rebuild it: haptic-panel bank build"):
+            bank.check_frames([0])
+
+
 def test_a_file_system_that_cannot_read_ahead_is_read_all_the_same(path, make_bank, monkeypatch):
     def cannot(*_):
         raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))

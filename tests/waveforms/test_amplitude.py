@@ -6,7 +6,7 @@ import pytest
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, edges
 from controller.bank.reader import Bank
-from controller.waveforms.amplitude_masking import SHARES, THRESHOLDS, masking_threshold
+from controller.kernel.words_twin import SHARES, THRESHOLDS, masking_threshold
 from controller.waveforms.composition import Composer
 
 IDLE_WORD = 0x69969669

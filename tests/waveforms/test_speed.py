@@ -5,7 +5,6 @@ import zlib
 import numpy as np
 import pytest
 
-from controller import kernel
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.waveforms.composition import Composer
@@ -25,17 +24,6 @@ def test_frames_of_a_cell(benchmark, bank):
     benchmark(bank.frames, 20)
 
 
-def test_frames_of_a_cell_numbered_anew(benchmark, bank):
-    """What the send buffer gets of a lone cell: its LOADs."""
-    ready, _ = bank.frames(20)
-    benchmark(kernel.renumber_loads, memoryview(bytearray(4096)), 77, ready)
-
-
-def test_frames_of_words(benchmark, bank):
-    """The same of words that were composed, with their CRC-32."""
-    benchmark(kernel.pack_loads, memoryview(bytearray(4096)), 77, bank.words(20))
-
-
 def places(count):
     return np.random.default_rng(count).uniform([6e-3, 7e-3], [34e-3, 30e-3], (count, 2)).tolist()
 
@@ -49,12 +37,13 @@ def test_compose(benchmark, bank, count, amplitude):
 @pytest.mark.parametrize("count", [1, 2, 4, 10])
 def test_copy_of_the_responses_that_are_composed(benchmark, bank, count):
     """What composing cannot do without: every byte of four cells for each point is read once."""
-    patches = [bank.response_patch(*bank.grid.patch(*place)[:3]) for place in places(count)]
-    room = np.empty_like(patches[0])
+    patches = [[bank.response(cell)[0] for cell in bank.grid.corners(*place)[0]] for place in places(count)]
+    room = np.empty_like(patches[0][0])
 
     def read():
         for patch in patches:
-            np.copyto(room, patch)
+            for levels in patch:
+                np.copyto(room, levels)
 
     benchmark(read)
 
