@@ -261,6 +261,28 @@ def test_the_memory_for_composing_is_taken_before_the_outputs_are_on(service):
     assert service.end()[0]["emissions"] < 3, "some were composed"
 
 
+def test_a_bank_takes_no_memory_before_the_first_touch(service, bank):
+    """Its waveforms are checked then, but read, not mapped: of what is played the pages are kept, and locked."""
+
+    def bank_kb():
+        kb, of_bank = 0, False
+        for line in Path(f"/proc/{service.process.pid}/smaps").read_text().splitlines():
+            name, *values = line.split()
+            if "-" in name:  # a mapping begins: its addresses, and at the end its file
+                of_bank = values[-1] == str(bank)
+            elif name == "Rss:" and of_bank:
+                kb += int(values[0])
+        return kb
+
+    status = Path(f"/proc/{service.process.pid}/status").read_text()
+    assert int(status.partition("VmRSS:")[2].split()[0]) < 64e6 / 1024
+    before_kb = bank_kb()
+    assert before_kb < 300, "the response of the cell with which composing is tried out"
+    with service.client() as client:
+        until_played(client)
+    assert before_kb < bank_kb()
+
+
 def test_a_command_is_played_and_answered(service):
     with service.client() as client:
         assert client.play("click", at_mm=(100, 70)).outcome == "played"
