@@ -18,11 +18,15 @@ RIGHT = [
     "estimate.host_s(fpga_s) - now_s",
     "estimate.fpga_s(now_s) < fpga_s + 1e-3",
     "scheduler.advance(fpga_s - 1e-3)",
+    "scheduler.advance(now_s + estimate.offset_s)",
+    "fpga_s - estimate.offset_s < now_s",
     "max(fpga_s - fpga_s, 1e-3)",
 ]
 WRONG = [
     "estimate.host_s(now_s)",
     "estimate.fpga_s(fpga_s)",
+    "now_s - estimate.offset_s",
+    "fpga_s + estimate.offset_s",
     "now_s < fpga_s",
     "fpga_s + fpga_s",
     "now_s - fpga_s",

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import Section, creator
+from controller.bank.file_format import VERSION, Section, creator
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.board.board import Board
@@ -33,6 +33,7 @@ def bank_info(path: Path) -> dict[str, Any]:
         return {
             "path": str(path),
             "bytes": bank.file_bytes,
+            "format": VERSION,
             "creator": header.creator,
             "board": header.parameters.get("board"),
             "board_digest": header.board_digest.hex(),

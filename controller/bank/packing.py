@@ -6,6 +6,7 @@ entry word by word and a memoryview of the bank goes to the wire as it is.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from controller.board.panel import CHANNELS
 __all__ = ["CHANNELS", "WORD", "channel_bits", "drive_words", "edges", "quantise"]
 
 WORD = np.dtype("<u4")
+SCALE_BITS = 13  # a response is stored 1/8192 coarser at most
 
 
 def drive_words(drive_order: NDArray[np.number[Any]], idle_word: int = 0) -> NDArray[np.uint32]:
@@ -92,7 +94,8 @@ def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], 
     levels : (sample, channel) int8 array
         -127 to 127.
     scale_m_per_v : float
-        `max|drive_order| / 127` as a float32 holds it; 0 for a response that is zero throughout.
+        `max|drive_order| / 127`, rounded up to `SCALE_BITS` significant bits: the last bits of `drive_order` depend on
+        the machine's linear algebra, and hardly ever show in it; 0 for a response that is zero throughout.
 
     Raises
     ------
@@ -100,8 +103,8 @@ def quantise(drive_order: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int8], 
         If `drive_order` is not finite or not (sample, 32).
     """
     _check(drive_order)
-    scale = np.float32(max(drive_order.max(initial=0.0), -drive_order.min(initial=0.0)) / 127)
+    mantissa, exponent = math.frexp(max(drive_order.max(initial=0.0), -drive_order.min(initial=0.0)) / 127)
+    scale = np.float32(math.ldexp(math.ceil(math.ldexp(mantissa, SCALE_BITS)), exponent - SCALE_BITS))
     if scale < np.finfo(np.float32).tiny:
         return np.zeros(drive_order.shape, np.int8), 0.0
-    # float32 rounds the scale by 6e-8 at most, so no quotient rounds to more than 127
     return np.rint(drive_order * np.float32(1 / scale)).astype(np.int8), float(scale)

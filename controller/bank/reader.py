@@ -60,7 +60,7 @@ class Bank:
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
-        self._response_good = bytearray(header.entries)
+        self._response_good = memoryview(mmap.mmap(-1, max(header.entries, 1)))  # shared with forked processes (`verify_response`)
         self._drive_stride = sections["drive"].stride
         self._drive_bytes = sections["drive"].row_bytes
         self._checked_words = bytearray(4 * header.samples)  # room for a check
@@ -253,15 +253,17 @@ class Bank:
         """
         entry = self._checked_response(cell)
         start = entry * self._response_stride
-        levels: NDArray[np.int8] = np.frombuffer(self._response, np.int8, self.samples * CHANNELS, start)
+        levels: NDArray[np.int8] = np.frombuffer(self.responses, np.int8, self.samples * CHANNELS, start)
         return levels.reshape(self.samples, CHANNELS), self._scale_of[entry]
 
     @property
     def responses(self) -> memoryview:
-        """The response section, in which entry n begins at n strides; empty until the first response was checked."""
+        """The response section, in which entry n begins at n strides; mapped when it is first asked for."""
+        if not self._response:
+            self._response = self._map("response")
         return self._response
 
-    def response_tables(self) -> tuple[list[int], list[float], bytearray]:
+    def response_tables(self) -> tuple[list[int], list[float], memoryview]:
         """What is needed to find responses in their section.
 
         Returns
@@ -270,8 +272,8 @@ class Bank:
             Entry of each cell, -1 for none.
         scales : list of float
             m per V of one level of each entry's response.
-        good : bytearray
-            For each entry whether its response was found good: the bank's own, which changes with `check_response`.
+        good : memoryview
+            For each entry, one byte: whether its response was found good. The bank's own, which changes with `check_response`.
         """
         return self._entry_of, self._scale_of, self._response_good
 
@@ -285,18 +287,32 @@ class Bank:
         """
         self._checked_response(cell)
 
+    def verify_response(self, cell: int) -> None:
+        """Read and check the response of a cell that has an entry, without mapping it.
+
+        A process forked from one that has the bank open does this beside it: what it finds good, the other one uses unchecked.
+
+        Raises
+        ------
+        BankError
+            If it is damaged.
+        """
+        entry = self._entry_of[cell]
+        offset = self.sections["response"].offset + entry * self._response_stride
+        if zlib.crc32(self.read(offset, self._response_bytes)) != self._crc_of[entry][1]:
+            raise self._bad("response", entry, cell)
+        self._response_good[entry] = 1
+
     def _checked_response(self, cell: int) -> int:
         """Entry of a cell whose response is mapped and good."""
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
         if not self._response_good[entry]:
-            if not self._response:
-                self._response = self._map("response")
             self._read_ahead(cell)
             start = entry * self._response_stride
             self.counters.response_checked += 1
-            if zlib.crc32(self._response[start : start + self._response_bytes]) != self._crc_of[entry][1]:
+            if zlib.crc32(self.responses[start : start + self._response_bytes]) != self._crc_of[entry][1]:
                 raise self._bad("response", entry, cell)
             self._response_good[entry] = 1
         return entry

@@ -11,8 +11,6 @@ import pwd
 import shlex
 from pathlib import Path
 
-import platformdirs
-
 from controller.board.board import Board
 from controller.errors import BankError
 
@@ -29,7 +27,11 @@ def state_folder(board: Board | None = None) -> Path:
     state = os.environ.get("STATE_DIRECTORY")  # set by systemd's StateDirectory=
     if state:
         return Path(state.split(":")[0])
-    return SERVICE_STATE if board is not None and board.is_the_systems else platformdirs.user_cache_path("haptic-panel")
+    if board is not None and board.is_the_systems:
+        return SERVICE_STATE
+    import platformdirs  # noqa: PLC0415 - what a service needs not
+
+    return platformdirs.user_cache_path("haptic-panel")
 
 
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:

@@ -15,7 +15,6 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
-from controller.commands.tables import plain_table, power_table
 from controller.errors import BankError, ConfigError
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene, load_scene
@@ -78,11 +77,14 @@ def bank_describe(options: argparse.Namespace) -> int:
     """Describe what a bank holds and what it was computed from; with --power, the load on the driver stages."""
     if options.power:
         from controller.benchmark.power import power_report
+        from controller.commands.tables import power_table
 
         board = load_board(find_board(options.board))
         with Bank.open(_bank_file(options), board) as bank:
             show(options, power_report(board, bank, progress=progress_bar("losses")), power_table)
         return 0
+    from controller.commands.tables import plain_table
+
     show(options, bank_info(_bank_file(options)), plain_table)
     return 0
 
@@ -166,4 +168,6 @@ def _build(
 
 
 def _build_table(figures: dict[str, Any]) -> str:
+    from controller.commands.tables import plain_table
+
     return f"{plain_table({name: value for name, value in figures.items() if name != 'path'})}\nbank: {figures['path']}"

@@ -11,8 +11,9 @@ from controller.board.lookup import find_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
 from controller.errors import ControllerError
-from controller.service.doctor import Finding, look
+from controller.service.doctor import look
 from controller.service.drivers import open_link, open_session
+from controller.service.finding import Finding
 from controller.service.link_examination import LinkExamined, examine_link
 
 if TYPE_CHECKING:
@@ -69,9 +70,8 @@ def _table(figures: dict[str, Any]) -> str:
         said = speed["trouble"] or f"{speed['errors']} errors in {speed['bits']:,} bits"
         lines.append(f"{'':<8}{speed['sck_hz'] / 1e6:>8.4g} MHz            {said}")
     if "sck_measured_hz" in figures:
-        measured = figures["sck_measured_hz"]
-        shown = "could not be measured" if measured is None else f"{measured / 1e6:.3g} MHz by the time that frames take"
-        lines.append(f"{'':<8}SCK {shown}; {figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel")
+        unknown = "; SCK could not be measured" if figures["sck_measured_hz"] is None else ""
+        lines.append(f"{'':<8}{figures['effective_hz'] / 1e6:.3g} Mbit/s with pauses and kernel{unknown}")
     return "\n".join(lines)
 
 

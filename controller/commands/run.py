@@ -12,14 +12,12 @@ from controller.board.lookup import find_board
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
-from controller.commands.tables import run_table, service_table
 from controller.errors import ConfigError
 from controller.log import Priority, line
 from controller.scene.edge_rate import edge_warnings
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import recording_path
-from controller.touch.recording import Recording
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
@@ -63,6 +61,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Run the service with the board's devices."""
+    from controller.commands.tables import service_table
     from controller.service.run import serve
 
     if options.plot or options.speed == "max":
@@ -71,6 +70,8 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     scene = load_scene(scene_file, board)
     replay = None
     if options.replay or isinstance(board.touch, RecordingTouch):
+        from controller.touch.recording import Recording
+
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
@@ -85,7 +86,9 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.commands.gateware import gateware_factory
+    from controller.commands.tables import run_table
     from controller.simulation import focus_evaluation, run_figures, simulated_run
+    from controller.touch.recording import Recording
 
     picture = picture_path(options)
     board = simulated(board)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from controller.clocks import FpgaTime
+from controller.clocks import ClockOffset, FpgaTime
 
 DRIFT_MAX: Final = 300e-6  # relative: two crystals of 100 ppm each, and NTP slewing the host's clock
 
@@ -30,8 +30,9 @@ class ClockEstimate:
     ----------
     known : bool
         False until the first exchange; `offset_s` is 0 until then.
-    offset_s : float
-        FPGA time minus host time: the middle of the interval.
+    offset_s : ClockOffset
+        FPGA time minus host time: the middle of the interval. Hot code adds it to host time, or subtracts it from FPGA time,
+        itself.
     error_s : float
         Largest possible error of `offset_s` at the newest exchange: half the width of the interval.
     """
@@ -39,7 +40,7 @@ class ClockEstimate:
     def __init__(self, clock_hz: float) -> None:
         self.clock_hz = clock_hz
         self.known = False
-        self.offset_s = 0.0
+        self.offset_s = ClockOffset(0.0)
         self.error_s = 0.0
         self._low_s = self._high_s = 0.0  # bounds of the offset
         self._updated_s = 0.0
@@ -63,17 +64,17 @@ class ClockEstimate:
             if both_low_s <= both_high_s:
                 low_s, high_s = both_low_s, both_high_s
         self._low_s, self._high_s = low_s, high_s
-        self.offset_s = (low_s + high_s) / 2
+        self.offset_s = ClockOffset((low_s + high_s) / 2)
         self.error_s = (high_s - low_s) / 2
         self.known = True
 
     def fpga_s(self, host_s: float) -> FpgaTime:
         """FPGA time in s at the host time `host_s`."""
-        return FpgaTime(host_s + self.offset_s)
+        return host_s + self.offset_s
 
     def host_s(self, fpga_s: FpgaTime) -> float:
         """Host time in s at the FPGA time `fpga_s`."""
-        return float(fpga_s) - self.offset_s
+        return fpga_s - self.offset_s
 
     def ticks(self, fpga_s: FpgaTime) -> int:
         """FPGA clock nearest to the FPGA time `fpga_s`."""

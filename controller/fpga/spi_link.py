@@ -9,6 +9,8 @@ from __future__ import annotations
 import contextlib
 import errno
 import fcntl
+import os
+import re
 import struct
 import time
 from collections.abc import Callable, Sequence
@@ -200,7 +202,7 @@ class SpiLink:
         device = self._settings.device
         spi = spidev.SpiDev()
         try:
-            spi.open_path(device)
+            spi.open(*_bus_and_select(device))
         except OSError as error:
             raise LinkError(_why_not_open(device, error)) from error
         try:
@@ -267,6 +269,15 @@ class SpiLink:
                 f"{device}: a message does not fit spidev's buffer: was bufsiz changed? It was {self.bufsiz} when opened"
             )
         return LinkError(f"{device} failed ({error.strerror}): look into the kernel's log (dmesg)")
+
+
+def _bus_and_select(device: str) -> tuple[int, int]:
+    """Bus and chip select of a device, of which links may be given: python3-spidev 3.6, which is Debian's, opens no path."""
+    path = os.path.realpath(device)
+    if numbers := re.fullmatch(r"/dev/spidev(\d+)\.(\d+)", path):
+        return int(numbers[1]), int(numbers[2])
+    os.stat(path)  # noqa: PTH116 - not there: the same error as of an open
+    raise LinkError(f"{device} is {path}, which is no device of spidev: give /dev/spidevB.C, or a link to it")
 
 
 def _read(spi: spidev.SpiDev, request: int, layout: str) -> int:

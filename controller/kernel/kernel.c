@@ -65,10 +65,11 @@ struct patch {
 /* Values lie in the order of channels 0, 2, .., 14, 1, 3, .., 15 and the same from 16 on: as 16 bytes fall into halves of 16 bits. */
 struct work {
     int count;
-    int64_t values, rest_rows, block_rows; /* values of a response in the band; rows of eight samples, in a block of samples too */
+    int64_t values, rest_rows, block_rows, blocks; /* values of a response in the band; rows of eight samples, in a block too; blocks */
     uint32_t idle_word;
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
     int32_t *strength, *threshold; /* of each block and channel */
+    int16_t *threshold_of_one;
     uint32_t *words;
     double norm[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
 };
@@ -212,6 +213,12 @@ APART void compare(int16_t *restrict above, const int32_t *restrict sum, const i
         for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(sum[CHANNELS * sample + i] > threshold[i]);
 }
 
+/* The same for a single point, whose sum is its response times a weight: against thresholds divided by that. */
+APART void compare_one(int16_t *restrict above, const int16_t *restrict response, const int16_t *restrict threshold) {
+    for (int sample = 0; sample < REST_SAMPLES; sample++)
+        for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(response[CHANNELS * sample + i] > threshold[i]);
+}
+
 APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
     int32_t sum = 0;
     for (int i = 0; i < values; i++) sum += a[i] * b[i];
@@ -270,18 +277,25 @@ static double whole_weights(const struct work *work, const double *weights, int1
     return unit;
 }
 
-/* Words where the weighted sum is above its threshold, and what they give at each point. */
-static void mask_and_measure(struct work *work, const int16_t *weight, const int32_t *threshold, int measured) {
+enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
+
+/* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum. */
+static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
     int16_t above[ROW], count[CHANNELS];
     int64_t total[MAX_FOCI] = {0};
     for (int64_t row = 0; row < work->rest_rows; row++) {
-        int64_t at = row * ROW, left = (work->values - at) / CHANNELS;
+        int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
-        add_up(work, weight, at, sum);
-        compare(above, sum, threshold + row / work->block_rows * CHANNELS);
-        write_words(work, at, samples, above);
-        if (!measured) continue;
+        if (work->count > 1 || to_do & STRENGTH) add_up(work, weight, at, sum);
+        if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
+        if (!(to_do & (WRITE | MEASURE))) continue;
+        if (work->count > 1)
+            compare(above, sum, work->threshold + block);
+        else
+            compare_one(above, work->response[0] + at, work->threshold_of_one + block);
+        if (to_do & WRITE) write_words(work, at, samples, above);
+        if (!(to_do & MEASURE)) continue;
         add_samples(count, above, samples);
         for (int i = 0; i < work->count; i++) {
             total[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
@@ -291,33 +305,23 @@ static void mask_and_measure(struct work *work, const int16_t *weight, const int
     for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->norm[i];
 }
 
-static void measure_strength(struct work *work, const int16_t *weight) {
-    int32_t sum[ROW];
-    int64_t blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
-    memset(work->strength, 0, (size_t)blocks * CHANNELS * sizeof *work->strength);
-    for (int64_t row = 0; row < work->rest_rows; row++) {
-        int64_t at = row * ROW, left = (work->values - at) / CHANNELS;
-        add_up(work, weight, at, sum);
-        add_strength(work->strength + row / work->block_rows * CHANNELS, sum, left < REST_SAMPLES ? (int)left : REST_SAMPLES);
-    }
-}
-
 static void set_threshold(struct work *work, double threshold) {
-    int64_t blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
     double scale = threshold / (double)(work->block_rows * REST_SAMPLES) * (1 << THRESHOLD_BITS);
     int64_t whole = scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
-    for (int64_t i = 0; i < blocks * CHANNELS; i++) {
+    for (int64_t i = 0; i < work->blocks * CHANNELS; i++) {
         int64_t scaled = work->strength[i] * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
         work->threshold[i] = scaled < INT32_MAX ? (int32_t)scaled : INT32_MAX;
+        if (work->count > 1) continue;
+        int32_t of_one = work->threshold[i] / POINT_WEIGHT_SUM; /* its only point has all of the weight */
+        work->threshold_of_one[i] = of_one < INT16_MAX ? (int16_t)of_one : INT16_MAX;
     }
 }
 
-static void solve(struct work *work, const double *asked) {
+/* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
+static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
     int count = work->count;
-    int16_t weight[MAX_FOCI];
     double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], gain = 0;
-    double first_unit = whole_weights(work, asked, weight), unit = first_unit, first_norm = sqrt(product(asked, asked, count));
-    measure_strength(work, weight);
+    double unit = first_unit, first_norm = sqrt(product(asked, asked, count));
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
     memcpy(residual_before, asked, sizeof residual_before);
@@ -330,7 +334,7 @@ static void solve(struct work *work, const double *asked) {
         }
         set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
         int last = turn == MAX_ROUNDS - 1, reached = 1;
-        mask_and_measure(work, weight, work->threshold, !last);
+        pass(work, weight, last ? WRITE : WRITE | MEASURE);
         if (last) return;
         for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
         if (reached) return;
@@ -356,10 +360,9 @@ static void solve(struct work *work, const double *asked) {
 
 /* Compose; what is asked for and patches of `work->count` points. */
 static void compose_points(struct work *work, const struct patch *patches, const double *asked) {
-    static const int32_t zeros[MAX_SAMPLES / REST_SAMPLES * CHANNELS];
     static const double ones[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
     int full = 1;
-    int16_t weight[MAX_FOCI];
+    int16_t weight[MAX_FOCI], weight_asked[MAX_FOCI];
     for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
     if (full && work->count == 1) {
         compose_one(work, patches);
@@ -371,11 +374,20 @@ static void compose_points(struct work *work, const struct patch *patches, const
         memset(work->response[i] + work->values, 0, (size_t)(work->rest_rows * ROW - work->values) * sizeof(int16_t));
         if (!full) interpolate(work->idle_word, patches + i, work->values, work->rest_rows * CHANNELS, work->rest[i]);
     }
+    memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
+    memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
+    memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
     whole_weights(work, ones, weight);
-    mask_and_measure(work, weight, zeros, !full);
-    if (full) return;
+    if (full) {
+        pass(work, weight, WRITE);
+        return;
+    }
+    double unit = whole_weights(work, asked, weight_asked);
+    int alike = !memcmp(weight, weight_asked, (size_t)work->count * sizeof *weight);
+    pass(work, weight, alike ? MEASURE | STRENGTH : MEASURE);
     for (int i = 0; i < work->count; i++) work->wanted[i] = asked[i] * work->measured[i];
-    solve(work, asked);
+    if (!alike) pass(work, weight_asked, STRENGTH);
+    solve(work, asked, weight_asked, unit);
 }
 
 /* Index of a row of cells and the distance beyond it, in pitches. */
@@ -480,6 +492,7 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
     work->values = plan->samples * CHANNELS;
     work->rest_rows = (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES;
     work->block_rows = plan->block_samples / REST_SAMPLES;
+    work->blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
     work->idle_word = (uint32_t)plan->idle_word;
     work->words = words;
     room += -(uintptr_t)room % LINE_BYTES;
@@ -489,7 +502,8 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
         room += work->rest_rows * (ROW + CHANNELS) * (int64_t)sizeof(int16_t);
     }
     work->strength = (int32_t *)room;
-    work->threshold = work->strength + work->rest_rows * CHANNELS;
+    work->threshold = work->strength + work->blocks * CHANNELS;
+    work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);
 }
 
 enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };

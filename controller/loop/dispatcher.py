@@ -115,7 +115,7 @@ class Dispatcher:
 
     def handover_s(self, now_s: float) -> float | None:
         """Host time at which what is due can be handed over; None if nothing is due, or it has to wait for something else."""
-        if self._playback.accepted is None and self._scheduler.due and self._may_play(now_s, self._clock_estimate.fpga_s(now_s)):
+        if self._playback.accepted is None and self._scheduler.due and self._may_play(now_s, now_s + self._clock_estimate.offset_s):
             return max(now_s, self._open_s())
         return None
 

@@ -210,7 +210,7 @@ class EventLoop:
             self._commands.serve(now_s, self.control)
         if self._change is not None:
             self._change_scene(now_s)
-        fpga_s = self._clock_estimate.fpga_s(now_s)
+        fpga_s = now_s + self._clock_estimate.offset_s
         self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
         if self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), self._outputs.on):
             self._outputs.emission_started()
@@ -222,9 +222,9 @@ class EventLoop:
         samples = self._source.read(now_s)
         if not samples:
             return -1, None
-        finger = None
+        finger, offset_s = None, self._clock_estimate.offset_s
         for sample in samples:
-            self._scheduler.touch(sample, self._clock_estimate.fpga_s(sample.time_s))
+            self._scheduler.touch(sample, sample.time_s + offset_s)
             if sample.contact:
                 finger = sample.finger
         if self._commands is not None:

@@ -157,7 +157,7 @@ class Playback:
             batch,
             plan,
             ready_s,
-            max(ready_s, self.occupancy.free_s + MARGIN_S) if at_s is None else self._clock_estimate.host_s(plan.start_s),
+            max(ready_s, self.occupancy.free_s + MARGIN_S) if at_s is None else plan.start_s - self._clock_estimate.offset_s,
             None if at_s is None else start_ticks,
             decided_ns - started_ns,
             time.perf_counter_ns() - decided_ns - blocked_ns,
@@ -170,7 +170,7 @@ class Playback:
             return Attempt(Outcome.PLAYED, accepted.start_s, self._clock_estimate.fpga_s_of(start_ticks), True)
         self.accepted = accepted
         at_once = accepted.start_s <= ready_s
-        attempt = Attempt(Outcome.PLAYED, accepted.start_s, self._clock_estimate.fpga_s(accepted.start_s), at_once)
+        attempt = Attempt(Outcome.PLAYED, accepted.start_s, accepted.start_s + self._clock_estimate.offset_s, at_once)
         if at_once:
             self.trigger()
         return attempt
@@ -282,9 +282,9 @@ class Playback:
         """Earliest start of what begins to go out now; whether that misses a beat, which is played on arrival then."""
         at_s = batch.at_s
         if at_s is None or not batch.has_begun:
-            arrived_s = self._clock_estimate.fpga_s(begun_s + (way.expected_s if at_s is None else way.promised_s))
+            arrived_s = begun_s + (way.expected_s if at_s is None else way.promised_s) + self._clock_estimate.offset_s
             return self.occupancy.earliest_start_s(arrived_s, at_s), False
-        arrived_s = self._clock_estimate.fpga_s(begun_s + way.expected_s)
+        arrived_s = begun_s + way.expected_s + self._clock_estimate.offset_s
         start_s = max(self.occupancy.free_from_s(arrived_s), at_s)
         return (arrived_s, True) if arrived_s > start_s else (start_s, False)
 
@@ -299,7 +299,7 @@ class Playback:
 
     def _aim(self, emissions: Sequence[Emission], start_s: FpgaTime, predicted: bool) -> list[Point]:
         """Where the focus of each emission is to be, and its amplitude."""
-        focus_s = self._clock_estimate.host_s(start_s) + self.occupancy.duration_s
+        focus_s = start_s - self._clock_estimate.offset_s + self.occupancy.duration_s
         points = []
         for emission in emissions:
             place = self._locate(emission.finger, focus_s) if emission.finger is not None and predicted else None
@@ -318,7 +318,8 @@ class Playback:
                 self._slots.drop(slot)
             raise
         finally:
-            self._stopped()
+            if self.repeating:
+                self._stopped()
         self._last_slot = slot
         if slot in self._prefetch.unplayed:
             self._prefetch.played(slot)
@@ -338,7 +339,8 @@ class Playback:
                 self._slots.keep(key, slot)
             raise
         finally:
-            self._stopped()
+            if self.repeating:
+                self._stopped()
         self._last_slot = slot
         self._slots.keep(key, slot)
 
@@ -363,7 +365,7 @@ class Playback:
         """Count a start, and what it took."""
         (emissions, count, period_s, _, _), plan = accepted.batch, accepted.plan
         ticks, resident = accepted.start_ticks, plan.resident is not None
-        fpga_s = self._clock_estimate.fpga_s(start_s) if ticks is None else self._clock_estimate.fpga_s_of(ticks)
+        fpga_s = start_s + self._clock_estimate.offset_s if ticks is None else self._clock_estimate.fpga_s_of(ticks)
         self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)
         counters = self._counters
         counters.emissions += 1

@@ -222,7 +222,7 @@ class ActiveEffects:
         for train in trains:
             active = ActiveTrain(train, time_s, region, ends_on_leave=ends_on_leave)
             first = self._beat(active, time_s)
-            if not active.over:
+            if active.beat < train.beats:  # not over
                 self._add(active)
             if first is not None:
                 strongest = first if strongest is None else _strongest(strongest, first)

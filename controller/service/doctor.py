@@ -27,33 +27,13 @@ from controller.fpga.link import Link
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_link, open_panel
+from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
+from controller.service.raspberry_pi import look_at_pi
 from controller.touch.recording import Recording
 
 MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """Result of a check.
-
-    Attributes
-    ----------
-    about : str
-        What was checked.
-    good : bool
-        Whether it works.
-    said : str
-        What was found, or what to do.
-    warns : bool
-        Whether it works and is still not as one would expect.
-    """
-
-    about: str
-    good: bool
-    said: str
-    warns: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +79,7 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         ]
     with _rights_of(user):
         findings = [_tried(about, check) for about, check in checks]
+    findings += look_at_pi(board)
     return [finding for finding in findings if finding.good or finding.about != "responses"]  # an invalid bank is reported once
 
 

@@ -24,8 +24,6 @@ from controller.touch.event_reader import EventReader
 from controller.touch.live_source import LiveSource
 from controller.touch.panel_process import PanelProcess
 from controller.touch.prediction import Motion
-from controller.touch.recording import Recording
-from controller.touch.replay import RecordingSource
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
 
@@ -33,6 +31,7 @@ if TYPE_CHECKING:
     from controller.gateware_model.gateware import GatewareFactory
     from controller.gateware_model.simulated_link import SimulatedLink
     from controller.service.temperature import Thermometer
+    from controller.touch.recording import Recording
 
 NO_PANEL = "board {!r} has no touch panel: give its [touch] a kind, or replay a recording"
 UNHURRIED_S = 0.5  # for an answer over a serial port: bring-up may be done from a busy laptop, through any bridge
@@ -146,6 +145,8 @@ def open_touch(board: Board, replay: Recording | None = None, start_s: float = 0
         If the panel is not there.
     """
     if replay is not None:
+        from controller.touch.replay import RecordingSource
+
         return RecordingSource(replay, replay.axes(board), start_s)
     return LiveSource(open_panel(board), board)
 

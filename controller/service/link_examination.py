@@ -14,13 +14,16 @@ from controller.clocks import Clock
 from controller.errors import ControllerError
 from controller.fpga import bring_up
 from controller.fpga.capture import Capture
+from controller.fpga.frames import LOAD_FRAME_BYTES
 from controller.fpga.link import Link
 from controller.fpga.link_check import ClockedLink, bit_error_count, error_rate_bound, measured_sck_hz, proposed_sck_hz, sweep
+from controller.fpga.registers import LOAD_PAYLOAD_MAX_BYTES
 from controller.fpga.session import Session
 from controller.gateware_model.simulated_link import SimulatedLink
-from controller.service.doctor import Finding
+from controller.service.finding import Finding
 
 SWEEP_SHARE = 0.1  # of the bits, at each speed of the sweep
+SCK_SHARE = 0.7  # at least, of the SCK that was set: a driver's gaps take a fifth, a core clock that idles takes half
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +82,11 @@ def examine_link(
         from controller.fpga.spi_link import SpiLink
 
         assert isinstance(link, SpiLink)
-        figures["sck_measured_hz"] = _finite(measured_sck_hz(session, link))
+        measured_hz = measured_sck_hz(session, link)
+        figures["sck_measured_hz"] = _finite(measured_hz)
         figures["effective_hz"] = link.effective_hz
+        if math.isfinite(measured_hz):
+            findings.append(judged_sck(board, measured_hz, link.sck_hz))
     findings += [Finding("board", False, complaint) for complaint in done.complaints]
     if not done.complaints:
         seen = "" if take_capture is None else ", each moved its own pin"
@@ -110,6 +116,32 @@ def _swept(
     if proposal_hz < board.link.sck_hz:
         return Finding("SCK", False, f"set link.sck_hz = {proposal_hz} ({rule}), or shorten the wires and join the grounds")
     return Finding("SCK", True, f"{sck_hz / 1e6:g} MHz as the board says; no error from {speeds[0].sck_hz / 1e6:g} MHz on")
+
+
+def arriving_sck_hz(board: Board) -> float:
+    """Least SCK in Hz at which the FPGA plays a waveform while it arrives: a chunk's frame takes no longer than it plays."""
+    words = LOAD_PAYLOAD_MAX_BYTES // 4
+    return 8 * LOAD_FRAME_BYTES / (words * board.waveform.bit_period_s)
+
+
+def judged_sck(board: Board, measured_hz: float, counted_hz: float) -> Finding:
+    """Judge the SCK that a measurement shows.
+
+    Parameters
+    ----------
+    board : Board
+    measured_hz : float
+        SCK by the time that frames take.
+    counted_hz : float
+        SCK that the link was set to, on which times on the wire are based.
+    """
+    arriving_hz = arriving_sck_hz(board)
+    arriving = "" if measured_hz >= arriving_hz else f"; the FPGA plays nothing while it arrives below {arriving_hz / 1e6:.3g} MHz"
+    if measured_hz < SCK_SHARE * counted_hz:
+        said = f"frames take as long as at {measured_hz / 1e6:.3g} MHz, not {counted_hz / 1e6:.3g}{arriving}"
+        advice = "on a Raspberry Pi 3 or 4 hold the core clock (boards/raspberry_pi.md), and see that nothing else runs"
+        return Finding("SCK measured", False, f"{said}: {advice}")
+    return Finding("SCK measured", True, f"{measured_hz / 1e6:.3g} MHz by the time that frames take{arriving}")
 
 
 def _finite(value: float) -> float | None:

@@ -53,13 +53,24 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
     BankError
         If the bank lacks one, or one is damaged.
     """
-    wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m)
-    missing = int((wanted & ~bank.cells).sum())
-    if missing:
-        raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")
-    cells = wanted.nonzero()[0].tolist()
+    cells = cells_of(bank, scene, called)
     bank.check_frames(cells)
     if responses:
         for cell in cells:
             bank.response(cell)
     return len(cells)
+
+
+def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
+    """Cells that a scene can ask for; parameters as of `populate`.
+
+    Raises
+    ------
+    BankError
+        If the bank lacks one.
+    """
+    wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m)
+    missing = int((wanted & ~bank.cells).sum())
+    if missing:
+        raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")
+    return list(wanted.nonzero()[0].tolist())

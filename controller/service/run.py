@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from controller.application_socket.command_socket import CommandSocket
 from controller.bank.reader import Bank
@@ -13,18 +13,21 @@ from controller.errors import ControllerError
 from controller.log import LOG, Priority, log
 from controller.loop.wiring import Assembly, assemble
 from controller.scene.scene import Scene
+from controller.service.check_beside import check_responses_beside
 from controller.service.drivers import await_panel, await_session, await_thermometer, open_touch, tracked
 from controller.service.housekeeping import Housekeeping
-from controller.service.prepare_scene import populate
+from controller.service.prepare_scene import cells_of
 from controller.service.realtime import enter_realtime
 from controller.service.reloading import ReloadFile
 from controller.service.scene_reload import SceneChanger
 from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
-from controller.touch.recording import Recording
 from controller.touch.reports import describe_warnings
 from controller.touch.source import TouchSource
 from controller.touch.tracker import Tracker
+
+if TYPE_CHECKING:
+    from controller.touch.recording import Recording
 
 REPLAY_AFTER_S = 0.3  # from the end of the ramp to the start of a recording
 
@@ -61,7 +64,9 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         notifier = stack.enter_context(Notifier.from_environment())
         change = SceneChanger(board, scene_name, bank)
         stack.callback(change.close)
-        cells = populate(bank, scene, scene_name)  # before memory is locked and anything is armed
+        cells = cells_of(bank, scene, scene_name)
+        bank.check_frames(cells)  # before memory is locked and anything is armed
+        check_responses_beside(bank, cells)
         link, session = await_session(board, clock.now_s)
         stack.callback(link.close)
         panel = None
@@ -101,7 +106,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
             log(warning, Priority.WARNING)
-        log(f"board {board.name!r}, scene {scene_name!r}, {cells} cells of {bank.path}")
+        log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}")
         try:
             assembly.loop.run()
         except ControllerError as error:

@@ -15,7 +15,6 @@ import resource
 import select
 import signal
 import socket
-import sys
 import time
 from pathlib import Path
 
@@ -23,7 +22,6 @@ from controller.errors import ControllerError
 from controller.service.prepare_scene import prepare
 from controller.service.scene_message import HEADER, MOST_BYTES, length, pack_refusal, pack_scene, unpack_request
 
-NICE = 5
 MEMORY_BYTES = 256 << 20  # limit for a preparation, in addition to the bank's size
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 CHUNK_BYTES = 1 << 16
@@ -154,13 +152,3 @@ def _in_words(status: int) -> str:
     if os.WIFSIGNALED(status):
         return f"its process ended by {signal.Signals(os.WTERMSIG(status)).name}"
     return "its process ended without an answer"
-
-
-def main() -> None:
-    """Serve the socket on standard input; the argument is the time limit in s."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # meant for the loop, with which this process ends
-        signal.signal(number, signal.SIG_IGN)
-    with contextlib.suppress(PermissionError):  # a sandbox may forbid it
-        os.nice(NICE)
-    with socket.socket(fileno=0) as loop, contextlib.suppress(ConnectionError):
-        serve(loop, float(sys.argv[1]))

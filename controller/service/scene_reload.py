@@ -1,7 +1,7 @@
 """Loading of another scene, or of a replaced bank, while the loop runs: a helper process prepares it, the loop takes it over.
 
-Nothing here blocks. The helper (`scene_helper`) is started before the loop gets real-time priority: starting a program waits until
-the new process was scheduled, which can take long for one of ordinary priority.
+Nothing here blocks. The helper (`scene_helper_process`) is started before the loop gets real-time priority: starting a program
+waits until the new process was scheduled, which can take long for one of ordinary priority.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ LIMIT_S = 30.0  # time limit of one preparation; the bank may have to be read fr
 GRACE_S = 5.0  # after that limit, until the helper itself counts as hanging
 CHUNK_BYTES = 1 << 16  # read in one turn of the loop
 MOST_FILES = 1 << 20  # file descriptors to close in the helper if their number is unlimited
-PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.service.scene_helper import main; main()"
+PROGRAM = "import sys; sys.path.insert(0, {!r}); from controller.service.scene_helper_process import main; main()"
 
 
 class SceneChanger:

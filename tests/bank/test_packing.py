@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
+from controller.bank.packing import CHANNELS, SCALE_BITS, channel_bits, drive_words, edges, quantise
 
 levels = st.one_of(st.sampled_from([0.0, -0.0, 2.0**-149, -(2.0**-149)]), st.floats(-1, 1, width=32))
 responses = arrays(np.float32, st.tuples(st.integers(1, 40), st.just(CHANNELS)), elements=levels)
@@ -50,10 +50,19 @@ def test_packing_and_unpacking_are_inverse(words):
 def test_eight_bits_hold_a_response_to_half_a_step(drive_order):
     step, scale = quantise(drive_order)
     peak = np.abs(drive_order).max()
-    assert scale == pytest.approx(peak / 127, rel=1e-6, abs=1e-38)
-    assert np.abs(step * np.float64(scale) - drive_order).max() <= 0.5001 * peak / 127 + 2e-36  # below that: denormal
+    assert scale == pytest.approx(peak / 127, rel=2**-12, abs=1e-38)
+    assert np.abs(step * np.float64(scale) - drive_order).max() <= 0.5001 * max(scale, peak / 127) + 2e-36  # below that: denormal
     assert np.abs(step).max() <= 127
     assert np.array_equal(step == 0, step * scale == 0)
+
+
+@given(responses)
+def test_a_scale_has_few_bits_and_is_not_below_the_peak(drive_order):
+    """Machines whose linear algebra rounds otherwise come to the same one, but for one peak in a thousand."""
+    _, scale = quantise(drive_order)
+    assert scale == 0 or 127 * scale >= np.abs(drive_order).max()
+    mantissa, _ = np.frexp(scale)
+    assert mantissa * 2**SCALE_BITS == np.rint(mantissa * 2**SCALE_BITS)
 
 
 @pytest.mark.parametrize(

@@ -490,7 +490,16 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     double unit = total ? 256 / total : 0;
     for (int i = 0; i < p->cells; i++)
         p->weight[i] = (int16_t)rint(share[i] * unit);
+    if (p->cells == 1) p->weight[0] = 256;
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
+}
+
+/* Weights of responses: whole numbers that sum to 32767, each the smaller the larger its response is. */
+static void weigh(const int64_t *size, int count, int16_t *weight)
+{
+    double total = 0;
+    for (int i = 0; i < count; i++) total += 1.0 / (size[i] ? (double)size[i] : 1.0);
+    for (int i = 0; i < count; i++) weight[i] = (int16_t)rint(1.0 / (size[i] ? (double)size[i] : 1.0) * (32767 / total));
 }
 
 /* Words of a place and of several places: plain loops, or by -DVECTORS vectors of 128 bits, which are SSE and NEON alike. */
@@ -502,7 +511,6 @@ typedef int16_t i16x8 __attribute__((vector_size(16)));
 typedef uint16_t u16x8 __attribute__((vector_size(16)));
 typedef int32_t i32x4 __attribute__((vector_size(16)));
 typedef uint64_t u64x2 __attribute__((vector_size(16)));
-typedef float f32x4 __attribute__((vector_size(16)));
 enum { PER = 8, GROUPS = CHANNELS / PER }; /* vectors of one sample */
 
 static i16x8 rows[POINTS][VALUES / PER];
@@ -516,11 +524,8 @@ static i16x8 rows[POINTS][VALUES / PER];
 static inline void sixteen(const struct patch *p, int at, i16x8 out[2])
 {
     i8x16 levels = LEVELS(0, at);
-    out[0] = LOW(levels);
-    out[1] = HIGH(levels);
-    if (p->cells == 1) return;
-    out[0] *= p->weight[0];
-    out[1] *= p->weight[0];
+    out[0] = LOW(levels) * p->weight[0];
+    out[1] = HIGH(levels) * p->weight[0];
     for (int cell = 1; cell < p->cells; cell++) {
         levels = LEVELS(cell, at);
         out[0] += LOW(levels) * p->weight[cell];
@@ -554,11 +559,11 @@ static void interpolate(double x_m, double y_m)
 static void compose(const double (*points)[2], int count)
 {
     i16x8 flips[GROUPS];
-    float weight[POINTS];
+    int16_t weight[POINTS];
+    int64_t size[POINTS] = {0};
     memcpy(flips, flip, sizeof flips);
     for (int i = 0; i < count; i++) {
         struct patch patch, *p = &patch;
-        int64_t size = 0;
         patch_at(points[i][0], points[i][1], p);
         for (int n = 0; n < SAMPLES;) {
             u16x8 low = {0}, high = {0}; /* bytes of the absolute values: 32 samples of them fit 16 bits */
@@ -573,22 +578,22 @@ static void compose(const double (*points)[2], int count)
                         high += magnitude >> 8;
                     }
                 }
-            for (int k = 0; k < PER; k++) size += low[k] + 256 * (int64_t)high[k];
+            for (int k = 0; k < PER; k++) size[i] += low[k] + 256 * (int64_t)high[k];
         }
-        weight[i] = (float)(1.0 / (size ? (double)(float)size : 1.0));
     }
+    weigh(size, count, weight);
     for (int n = 0; n < SAMPLES; n++) {
         uint32_t word = 0;
         for (int half = 0; half < 2; half++) {
             i16x8 bits[2];
             for (int k = 0; k < 2; k++) {
-                f32x4 total[2] = {{0}, {0}};
+                i32x4 total[2] = {{0}, {0}};
                 for (int i = 0; i < count; i++) {
                     i16x8 v = rows[i][n * GROUPS + 2 * half + k], zero = {0};
                     i32x4 first = (i32x4)__builtin_shuffle(zero, v, (i16x8){0, 8, 0, 9, 0, 10, 0, 11}) >> 16;
                     i32x4 last = (i32x4)__builtin_shuffle(zero, v, (i16x8){0, 12, 0, 13, 0, 14, 0, 15}) >> 16;
-                    total[0] += weight[i] * __builtin_convertvector(first, f32x4);
-                    total[1] += weight[i] * __builtin_convertvector(last, f32x4);
+                    total[0] += weight[i] * first;
+                    total[1] += weight[i] * last;
                 }
                 bits[k] = __builtin_shuffle((i16x8)(total[0] > 0), (i16x8)(total[1] > 0), (i16x8){0, 2, 4, 6, 8, 10, 12, 14});
             }
@@ -600,9 +605,9 @@ static void compose(const double (*points)[2], int count)
 
 #else
 
-static int16_t sum_of[VALUES];
+static int16_t sum_of[VALUES], rows[POINTS][VALUES];
 static uint8_t bits_of[VALUES];
-static float row[VALUES], total_of[VALUES];
+static int32_t total_of[VALUES];
 
 static void add_up(const struct patch *p)
 {
@@ -613,7 +618,7 @@ static void add_up(const struct patch *p)
     else if (p->cells == 2)
         for (int i = 0; i < VALUES; i++) sum_of[i] = (int16_t)(a[i] * wa) + (int16_t)(b[i] * wb);
     else
-        for (int i = 0; i < VALUES; i++) sum_of[i] = a[i];
+        for (int i = 0; i < VALUES; i++) sum_of[i] = (int16_t)(a[i] * wa);
 }
 
 static void pack(uint32_t turned)
@@ -639,27 +644,28 @@ static void interpolate(double x_m, double y_m)
 
 static void compose(const double (*points)[2], int count)
 {
+    int64_t size[POINTS] = {0};
+    int16_t weight[POINTS];
     for (int i = 0; i < count; i++) {
         struct patch p;
-        int64_t size = 0;
-        float weight;
         patch_at(points[i][0], points[i][1], &p);
         add_up(&p);
         for (int n = 0; n < SAMPLES; n++) {
             int part = 0;
             for (int q = 0; q < CHANNELS; q++) {
                 int value = sum_of[n * CHANNELS + q] * flip[q];
-                row[n * CHANNELS + q] = (float)value;
+                rows[i][n * CHANNELS + q] = (int16_t)value;
                 part += value < 0 ? -value : value;
             }
-            size += part;
+            size[i] += part;
         }
-        weight = (float)(1.0 / (size ? (double)(float)size : 1.0));
-        if (i)
-            for (int v = 0; v < VALUES; v++) total_of[v] += weight * row[v];
-        else
-            for (int v = 0; v < VALUES; v++) total_of[v] = weight * row[v];
     }
+    weigh(size, count, weight);
+    for (int i = 0; i < count; i++)
+        if (i)
+            for (int v = 0; v < VALUES; v++) total_of[v] += weight[i] * rows[i][v];
+        else
+            for (int v = 0; v < VALUES; v++) total_of[v] = weight[i] * rows[i][v];
     for (int v = 0; v < VALUES; v++) bits_of[v] = total_of[v] > 0;
     pack((uint32_t)c.idle_word);
 }

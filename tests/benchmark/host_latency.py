@@ -150,7 +150,6 @@ def measure(bank_path: Path, emissions: int, runs: int, *, busy: bool = True) ->
                     "twin_checked": twin.checked,
                     "twin_played": twin.played,
                     "twin_composed": twin.composed,
-                    "twin_bits_off": twin.bits,
                 }
             )
     medians = {name: statistics.median(run[name] for run in figures) for name in FIGURES}
@@ -184,9 +183,7 @@ def show(figures: dict[str, Any]) -> None:
     """Print the figures of `measure`."""
     for run in figures["runs"]:
         print(f"{run['emissions']} emissions, load {run['load']:.1f}; all messages of the 128-bit twin compared:", end=" ")
-        print(
-            f"{run['twin_checked']} uploads ({run['twin_composed']} of several fingers, {run['twin_bits_off']} bits off), ", end=""
-        )
+        print(f"{run['twin_checked']} uploads ({run['twin_composed']} of several fingers), ", end="")
         print(f"{run['twin_played']} resident plays; p50 / p99 / worst in us:")
         for kind, name, stages in (("upload", "", run["stages"]), ("resident", "resident_", run["resident_stages"])):
             columns = [("loop", name), ("128-bit twin", f"twin_{name}"), ("plain twin", f"plain_twin_{name}")]

@@ -7,12 +7,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from controller.board.board import load_board
 from controller.board.lookup import data_folder, find_board
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
+from controller.fpga.spi_link import divided_hz
 from controller.simulation.rtl_build import verilator_root
 
 BOARDS = data_folder("boards")
@@ -86,6 +88,18 @@ def made_of(name, *, of="board.toml"):
     command = [sys.executable, "-m", "controller.fpga.build_parameters", of, RTL]
     done = subprocess.run(command, cwd=BOARDS / name, capture_output=True, text=True, check=True)
     return {parameter: int(value) for parameter, value in re.findall(r"(\w+)=32'd(\d+)", done.stdout)}
+
+
+def test_the_board_of_a_pi_5_is_that_of_a_pi_4_but_for_the_pis_devices():
+    """One gateware serves both: the bitstream's parameters are equal, so the second has no Verilog, pins or Makefile of its own."""
+    on_pi_4, on_pi_5 = (load_board(find_board(name)) for name in ("ulx3s", "ulx3s_pi5"))
+    assert (on_pi_5.link.gpio_chip, divided_hz(on_pi_5.link.spi_source_hz, on_pi_5.link.sck_hz)) == ("pinctrl-rp1", 25e6)
+    assert (on_pi_4.link.gpio_chip, divided_hz(on_pi_4.link.spi_source_hz, on_pi_4.link.sck_hz)) == ("pinctrl-bcm2711", 25e6)
+    its = {name: getattr(on_pi_4.link, name) for name in ("gpio_chip", "spi_source_hz")}
+    link = msgspec.structs.replace(on_pi_5.link, **its)
+    assert msgspec.structs.replace(on_pi_5, name=on_pi_4.name, folder=on_pi_4.folder, link=link) == on_pi_4
+    assert BuildParameters.of(on_pi_5, 0) == BuildParameters.of(on_pi_4, 0)
+    assert not list(on_pi_5.folder.glob("*.v"))
 
 
 @pytest.mark.parametrize("name", HARDWARE)
@@ -187,3 +201,19 @@ def test_a_bitstream_comes_out_in_time(name, tmp_path):
     assert all(clock["achieved"] >= clock["constraint"] for clock in report["fmax"].values())
     assert max(clock["constraint"] for clock in report["fmax"].values()) >= load_board(find_board(name)).link.clock_hz / 1e6 - 0.01
     assert (tmp_path / ("top.bin" if name == "ice40_hx8k" else "top.bit")).stat().st_size > 10_000
+
+
+def test_the_picture_of_the_wires_shows_those_of_the_table():
+    """By their colours: each label of the Pi's side has that of one label of the FPGA's."""
+    text = (BOARDS / "ulx3s" / "raspberry_pi.svg").read_text()
+    labels = re.findall(r'fill="(#\w+)">(?:(\d+)  GPIO(\d+)|(G[PN]\d+))  ', text)
+    ends = {colour: place for colour, _, _, place in labels if place}
+    drawn = {(gpio, int(pin), ends[colour]) for colour, pin, gpio, place in labels if not place}
+    (rows,) = re.findall(r"^\| Pi \|.*\n\|[-|]+\n((?:\|.*\n)+)", (BOARDS / "ulx3s" / "README.md").read_text(), re.MULTILINE)
+    told = set()
+    for row in rows.splitlines():
+        pi, pins, place = row.strip("|").split("|")
+        gpios, places = re.findall(r"\d+", pi.split("(")[0]), re.findall(r"G[PN]\d+", place)
+        told |= set(zip(gpios, map(int, re.findall(r"\d+", pins)), places, strict=False))
+    assert drawn == told
+    assert len(drawn) == 7

@@ -69,7 +69,7 @@ class RaspberryPi:
 
 
 class SpiDev:
-    """The extension module's object."""
+    """The extension module's object, with what version 3.6 has of it."""
 
     READ = {  # noqa: RUF012
         spi_link.RD_MODE32: ("mode", "=I"),
@@ -84,8 +84,8 @@ class SpiDev:
         self.mode, self.bits_per_word, self.max_speed_hz = 0, 8, 500_000
         self.lsbfirst = self.cshigh = self.threewire = self.loop = self.no_cs = False
 
-    def open_path(self, path):
-        if path != BUS:
+    def open(self, bus, device):
+        if f"/dev/spidev{bus}.{device}" != BUS:
             raise FileNotFoundError(errno.ENOENT, "No such file or directory")
         self._fd = os.open(self._device, os.O_RDWR)
         self.opened[self._fd] = self

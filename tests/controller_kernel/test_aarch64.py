@@ -28,7 +28,19 @@ def test_the_wheel_for_arm_plays_as_the_twin(tmp_path):
     zipfile.ZipFile(next(wheel for wheel in made if wheel.endswith("aarch64.whl"))).extractall(packages)
     root = tmp_path / "arm" / "root"
     emulated = ["qemu-aarch64-static", "-L", root, root / "usr" / "bin" / "python3", "-P", "-m", "pytest"]
-    alone = ["-c", "/dev/null", "--rootdir", HERE, "--noconftest", "-p", "no:cacheprovider", "--import-mode=importlib", "-q"]
+    alone = [
+        "-c",
+        "/dev/null",
+        "--rootdir",
+        HERE,
+        "--noconftest",
+        "-p",
+        "no:cacheprovider",
+        "--import-mode=importlib",
+        "-q",
+        "-m",
+        "not slow",
+    ]
     said = output_of(
         *emulated, *alone, "--ignore", HERE / Path(__file__).name, HERE, PYTHONPATH=str(packages), HAPTIC_PANEL_KERNEL="compiled"
     )

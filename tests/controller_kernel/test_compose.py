@@ -55,7 +55,7 @@ on_cells = st.tuples(st.integers(-1, 5), st.integers(-1, 5), amplitudes).map(
 
 
 @needs_compiled
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 @given(
     seed=st.integers(0, 1 << 32),
     samples=st.one_of(st.integers(1, 120), st.sampled_from([999, 1000, 1001])),
@@ -83,7 +83,7 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idl
 
 
 @needs_compiled
-@settings(max_examples=100)
+@settings(max_examples=100, deadline=None)
 @given(st.data())
 def test_it_refuses_what_its_twin_refuses(data):
     """Numbers of the plan, lengths and points that do not go together: the same answer, and nothing beyond a buffer."""

@@ -73,7 +73,7 @@ def test_composed_words_are_read_for_the_crcs_of_frames_and_slot_and_ready_frame
     twin.number_changes(512)  # made once
     checked = count_crcs(monkeypatch)
     fpga.upload(0, waveform)
-    assert [size for size in checked if size > 32] == crcs
+    assert [size for size in checked if size > frames.FRAME_BYTES] == crcs
     assert link.bytes_sent > frames.UPLOAD_BYTES
     assert fpga.exchange.read_slot_crc(0) == zlib.crc32(WORDS)
 

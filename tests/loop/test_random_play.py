@@ -16,6 +16,7 @@ import pytest
 from controller.bank.reader import Bank
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError
+from controller.fpga.frames import ReadyFrames
 from controller.loop.scene_source import PreparedScene
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
@@ -259,6 +260,11 @@ def play(seed, board, bank_file, tmp_path, evemu_text):
     return counters
 
 
+def crc_of(waveform):
+    """CRC-32 that the FPGA is to find for what is uploaded."""
+    return waveform.crc if isinstance(waveform, ReadyFrames) else zlib.crc32(waveform)
+
+
 def run_until(loop, clock, end_s):
     """The loop with commands never ends by itself."""
     wait = clock.wait
@@ -318,15 +324,15 @@ class Judge:
 
         self._scheduler.next_batch = taken
 
-    def _uploaded(self, slot, words, *how):
+    def _uploaded(self, slot, waveform, *how):
         self._crcs.pop(slot, None)
-        self._upload(slot, words, *how)
-        self._crcs[slot] = zlib.crc32(words)
+        self._upload(slot, waveform, *how)
+        self._crcs[slot] = crc_of(waveform)
 
-    def _uploaded_and_played(self, slot, words, *how, **more):
+    def _uploaded_and_played(self, slot, waveform, *how, **more):
         self._crcs.pop(slot, None)
-        self._both(slot, words, *how, **more)
-        self._crcs[slot] = self._last = zlib.crc32(words)
+        self._both(slot, waveform, *how, **more)
+        self._crcs[slot] = self._last = crc_of(waveform)
 
     def _played(self, slot, *how, **more):
         self._play(slot, *how, **more)

@@ -18,6 +18,7 @@ from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.registers import Control, FrameType, Register
 from controller.fpga.status import State
 from controller.loop.commands import Outcome
+from controller.loop.host_timing import HostTiming
 from controller.loop.occupancy import Occupancy
 from controller.loop.playback import Playback
 from controller.loop.records import Batch
@@ -81,7 +82,7 @@ def panel(board, bank_file, tmp_path):
         estimate = ClockEstimate(link.clock_hz)
         playback = Playback(
             session, Selection(bank, 1e-3, board.idle_word), estimate, Occupancy(estimate, 2e-3, 1.0), lambda *_: None, slots=1,
-            upload_s=1.4e-3, command_s=1e-5, counters=counters,
+            timing=HostTiming(1.4e-3, 1e-5, 2e-3), counters=counters,
         )  # fmt: skip
         there = SimpleNamespace(
             path=path, bank=bank, clock=clock, counters=counters, session=session, playback=playback, sent=sent, link=link

@@ -28,7 +28,7 @@ from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.service import doctor
 from controller.service.doctor import look
-from controller.service.link_examination import examine_link
+from controller.service.link_examination import arriving_sck_hz, examine_link, judged_sck
 
 AXES = {"x_mm_from_axes": (210.0, 0.0, 0.0), "y_mm_from_axes": (0.0, 148.0, 0.0)}
 SPI = LinkSettings(
@@ -243,3 +243,31 @@ def test_the_command_ends_with_1_if_anything_is_wrong_and_shows_it_as_json(capsy
     assert main(["doctor", "--board", "ulx3s"]) in (0, 1)
     table = capsys.readouterr().out
     assert table.splitlines()[0].startswith(("ok", "NOT OK"))
+
+
+@pytest.mark.parametrize(
+    ("measured_hz", "good", "arriving"),
+    [
+        (25.2e6, True, True),
+        (19.6e6, True, True),
+        (17.6e6, True, True),
+        (17.4e6, False, True),
+        (12.5e6, False, False),
+        (10e6, False, False),
+    ],
+)
+def test_the_sck_that_frames_show_is_judged_by_the_one_that_times_are_based_on(board, measured_hz, good, arriving):
+    """With a Pi 4's core clock at 200 MHz, 25 MHz asked for is 10; nothing is played while it arrives then."""
+    finding = judged_sck(board, measured_hz, 25e6)
+    assert finding.good is good
+    assert f"{measured_hz / 1e6:.3g} MHz" in finding.said
+    assert ("plays nothing while it arrives below 16.4 MHz" in finding.said) is not arriving
+    assert good or "hold the core clock" in finding.said
+
+
+def test_a_link_set_to_less_is_judged_by_that(board):
+    assert judged_sck(board, 9.8e6, 10e6).good
+
+
+def test_playing_while_it_arrives_needs_what_the_gateware_asks_for(board):
+    assert arriving_sck_hz(board) == pytest.approx(16.4e6, rel=2e-3)

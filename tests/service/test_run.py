@@ -20,6 +20,7 @@ import pytest
 from patience import communicate
 
 from controller.application_socket.client import PanelClient
+from controller.bank_builder.build import build_bank
 from controller.board.board import load_board
 from controller.errors import ControllerError
 from controller.fpga.build_parameters import BuildParameters
@@ -259,6 +260,41 @@ def test_the_memory_for_composing_is_taken_before_the_outputs_are_on(service):
         assert [client.wait(number).outcome for number in numbers] == ["played"] * 3
     assert virtual_bytes(service.process.pid) - before < 16 << 20, "the linear algebra alone takes 32 MB at its first sum"
     assert service.end()[0]["emissions"] < 3, "some were composed"
+
+
+def resident_kib(pid, file=""):
+    """Resident, and of it locked, in KiB: in all, or of the mappings of a file."""
+    resident = locked = 0
+    counts = not file
+    with open(f"/proc/{pid}/smaps") as mappings:  # noqa: PTH123 - the kernel's
+        for line in mappings:
+            name, *values = line.split()
+            if "-" in name and not name.endswith(":"):
+                counts = not file or line.rstrip().endswith(file)
+            elif counts and name in ("Rss:", "Locked:"):
+                resident += int(values[0]) * (name == "Rss:")
+                locked += int(values[0]) * (name == "Locked:")
+    return resident, locked
+
+
+def test_after_the_start_next_to_nothing_of_the_bank_is_in_memory(folder, panel, board, tmp_path):
+    """Of the board's own bank, 193 MB, the responses that `prepare` composed from; the rest is checked, and in the page cache.
+
+    In all 64 MiB, so that a computer of 512 MB has room for a user interface: 13 are NumPy, 12 Python, 12 the modules, 5 tuples
+    kept for the loop, 3 room to compose; 19 are left for waveforms, which come as they are played.
+    """
+    file = folder / "board.toml"
+    file.write_text(file.read_text().replace("lock_memory = false", "lock_memory = true"))  # if this user may
+    bank = tmp_path / "whole.bank"
+    build_bank(board, bank, measure_sgemm=False)
+    with an_fpga(at_a_serial_port(folder), folder / "fpga"):  # its model is in another process, as the FPGA is
+        service = Service(folder, bank, before=PATIENT_LINK)
+        service.says("the outputs are on")
+        in_all, locked = resident_kib(service.process.pid)
+        of_bank, _ = resident_kib(service.process.pid, "whole.bank")
+        service.end()
+    assert of_bank < 1024
+    assert locked <= in_all <= 64 * 1024
 
 
 def test_a_bank_takes_no_memory_before_the_first_touch(service, bank):

@@ -218,7 +218,13 @@ def test_no_process_left_is_a_refusal_and_not_the_end(changer, monkeypatch):
 def test_nothing_of_the_working_directory_is_run_or_read(board, bank, folder, tmp_path, monkeypatch):
     here = tmp_path / "here"
     (here / "controller" / "service").mkdir(parents=True)
-    for name in ("controller/__init__.py", "controller/service/scene_helper.py", "msgspec.py", "numpy.py", "sitecustomize.py"):
+    for name in (
+        "controller/__init__.py",
+        "controller/service/scene_helper_process.py",
+        "msgspec.py",
+        "numpy.py",
+        "sitecustomize.py",
+    ):
         (here / name).write_text(f"open({str(here / 'was run')!r}, 'w')\nraise SystemExit('the wrong {name}')\n")
     (here / "drums").write_text(CLICK)
     monkeypatch.chdir(here)
@@ -238,6 +244,23 @@ def test_the_helper_is_ordinary_nice_and_has_no_file_of_ours_but_its_socket(chan
     opened = {int(file.name): str(file.readlink()) for file in Path(f"/proc/{changer.pid}/fd").iterdir()}
     assert opened[1] == "/dev/null"
     assert set(opened) == {0, 1, 2}, opened
+
+
+def test_until_the_first_request_the_helper_has_imported_nothing_of_it(changer):
+    def numpy_is_mapped():
+        return "_multiarray_umath" in Path(f"/proc/{changer.pid}/maps").read_text()
+
+    while os.getpriority(os.PRIO_PROCESS, changer.pid) < 5:
+        os.sched_yield()
+    assert not numpy_is_mapped()
+    works(changer)
+    assert numpy_is_mapped()
+
+
+def test_it_ends_with_the_loop_though_nothing_was_asked(changer):
+    pid = changer.pid
+    changer._socket.close()
+    assert os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT).si_status == 0
 
 
 def test_it_ends_with_the_loop(changer):

@@ -2,6 +2,7 @@ import argparse
 import json
 import math
 import shutil
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -312,7 +313,7 @@ def command(*arguments):
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("--board", default="simulated")
     common.add_argument("--json", action="store_true")
-    calibrate_touch.add(parser.add_subparsers(), common)
+    calibrate_touch.add(partial(parser.add_subparsers().add_parser, "calibrate-touch"), common)
     options = parser.parse_args(["calibrate-touch", *arguments])
     return options.command(options)
 

@@ -22,9 +22,10 @@ def counter(tmp_path_factory):
     return library
 
 
-def test_composing_takes_no_block_over_512_bytes(counter, tmp_path, make_bank):
+@pytest.mark.parametrize("kernel", ["", "numpy"])
+def test_composing_takes_no_block_over_512_bytes(counter, tmp_path, make_bank, kernel):
     make_bank(tmp_path / "bank", GRID, samples=1000, responses=None, seed=3)
-    environment = os.environ | {"LD_PRELOAD": str(counter), "OPENBLAS_NUM_THREADS": "1"}
+    environment = os.environ | {"LD_PRELOAD": str(counter), "OPENBLAS_NUM_THREADS": "1", "HAPTIC_PANEL_KERNEL": kernel}
     command = [sys.executable, SCRIPT, str(counter), str(tmp_path / "bank")]
     run = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     counts = json.loads(run.stdout)
