@@ -27,9 +27,9 @@ from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collecti
 from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.loop.spots import ROUNDING_S
-from controller.loop.watched_files import WatchedFiles
+from controller.loop.watched_files import NotingSelector, WatchedFiles
 from controller.metrics import Counters
-from controller.touch.source import TrackedTouch
+from controller.touch.source import Silence, TrackedTouch
 
 
 class EventLoop:
@@ -46,6 +46,8 @@ class EventLoop:
         Where commands come from.
     change : SceneChange, optional
         Prepares another scene, for SIGHUP and for commands; None: the scene cannot be changed.
+    silence : Silence, optional
+        Of the touch panel's source: told in each turn whether something has come from the panel.
     progress : callable, optional
         Called in each turn with the host time.
     emission_started : callable, optional
@@ -73,6 +75,7 @@ class EventLoop:
         *,
         commands: CommandSource | None = None,
         change: SceneChange | None = None,
+        silence: Silence | None = None,
         progress: Callable[[float], None] = lambda _: None,
         emission_started: Callable[[], None] = lambda: None,
         scene_changed: Callable[[PreparedScene], None] = lambda _: None,
@@ -88,6 +91,8 @@ class EventLoop:
         self._counters = counters
         self._commands = commands
         self._change = change
+        self._silence = silence or Silence()
+        self._no_command = False
         self._progress = progress
         self._emission_started = emission_started
         self._scene_changed = scene_changed
@@ -143,14 +148,16 @@ class EventLoop:
         handlers = {signal.SIGINT: self.stop, signal.SIGTERM: self.stop}
         if self._change is not None:
             handlers[signal.SIGHUP] = self.reload
-        with selectors.DefaultSelector() as selector, handled_signals(handlers, selector) as self._wakeup, no_garbage_collection():
+        with NotingSelector() as selector, handled_signals(handlers, selector) as self._wakeup, no_garbage_collection():
             files = WatchedFiles(selector)
             try:
                 next_s: float | None = self._clock.now_s()
                 while next_s is not None and not self._stopped:
                     self._watch(files)
+                    selector.ready = None
                     if self._clock.now_s() < next_s:
                         self._clock.wait(selector, next_s)
+                    self._silence.known, self._no_command = files.silent("touch"), files.silent("commands")
                     try:
                         if self._outputs.on and not self._outputs.wanted:
                             self._abandon()
@@ -206,7 +213,7 @@ class EventLoop:
         if not self._outputs.on and self._session.ramp_end_s > now_s:  # the edges of a ramp cause ghost touches, too
             self._source.emitted(now_s, self._session.ramp_end_s)
         report_ns, finger = self._read(now_s)
-        if self._commands is not None:
+        if self._commands is not None and not (self._no_command and self._commands.next_time_s() > now_s):
             self._commands.serve(now_s, self.control)
         if self._change is not None:
             self._change_scene(now_s)

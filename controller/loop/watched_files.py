@@ -6,17 +6,41 @@ import contextlib
 import selectors
 
 
+class NotingSelector(selectors.DefaultSelector):
+    """A selector that keeps what it found.
+
+    Attributes
+    ----------
+    ready : set of int or None
+        Files that were ready at the end of the last wait; None: nobody has waited since this was set to None. A look without a wait
+        does not count: simulated time jumps on behind it.
+    """
+
+    ready: set[int] | None = None
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        """Wait as `BaseSelector.select` does."""
+        found = super().select(timeout)
+        self.ready = None if timeout == 0 else {key.fd for key, _ in found}
+        return found
+
+
 class WatchedFiles:
     """Registrations of a selector, by name.
 
     Parameters
     ----------
-    selector : BaseSelector
+    selector : NotingSelector
     """
 
-    def __init__(self, selector: selectors.BaseSelector) -> None:
+    def __init__(self, selector: NotingSelector) -> None:
         self._selector = selector
         self._registered: dict[str, int] = {}
+
+    def silent(self, name: str) -> bool:
+        """Whether the selector, just waited on, has found that nothing came in the file known by this name."""
+        ready, fileno = self._selector.ready, self._registered.get(name)
+        return ready is not None and fileno is not None and fileno not in ready
 
     def watch(self, name: str, fileno: int | None) -> None:
         """Register a file for reading in place of the one known by this name; None: there is none now."""

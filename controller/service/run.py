@@ -96,6 +96,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             source,
             commands=commands,
             change=change,
+            silence=touch.silence if isinstance(touch, LiveSource) else None,
             progress=housekeeping.progress,
             emission_started=housekeeping.emission_started,
             scene_changed=housekeeping.scene_changed,

@@ -11,7 +11,7 @@ from controller.touch.decoder import Decoder
 from controller.touch.event_codes import Protocol, protocol_of_device
 from controller.touch.event_reader import EventReader
 from controller.touch.reports import ReportClock
-from controller.touch.source import Counts, TouchSample
+from controller.touch.source import Counts, Silence, TouchSample
 
 
 class LiveSource:
@@ -30,9 +30,12 @@ class LiveSource:
     ----------
     counts : Counts
         Reports, contacts and fingers since the start, reconnections included.
+    silence : Silence
+        To be set before a read by whoever waits for `fileno`.
     """
 
     def __init__(self, reader: EventReader, board: Board) -> None:
+        self.silence = Silence()
         self._reader = reader
         self._board = board
         self._own_warnings: Counter[str] = Counter()
@@ -65,6 +68,10 @@ class LiveSource:
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report by `now_s`; see `TouchSource.read`."""
+        if self.silence.known:
+            due_s = self._reader.next_time_s()
+            if due_s is None or due_s > now_s:
+                return ()  # without a system call
         events = self._reader.read(now_s)
         if not events:
             return ()

@@ -59,6 +59,19 @@ class Counts:
     max_fingers: int = 0
 
 
+@dataclass(slots=True)
+class Silence:
+    """What the loop tells the source of a panel before each read.
+
+    Attributes
+    ----------
+    known : bool
+        The selector has just found that nothing can be read from the panel's file. False: something can, or nobody looked.
+    """
+
+    known: bool = False
+
+
 class TouchSource(Protocol):
     """A touch panel, or a recording of one."""
 
@@ -112,6 +125,9 @@ class TrackedTouch(TouchSource, Protocol):
         (x_m, y_m) or None
             On the plate; None once the finger is released.
         """
+
+    def missed_m(self, finger: int) -> float:
+        """Distance in m of a finger's last report from where it was predicted; inf once the finger is released."""
 
     @property
     def report_s(self) -> float:

@@ -319,6 +319,44 @@ def test_a_bank_takes_no_memory_before_the_first_touch(service, bank):
     assert before_kb < bank_kb()
 
 
+COUNTED = """
+import atexit, sys, time
+from controller.application_socket.clients import Clients
+from controller.loop.watched_files import WatchedFiles
+from controller.touch.serial_panel import SerialPanel
+silent, counts = {}, dict.fromkeys(("touch", "commands", "touch needlessly", "commands needlessly"), 0)
+def noted(files, name, whole=WatchedFiles.silent):
+    silent[name] = whole(files, name)
+    counts[name] += silent[name]
+    return silent[name]
+def counted(kind, method, name):
+    whole = getattr(kind, method)
+    def call(*given):
+        due = getattr(given[0], "next_s", sys.maxsize) <= time.monotonic()  # such as a client that is told to go
+        counts[name + " needlessly"] += silent.get(name, False) and not due
+        return whole(*given)
+    setattr(kind, method, call)
+WatchedFiles.silent = noted
+counted(SerialPanel, "_fill", "touch")
+counted(Clients, "receive", "commands")
+atexit.register(lambda: print("counts", *counts.values(), file=sys.stderr))
+"""
+
+
+def test_panel_and_socket_are_read_only_when_the_selector_says_so(folder, panel, bank, manager):
+    service = Service(folder, bank, environment=manager.environment | {"WATCHDOG_USEC": "500000"}, before=COUNTED)
+    service.says("the outputs are on")
+    with service.client() as client:
+        felt(client, panel, 2048, 2048)
+    for _ in range(8):  # meanwhile it does nothing but beat
+        manager.hears("WATCHDOG", "1")
+    service.end()
+    counts = next(line for line in "".join(service.log).splitlines() if line.startswith("counts")).split()
+    no_touch, no_command, touch_needlessly, commands_needlessly = map(int, counts[1:])
+    assert min(no_touch, no_command) > 10
+    assert (touch_needlessly, commands_needlessly) == (0, 0)
+
+
 def test_a_command_is_played_and_answered(service):
     with service.client() as client:
         assert client.play("click", at_mm=(100, 70)).outcome == "played"

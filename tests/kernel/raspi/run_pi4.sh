@@ -1,7 +1,8 @@
 #!/bin/bash
 # Boots the emulated Pi twice: for the probe of its interfaces, then for doctor and plays in each form of the package.
 # usage: run_pi4.sh PYTHON OUT     writes probe.log, probe.json, product.log, product.json and panel.bank to OUT
-# Forms of the package: `numpy` is this checkout without anything compiled, `kernel` the wheel for aarch64, with the compiled kernel.
+# Forms of the package: `numpy` is this checkout without anything compiled, `kernel` the wheel for aarch64, with the compiled kernel,
+# `mypyc` the same with the modules of the loop compiled too.
 # LIMIT_S ends a machine that hangs: seconds without a word from it that this one had to spare (patience.py).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -38,6 +39,8 @@ wheel_of() { # FORM VARIABLES...: the wheel for aarch64, unpacked as a form of t
   mkdir -p "$run/tree/usr"
   cp -r "$root/$form"/*.data/data/share "$run/tree/usr/" # the same of each
   rm -r "$root/$form"/*.data
+  local module
+  find "$root/$form" -name '*-x86_64-linux-gnu.so' | while read -r module; do mv "$module" "${module/x86_64/aarch64}"; done # named for this Python
 }
 root=$run/tree/root
 mkdir -p "$root"/{numpy,tests/benchmark,tests/touch}
@@ -45,6 +48,7 @@ mkdir -p "$root"/{numpy,tests/benchmark,tests/touch}
 mkdir "$root/numpy/haptic_panel-0.dist-info"
 printf 'Metadata-Version: 2.1\nName: haptic-panel\nVersion: 0\n' >"$root/numpy/haptic_panel-0.dist-info/METADATA"
 wheel_of kernel
+wheel_of mypyc HAPTIC_PANEL_MYPYC=1 CFLAGS="-I$machine/include" # Python's headers for aarch64: only the kernel does without
 cp "$checkout"/tests/benchmark/{looped_panel.py,scene.toml} "$root/tests/benchmark/"
 cp -r "$checkout/tests/touch/recordings" "$root/tests/touch/"
 cp "$here/guest_plays.py" "$out/panel.bank" "$root/"
