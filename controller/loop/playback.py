@@ -175,7 +175,7 @@ class Playback:
             self.trigger()
         return attempt
 
-    def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float) -> bool:
+    def prefetch(self, finger: int, x_m: float, y_m: float, amplitude: float, *, steady: bool = True, fingers: int = 1) -> bool:
         """Upload the waveform of a predicted emission without playing it, if predictions have come true of late.
 
         Parameters
@@ -183,6 +183,10 @@ class Playback:
         finger : int
         x_m, y_m, amplitude : float
             Predicted focus.
+        steady : bool
+            The finger's last report was where it had been predicted: it has not turned or stopped.
+        fingers : int
+            Fingers that are down: what one asks for may be composed with what another does.
 
         Returns
         -------
@@ -195,8 +199,8 @@ class Playback:
             As the session says.
         """
         key = self._selection.key(((x_m, y_m, amplitude),))
-        likely = self._prefetch.predict(finger, key, self._selection)
-        if not likely or self._slots.slots == 1 or self._slots.find(key) is not None:
+        likely = self._prefetch.predict(finger, key, self._selection, fingers)
+        if not likely or not steady or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
         try:
             waveform = self._selection.waveform(key)

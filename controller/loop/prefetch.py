@@ -8,7 +8,7 @@ from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.selection import Key, Selection
 
-PREFETCH_AFTER_HITS = 2  # so many predictions in a row have to come true, sent ahead or not, before one is sent
+PREFETCH_AFTER_HITS = 2  # so many predictions in a row come true, sent or not, before one is sent; one more of several fingers
 
 
 class PrefetchRecord:
@@ -33,12 +33,12 @@ class PrefetchRecord:
         self._hits = 0  # in a row
         self.unplayed: set[int] = set()
 
-    def predict(self, finger: int, key: Key, selection: Selection) -> bool:
-        """Take note of a prediction; whether the record is good enough to send its waveform ahead."""
+    def predict(self, finger: int, key: Key, selection: Selection, fingers: int) -> bool:
+        """Take note of a prediction; whether the record is good enough to send its waveform ahead, with so many fingers down."""
         if self.predicted is not None and not self._is_hit(finger, key, selection):
             self._hits = 0
         self.predicted = finger, key
-        return self._hits >= PREFETCH_AFTER_HITS
+        return self._hits >= PREFETCH_AFTER_HITS + (fingers > 1)
 
     def compare(self, emissions: Sequence[Emission], key: Key, selection: Selection) -> None:
         """Compare what is played now with the prediction that there is, if that was for one of these fingers."""

@@ -23,6 +23,7 @@ from controller.touch.source import TouchSample
 MAX_WAITING_COMMANDS = 32  # if more wait, the oldest is skipped
 PREFETCH_DISTANCE_M = 0.75e-3  # an emission this near is predicted, even if the finger needs more than one report to get there
 MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
+LATEST_IN_REPORT = 0.9  # what is completed later in the time between two reports may be found complete one report later
 MAX_DEFERRAL_S = 10e-3  # a single emission waits this long for the beats of trains
 COMMAND_MERGE_RADIUS_M = 1e-3  # of commands for one effect nearer to each other than this, the newer replaces the older
 
@@ -196,6 +197,11 @@ class Scheduler:
             self.due = {emission.owner: emission for emission in rest}
         return chosen
 
+    @property
+    def fingers(self) -> int:
+        """Fingers that are down."""
+        return sum([active.finger is not None for active in self._active.values()])
+
     def next_s(self) -> FpgaTime:
         """When the next beat of a train is due; inf without a train."""
         next_s = FPGA_NEVER
@@ -210,7 +216,7 @@ class Scheduler:
     def predict(
         self, finger: int, locate: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float, after_s: float
     ) -> tuple[float, float, float] | None:
-        """Predict the focus of a finger's next emission, if one of its next reports will complete a spacing.
+        """Predict the focus of a finger's next emission, if one of its next reports will complete a spacing, and no other finger's.
 
         An emission follows the first report after a spacing is completed. Where that is follows from the finger's motion,
         where the focus is from when the panel reports.
@@ -232,6 +238,22 @@ class Scheduler:
         tuple of float or None
             x_m, y_m, and amplitude.
         """
+        crossing = self._next_crossing(finger, locate, now_s, report_s)
+        if crossing is None or crossing[0] % 1 > LATEST_IN_REPORT:
+            return None
+        reports, amplitude = math.ceil(crossing[0]), crossing[1]
+        for other in self._active.values():
+            if other.finger is not None and other.finger != finger:
+                near = self._next_crossing(other.finger, locate, now_s, report_s)
+                if near is not None and math.ceil(near[0]) == reports:
+                    return None
+        focus = locate(finger, now_s + reports * report_s + after_s)
+        return None if focus is None else (*focus, amplitude)
+
+    def _next_crossing(
+        self, finger: int, locate: Callable[[int, float], tuple[float, float] | None], now_s: float, report_s: float
+    ) -> tuple[float, float] | None:
+        """Reports until a finger completes a spacing, and its amplitude; None if that is too far away to be known."""
         active = self._active.get(finger)
         here, then = locate(finger, now_s), locate(finger, now_s + report_s)
         if active is None or here is None or then is None:
@@ -240,10 +262,7 @@ class Scheduler:
         if step_m < MIN_STEP_M:
             return None
         distance_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
-        if distance_m > max(step_m, PREFETCH_DISTANCE_M):
-            return None
-        focus = locate(finger, now_s + math.ceil(distance_m / step_m) * report_s + after_s)
-        return None if focus is None else (*focus, amplitude)
+        return None if distance_m > max(step_m, PREFETCH_DISTANCE_M) else (distance_m / step_m, amplitude)
 
     def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
         """Report emissions as played; trains whose beat 0 is among them are shifted so that it falls on `start_s`."""

@@ -84,6 +84,10 @@ class Overheard:
     def predict(self, _finger: int, _at_s: float) -> None:
         """None: there are no fingers."""
 
+    def missed_m(self, _finger: int) -> float:
+        """Infinite: there are no fingers."""
+        return NEVER
+
     @property
     def report_s(self) -> float:
         """0: there are no fingers."""

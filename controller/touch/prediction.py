@@ -34,15 +34,31 @@ class Motion:
         Last report.
     vx, vy : float
         Velocity used for the prediction, in m/s.
+    missed_m : float
+        Distance of the last report from where it was predicted.
     """
 
-    __slots__ = ("_anchor_x_m", "_anchor_y_m", "_rested", "_vx", "_vy", "_x_m", "_y_m", "time_s", "vx", "vy", "x_m", "y_m")
+    __slots__ = (
+        "_anchor_x_m",
+        "_anchor_y_m",
+        "_rested",
+        "_vx",
+        "_vy",
+        "_x_m",
+        "_y_m",
+        "missed_m",
+        "time_s",
+        "vx",
+        "vy",
+        "x_m",
+        "y_m",
+    )
 
     def __init__(self, x_m: float, y_m: float, time_s: float) -> None:
         self.x_m = self._x_m = self._anchor_x_m = x_m
         self.y_m = self._y_m = self._anchor_y_m = y_m
         self.time_s = time_s
-        self.vx = self.vy = 0.0
+        self.vx = self.vy = self.missed_m = 0.0
         self._vx = self._vy = 0.0  # m/s, of the filter
         self._rested = 0
 
@@ -62,6 +78,7 @@ class Motion:
         self._vx = vx = vx + BETA / step_s * off_x_m
         self._vy = vy = vy + BETA / step_s * off_y_m
         step_x_m, step_y_m = x_m - self.x_m, y_m - self.y_m
+        self.missed_m = hypot(step_x_m - self.vx * step_s, step_y_m - self.vy * step_s)
         if vx * step_x_m + vy * step_y_m <= 0:
             vx = vy = 0.0
         else:

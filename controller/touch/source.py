@@ -126,6 +126,9 @@ class TrackedTouch(TouchSource, Protocol):
             On the plate; None once the finger is released.
         """
 
+    def missed_m(self, finger: int) -> float:
+        """Distance in m of a finger's last report from where it was predicted; inf once the finger is released."""
+
     @property
     def report_s(self) -> float:
         """Report period of the panel as measured so far, in s."""

@@ -202,6 +202,11 @@ class Tracker:
             0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m,
         )
 
+    def missed_m(self, finger: int) -> float:
+        """Distance of the last report of `finger` from where it was predicted; see `TrackedTouch.missed_m`."""
+        contact = self._fingers.get(finger)
+        return inf if contact is None else contact.motion.missed_m
+
     @property
     def report_s(self) -> float:
         """Measured report period of the panel in s."""

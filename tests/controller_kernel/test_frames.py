@@ -58,6 +58,16 @@ def test_frames_numbered_anew_are_those_packed_with_that_number_for_every_number
         assert out == one_by_one(words, sequence), sequence
 
 
+def test_every_number_gets_the_right_crc_in_a_frame_of_every_length():
+    for samples in range(1, 126):
+        ready = packed(WORDS[: 4 * samples])
+        out = bytearray(len(ready))
+        for sequence in range(256):
+            kernel.renumber_loads(out, sequence, ready)
+            assert (out[:3], out[3], out[4:-4]) == (ready[:3], sequence, ready[4:-4])
+            assert zlib.crc32(out[:-4]).to_bytes(4, "little") == out[-4:], (samples, sequence)
+
+
 @given(waveforms, st.integers(0, 1000))
 def test_ready_frames_give_words_back_and_frames_of_any_number(words, sequence):
     ready, back, out = packed(words), bytearray(len(words)), bytearray(b"\xff" * frames.UPLOAD_BYTES)

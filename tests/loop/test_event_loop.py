@@ -709,9 +709,9 @@ def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
             wanted.append(expected(*how))
             return wanted[-1]
 
-        def sending(*what):
+        def sending(*what, **more):
             ahead_s.append(loop._clock_estimate.host_s(loop._scheduler.next_s()) - clock.now_s())
-            return prefetch(*what)
+            return prefetch(*what, **more)
 
         loop._playback.prefetch, loop._scheduler.predict = sending, noting
         loop.run()

@@ -1,5 +1,6 @@
 """What is sent ahead of a moving finger, and what stays resident: counted, on the pins of the simulated panel."""
 
+import math
 import random
 from pathlib import Path
 
@@ -95,14 +96,51 @@ def test_rubbing_a_fine_texture_back_and_forth_keeps_playing(perform, board, see
     assert run.counters.emissions > 150
 
 
+def wandering(seed, duration_s, fingers):
+    """Reports of fingers that go in arcs and turn, each stroke in another direction at another speed, and lift now and then."""
+    rng, at = random.Random(seed), {}
+    for slot in range(fingers):
+        k, x_mm, y_mm = slot, rng.uniform(20, 190), rng.uniform(15, 135)
+        while k * REPORT_S < duration_s:
+            step_mm, angle, bend = (
+                rng.choice([20, 50, 100, 200, 400]) * REPORT_S,
+                rng.uniform(0, 2 * math.pi),
+                rng.uniform(-0.03, 0.03),
+            )
+            for _ in range(rng.randint(10, 80)):
+                angle += bend
+                to_mm = x_mm + step_mm * math.cos(angle), y_mm + step_mm * math.sin(angle)
+                if not (5 < to_mm[0] < 205 and 5 < to_mm[1] < 143):
+                    angle += math.pi
+                    continue
+                x_mm, y_mm = at.setdefault(k, {})[slot] = to_mm
+                k += 1
+            if rng.random() < 0.5:
+                at.setdefault(k, {})[slot] = None
+                k, x_mm, y_mm = k + rng.randint(6, 36), rng.uniform(20, 190), rng.uniform(15, 135)
+        at.setdefault(k, {})[slot] = None
+    return [(k * REPORT_S, slots) for k, slots in sorted(at.items())]
+
+
+@pytest.mark.parametrize("name", ["scene.toml", "library.toml"])
+def test_of_two_fingers_that_turn_at_random_a_quarter_of_what_is_sent_ahead_is_never_played(perform, board, name):
+    """Where they turn nobody can know: a waveform is sent ahead only of one that has gone as expected, and is played alone."""
+    text = (board.folder / name).read_text()
+    runs = [perform(wandering(seed, 8.0, 2), text).counters for seed in range(3)]
+    sent, wasted = (sum(getattr(counters, what) for counters in runs) for what in ("prefetched", "prefetch_wasted"))
+    assert sent >= 25, "it is of use"
+    assert 0 < wasted <= 0.25 * sent
+
+
 def test_at_most_a_fifth_of_prefetched_waveforms_is_never_played(perform, board, bank_file):
-    """Over the recordings of real panels on the board's own scene, and over strokes to and fro on textures."""
-    scene = load_scene(board.folder / "scene.toml", board)
+    """Over the recordings of real panels on each scene of the board alone, and over strokes to and fro on textures."""
+    scene, library = (load_scene(board.folder / name, board) for name in ("scene.toml", "library.toml"))
     recordings = sorted((Path(__file__).parent.parent / "touch" / "recordings").glob("*.ev*"))
     with Bank.open(bank_file, board) as bank:
         real = [play(board, scene, bank, Recording.open(file), real_time=False).counters for file in recordings]
+        alone = [play(board, library, bank, Recording.open(file), real_time=False).counters for file in recordings]
     strokes = [perform(rubbing(9, 3.0), TEXTURE.replace("5.0", spacing)).counters for spacing in ("1.0", "2.0", "5.0")]
-    for runs, least in ((real, 30), (strokes, 200)):
+    for runs, least in ((real, 30), (alone, 10), (strokes, 200)):
         sent, wasted = (sum(getattr(counters, name) for counters in runs) for name in ("prefetched", "prefetch_wasted"))
         assert sent >= least, "it is of use"
         assert 0 < wasted <= 0.2 * sent
