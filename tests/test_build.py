@@ -1,6 +1,7 @@
 """What `pip` makes of the package: with a C compiler, without one, and with one that fails."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -96,3 +97,27 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
     os.utime(tmp_path / EXTENSION, (1e9, 1e9))
     assert run(code).stdout.split() == ["False", place]
     assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
+
+
+@pytest.mark.slow
+def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
+    """In a copy of the checkout with the compiled modules beside their sources, which Python then takes."""
+    done, wheel = build(tmp_path, CFLAGS="", HAPTIC_PANEL_MYPYC="1")
+    assert wheel, done.stdout + done.stderr
+    assert re.search(r"-(cp\d+)-\1-linux_", wheel.name), "for this version of CPython alone"
+    copy = tmp_path / "checkout"
+    left_out = shutil.ignore_patterns(".*", "__pycache__", "build", "dist")
+    shutil.copytree(ROOT, copy, ignore=left_out)
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(copy, [name for name in packed.namelist() if name.endswith(".so")])
+    (copy / EXTENSION).touch()
+    compiled = run_in(copy, "-c", "from controller.loop import event_loop, playback; print(event_loop, playback)")
+    assert compiled.stdout.count(".so") == 2, compiled.stderr
+    rooms = [f"tests/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "simulation/test_same_bytes.py")]
+    tested = run_in(copy, "-m", "pytest", "-q", "-n0", "-m", "not slow and not kernel and not interpreted", *rooms)
+    assert tested.returncode == 0, tested.stdout[-8000:] + tested.stderr[-2000:]
+
+
+def run_in(folder, *arguments):
+    environment = {**os.environ, "PYTHONPATH": str(folder)}
+    return subprocess.run([sys.executable, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False)

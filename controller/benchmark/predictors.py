@@ -18,7 +18,8 @@ class LastReport(Motion):
 class Kalman(Motion):
     """Constant-velocity Kalman filter; the prediction starts at the last report."""
 
-    NOISE_M, ACCELERATION = 0.2e-3, 0.1  # of a report; spectral density, m²/s³. The best of 12 pairs tried
+    NOISE_M = 0.2e-3  # of a report
+    ACCELERATION = 0.1  # spectral density, m²/s³; this pair was the best of 12 tried
     STARTING_SPEED = 0.3  # m/s, before anything is known
 
     def __init__(self, x_m: float, y_m: float, time_s: float) -> None:
@@ -46,7 +47,9 @@ class Kalman(Motion):
 class OneEuro(Motion):
     """One-euro filter (Casiez, Roussel, Vogel, CHI 2012); its place is extrapolated with its filtered derivative."""
 
-    MIN_CUTOFF_HZ, BETA, DERIVATIVE_CUTOFF_HZ = 50.0, 1000.0, 50.0  # beta in Hz per m/s. The best of 36 sets tried
+    MIN_CUTOFF_HZ = 50.0
+    BETA = 1000.0  # Hz per m/s
+    DERIVATIVE_CUTOFF_HZ = 50.0  # this set was the best of 36 tried
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
         """Take a reported place; see `Motion.report`."""

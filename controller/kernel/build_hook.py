@@ -5,10 +5,14 @@ compiler that fails ends the build. Not part of wheels.
 
 Environment: `CC` names the compiler, else the first of cc, gcc and clang; `CFLAGS` follows our own options; both are split
 as a shell does. `_PYTHON_HOST_PLATFORM` (of sysconfig) names another machine, such as linux-aarch64.
+
+`HAPTIC_PANEL_MYPYC=1`: a wheel's modules of the loop, listed in pyproject.toml, are compiled as well, by mypyc, for this
+version of CPython alone. An editable installation stays as its sources are.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shlex
 import shutil
@@ -21,7 +25,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from hatchling.builders.wheel import WheelBuilderConfig
-from packaging.tags import platform_tags
+from packaging.tags import platform_tags, sys_tags
 
 SOURCE = "controller/kernel/kernel.c"
 EXTENSION = "controller/kernel/_kernel.abi3.so"
@@ -33,6 +37,10 @@ OPTIONS = (
 
 class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
     """Hook of hatchling, named in pyproject.toml."""
+
+    def dependencies(self) -> list[str]:
+        """What mypyc needs: itself, and what the modules are checked against."""
+        return ["mypy[mypyc]>=1.15", "numpy>=1.26", "msgspec>=0.18.6"] if _wants_mypyc() else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile the extension; a wheel with it is for every CPython from 3.11 on, on one kind of machine.
@@ -54,19 +62,48 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
             self.app.display_warning(f"controller.kernel is not compiled, NumPy does its work: {lacking or 'made on Linux only'}")
             return
         self._folder = tempfile.TemporaryDirectory()
-        compiled = beside_source if version == "editable" else Path(self._folder.name, beside_source.name)
+        folder = Path(self._folder.name)
+        compiled = beside_source if version == "editable" else folder / beside_source.name
         command = [*compiler, *OPTIONS, f"-I{headers}", *shlex.split(os.environ.get("CFLAGS", "")), SOURCE, "-o", str(compiled)]
         if subprocess.run(command, cwd=self.root, check=False).returncode:
             self.app.abort(f"{SOURCE} does not compile: {shlex.join(command)}")
-        if version != "editable":
-            platform = next(tag for tag in platform_tags() if tag.startswith("linux_"))
-            build_data |= {"pure_python": False, "tag": f"cp311-abi3-{platform}"}
-            build_data["force_include"][str(compiled)] = EXTENSION
+        if version == "editable":
+            return
+        platform = next(tag for tag in platform_tags() if tag.startswith("linux_"))
+        build_data |= {"pure_python": False, "tag": f"cp311-abi3-{platform}"}
+        build_data["force_include"][str(compiled)] = EXTENSION
+        if _wants_mypyc():
+            python = next(sys_tags())
+            build_data["tag"] = f"{python.interpreter}-{python.abi}-{platform}"
+            for module in self._modules_compiled(folder):
+                build_data["force_include"][str(module)] = str(module.relative_to(folder / "modules"))
+
+    def _modules_compiled(self, folder: Path) -> list[Path]:
+        """Shared objects of the listed modules, in `folder`/modules, each at its place in the package."""
+        from mypyc.build import mypycify
+        from setuptools import Distribution
+
+        with contextlib.chdir(self.root), contextlib.redirect_stdout(sys.stderr):
+            modules = mypycify(
+                [f"--cache-dir={folder / 'types'}", *self.config["mypyc"]], target_dir=str(folder / "c"), group_name="controller"
+            )
+            for module in modules:
+                module.extra_link_args.append("-Wl,--strip-all")
+            command = Distribution({"ext_modules": modules}).get_command_obj("build_ext")
+            command.build_lib, command.build_temp = str(folder / "modules"), str(folder / "objects")
+            command.parallel = os.cpu_count()
+            command.ensure_finalized()
+            command.run()
+        return list((folder / "modules").rglob("*.so"))
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
         """Remove what was compiled for the wheel."""
         if folder := getattr(self, "_folder", None):
             folder.cleanup()
+
+
+def _wants_mypyc() -> bool:
+    return os.environ.get("HAPTIC_PANEL_MYPYC", "") not in ("", "0")
 
 
 def _compiler() -> list[str]:

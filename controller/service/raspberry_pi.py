@@ -77,6 +77,14 @@ def _read(root: Path, path: str) -> str:
         return ""
 
 
+def _number(root: Path, path: str, base: int = 10) -> int | None:
+    """Whole number that a file holds; None where there is none."""
+    try:
+        return int(_read(root, path).strip().replace(",", ""), base)
+    except ValueError:
+        return None
+
+
 def _warned(about: str, said: str) -> Finding:
     return Finding(about, True, f"{said} ({PAGE})", warns=True)
 
@@ -131,15 +139,15 @@ def _settings(text: str, model_filter: str) -> dict[str, int]:
 
 def _polling(root: Path, board: Board) -> Iterator[Finding]:
     """Whether spi-bcm2835 polls a LOAD frame, rather than sleep until an interrupt."""
-    limit = _read(root, "sys/module/spi_bcm2835/parameters/polling_limit_us").strip()
-    if not limit.isdigit():
+    limit_us = _number(root, "sys/module/spi_bcm2835/parameters/polling_limit_us")
+    if limit_us is None:
         return
     frame_us = POLLED_CLOCKS * LOAD_FRAME_BYTES / board.link.sck_hz * 1e6
-    if int(limit) > frame_us:
-        yield Finding("SPI polling", True, f"up to {limit} µs: a LOAD frame of {frame_us:.0f} µs costs no interrupt")
+    if limit_us > frame_us:
+        yield Finding("SPI polling", True, f"up to {limit_us} µs: a LOAD frame of {frame_us:.0f} µs costs no interrupt")
     else:
         wanted = max(POLLING_LIMIT_US, int(frame_us * 1.3))
-        said = f"up to {limit} µs: each LOAD frame of {frame_us:.0f} µs waits for an interrupt"
+        said = f"up to {limit_us} µs: each LOAD frame of {frame_us:.0f} µs waits for an interrupt"
         yield _warned("SPI polling", f"{said}; add spi_bcm2835.polling_limit_us={wanted} to {CMDLINE}")
 
 
@@ -167,12 +175,10 @@ def _core(root: Path, board: Board) -> Iterator[Finding]:
         yield _warned("isolated core", f"the loop shares its core: {advice}")
     elif core not in isolated:
         yield _warned("isolated core", f"core {core} runs other programs too: {_isolation(core)}")
+    elif (_number(root, "proc/irq/default_smp_affinity", 16) or 0) >> core & 1:
+        yield _warned("isolated core", f"core {core} takes interrupts of other devices too: {_isolation(core)}")
     else:
-        affinity = _read(root, "proc/irq/default_smp_affinity").strip().replace(",", "")
-        if affinity and int(affinity, 16) >> core & 1:
-            yield _warned("isolated core", f"core {core} takes interrupts of other devices too: {_isolation(core)}")
-        else:
-            yield Finding("isolated core", True, f"core {core} is the loop's own")
+        yield Finding("isolated core", True, f"core {core} is the loop's own")
 
 
 def _isolation(core: int, *, board: bool = False) -> str:
@@ -189,14 +195,14 @@ def _numbers(text: str) -> set[int]:
 
 def _throttled_by_scheduler(root: Path, board: Board) -> Iterator[Finding]:
     """Whether the kernel stops a real-time process that never sleeps."""
-    runtime_us = _read(root, "proc/sys/kernel/sched_rt_runtime_us").strip()
-    if not board.realtime.priority or not runtime_us:
+    runtime_us = _number(root, "proc/sys/kernel/sched_rt_runtime_us")
+    period_us = _number(root, "proc/sys/kernel/sched_rt_period_us") or 1_000_000
+    if not board.realtime.priority or runtime_us is None:
         return
-    period_us = int(_read(root, "proc/sys/kernel/sched_rt_period_us") or 1_000_000)
-    if runtime_us == "-1":
+    if runtime_us == -1:
         yield Finding("real-time limit", True, "none")
     else:
-        share = int(runtime_us) / period_us
+        share = runtime_us / period_us
         said = f"the kernel stops the loop for the rest of a second of which it has used {share:.0%}"
         yield _warned(
             "real-time limit", f"{said}; put kernel.sched_rt_runtime_us=-1 into /etc/sysctl.d, once it has a core of its own"

@@ -458,6 +458,7 @@ def test_a_panel_that_a_client_disarmed_stays_so_through_a_reset_until_it_is_arm
     assert panel.off_between(off_s, back_s)
 
 
+@pytest.mark.interpreted
 def test_a_failure_during_arming_disarms_the_fpga_at_once(panel, monkeypatch):
     panel.outputs.failed(LinkError("gone for a moment"), panel.clock.now_s())
 

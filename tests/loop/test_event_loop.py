@@ -434,6 +434,7 @@ def test_a_refused_upload_is_counted_and_costs_no_waveform_that_is_there(board, 
     assert link.take_capture().focus_ticks.size == 5
 
 
+@pytest.mark.interpreted
 def test_an_emission_at_which_the_link_fails_is_counted_and_the_loop_goes_on(board, bank_file, tmp_path, cell, evemu_text):
     reports = [(0.0, {0: cell[1]}), (0.1, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
     with Bank.open(bank_file, board) as bank:
@@ -618,6 +619,7 @@ class At(VirtualClock):
             self.what.pop(0)[1]()
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("ticket", [0, 7], ids=["SIGHUP", "a command"])
 def test_a_refused_scene_changes_nothing_and_is_reported(board, bank_file, tmp_path, cell, evemu_text, ticket):
     told = []
@@ -689,6 +691,7 @@ def test_a_spot_goes_on_after_a_client_has_disarmed_the_panel_and_armed_it_again
     assert (seconds > 0.75).sum() >= 13, "20 Hz until 1.5 s"
 
 
+@pytest.mark.interpreted
 def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
     """A finger on a train, and one that moves on a texture."""
     halves = [
@@ -723,6 +726,7 @@ def test_no_prefetch_delays_a_beat(board, bank_file, tmp_path, evemu_text):
     assert sum(point is not None for point in wanted) > len(ahead_s), "some were held back"
 
 
+@pytest.mark.interpreted
 def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to_begin(board, bank_file, tmp_path, evemu_text):
     """Only what has begun can be stopped."""
     with Bank.open(bank_file, board) as bank:
@@ -737,6 +741,7 @@ def test_while_the_panel_listens_the_loop_wakes_for_a_repetition_that_has_yet_to
         link.close()
 
 
+@pytest.mark.interpreted
 def test_times_of_touches_are_fpga_time(board, bank_file, tmp_path, cell, evemu_text):
     """Which has run for 100 s when this host begins."""
     with Bank.open(bank_file, board) as bank:
@@ -748,6 +753,7 @@ def test_times_of_touches_are_fpga_time(board, bank_file, tmp_path, cell, evemu_
     assert given == [pytest.approx(100.1)]
 
 
+@pytest.mark.interpreted
 def test_predictions_start_at_the_time_of_the_report(board, bank_file, tmp_path, evemu_text):
     """Not from when the loop came to read it, a millisecond later."""
 
@@ -787,6 +793,7 @@ def test_spots_of_the_former_scene_no_longer_cause_ghosts(board, bank_file, tmp_
     assert loop._source.tracking.held_back == 0
 
 
+@pytest.mark.interpreted
 def test_the_tracker_is_given_the_times_of_each_emission(board, bank_file, tmp_path, cell, evemu_text):
     played, told = [], []
     taps = [(0.2, {0: cell[1]}), (0.3, {0: None}), (0.5, {0: cell[1]}), (0.6, {0: None})]
@@ -807,6 +814,7 @@ def test_the_tracker_is_given_the_times_of_each_emission(board, bank_file, tmp_p
         assert (start_s, end_s, period_s) == pytest.approx((p.trigger_s, p.trigger_s + T_S, p.period_s), abs=1e-6)
 
 
+@pytest.mark.interpreted
 def test_watched_files_may_appear_change_and_disappear(board, bank_file, tmp_path, cell, evemu_text):
     with Bank.open(bank_file, board) as bank, selectors.DefaultSelector() as selector:
         link, _, loop = loop_of(board, bank, tmp_path, VirtualClock(), [(0.0, {0: cell[1]}), (0.1, {0: None})], evemu_text)
@@ -864,6 +872,7 @@ class Muted:
             super().__setattr__(name, value)
 
 
+@pytest.mark.interpreted
 def test_counters_decide_nothing(board, bank_file, tmp_path, evemu_text, monkeypatch):
     """Stalls with emissions between them, a spot, a finger: the pins do the same if nothing is counted."""
 

@@ -398,6 +398,7 @@ def play_all(seeds, *where):
     assert foci > 10 * len(seeds), "they feel something"
 
 
+@pytest.mark.interpreted
 def test_random_play_keeps_the_invariants(board, bank_file, tmp_path, evemu_text):
     play_all(range(CHEAP), board, bank_file, tmp_path, evemu_text)
 

@@ -325,6 +325,7 @@ def test_after_a_fault_nothing_waits_for_former_plays(by_hand, at_s):
     assert asked_s + 1.4e-3 <= playback.occupancy.last_start_s < asked_s + 3e-3
 
 
+@pytest.mark.interpreted
 def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_one(by_hand, monkeypatch):
     by_hand.place = (0.15, 0.05)
     waveform = Selection.waveform
@@ -340,6 +341,7 @@ def test_a_finger_is_played_at_its_last_place_if_the_bank_lacks_the_predicted_on
     assert by_hand.counters.skipped.bad_entries == 0
 
 
+@pytest.mark.interpreted
 def test_a_prefetched_waveform_damaged_in_its_slot_is_sent_again(by_hand, monkeypatch):
     playback, clock, places_m = by_hand.playback, by_hand.clock, (0.05, 0.08, 0.11)
     waveform = Selection.waveform

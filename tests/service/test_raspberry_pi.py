@@ -5,6 +5,8 @@ import subprocess
 
 import msgspec
 import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 
 from controller.board.board import load_board
 from controller.board.devices import Realtime
@@ -238,7 +240,20 @@ def test_a_tree_that_is_no_raspberry_pi_os_stays_as_it_was(image):
 def test_the_page_names_every_setting_of_the_script():
     page = (data_folder("boards") / "raspberry_pi.md").read_text()
     script = (data_folder("boards") / "raspberry_pi.sh").read_text()
-    (settings,) = re.findall(r"^settings='(.*)'$", script, re.MULTILINE)
-    for setting in [*settings.split(), "dtparam=spi=on", "core_freq_min=500", "kernel.sched_rt_runtime_us = -1"]:
+    (words,) = re.findall(r"^settings='(.*)'$", script, re.MULTILINE)
+    for setting in [*words.split(), "dtparam=spi=on", "core_freq_min=500", "kernel.sched_rt_runtime_us = -1"]:
         assert setting in script
         assert setting in page
+
+
+FILES = sorted(path for path in AS_THE_PAGE_SAYS if path != "usr/bin/vcgencmd")
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@given(st.sampled_from(FILES), st.one_of(st.text(), st.from_regex(r"[-0-9a-f,]{1,9}\n?", fullmatch=True)))
+@example("sys/module/spi_bcm2835/parameters/polling_limit_us", "²")
+@example("proc/sys/kernel/sched_rt_runtime_us", "none")
+@example("proc/sys/kernel/sched_rt_period_us", "0")
+@example("proc/irq/default_smp_affinity", "x")
+def test_no_content_of_a_file_ends_doctor(found, path, text):
+    found(**{path.replace("/", "__"): text.encode(errors="replace").decode()})

@@ -102,6 +102,7 @@ def test_a_recording_has_no_driver_and_is_refused_in_words():
         drivers.open_panel(BOARD)
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("own_process", [False, True])
 def test_a_new_kind_of_panel_takes_the_places_that_the_readme_says(tmp_path, own_process):
     tree = tmp_path / "controller"
