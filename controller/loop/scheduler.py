@@ -22,9 +22,7 @@ from controller.scene.scene import OUTSIDE, Scene
 from controller.touch.source import TouchSample
 
 MAX_WAITING_COMMANDS: Final = 32  # if more wait, the oldest is skipped
-PREFETCH_DISTANCE_M: Final = (
-    0.75e-3  # an emission this near is predicted, even if it takes more than one report to get there
-)
+PREFETCH_DISTANCE_M: Final = 0.75e-3  # an emission this near is predicted, even if it takes more than one report to get there
 MIN_STEP_M: Final = 0.1e-3  # from report to report; a finger that moves less is at rest
 LATEST_IN_REPORT: Final = 0.9  # what is completed later in the time between two reports may be found complete one report later
 MAX_DEFERRAL_S: Final = 10e-3  # a single emission waits this long for the beats of trains
