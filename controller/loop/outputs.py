@@ -137,7 +137,7 @@ class Outputs:
         self._stalls = 0
 
     def begin_idle(self) -> None:
-        """Have the outputs ramp to 0 V; after the ramp nothing is sent, not even heartbeats, which an FPGA that is off does not need.
+        """Have the outputs ramp to 0 V, and send nothing afterwards: an FPGA whose outputs are off needs no heartbeats.
 
         Raises
         ------
