@@ -6,11 +6,11 @@ import math
 from array import array
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
-SUB_BITS = 7  # 128 buckets per octave: a percentile is off by at most 0.8 %
+SUB_BITS: Final = 7  # 128 buckets per octave: a percentile is off by at most 0.8 %
 PERCENTILES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
 P999_SAMPLES = 10_000  # with fewer records p999 is left out: it would be that of ten records at most
 

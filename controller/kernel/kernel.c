@@ -2,7 +2,7 @@
 
    Its specification is words_twin.py and twin.py, which do the same in NumPy and Python: the same whole numbers, to the bit, and where
    weights and thresholds are set the same IEEE double arithmetic in the same order (so: no contraction to fused operations, no library
-   functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed stride and
+   functions). Buffers are the caller's; nothing is allocated, no Python object is touched in loops. Plain loops of a fixed length and
    vectors of 128 bits, of which compilers make SSE2 and NEON alike. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -74,7 +74,6 @@ struct work {
     double norm[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
 };
 
-typedef uint8_t bytes16 __attribute__((vector_size(16)));
 typedef int16_t shorts __attribute__((vector_size(16)));
 typedef uint16_t ushorts __attribute__((vector_size(16)));
 typedef uint32_t uints __attribute__((vector_size(16)));

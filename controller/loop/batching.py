@@ -14,12 +14,13 @@ around it (-0.3 at 7 mm), which weakens both: two such foci are played in turn.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from controller.scene.emission import Emission
 from controller.waveforms.composition import MAX_FOCI
 
-MERGE_RADIUS_M = 2.5e-3  # foci nearer than this are one place
-SEPARATION_M = 9e-3  # foci nearer than this, and not one place, take turns
+MERGE_RADIUS_M: Final = 2.5e-3  # foci nearer than this are one place
+SEPARATION_M: Final = 9e-3  # foci nearer than this, and not one place, take turns
 
 Emissions = tuple[Emission, ...]
 

@@ -7,6 +7,8 @@ moving finger will ask for next is sent ahead.
 
 from __future__ import annotations
 
+from typing import Final
+
 from controller.clocks import FPGA_NEVER, NEVER, Clock, FpgaTime
 from controller.errors import ControllerError
 from controller.fpga.clock_estimate import ClockEstimate
@@ -19,8 +21,8 @@ from controller.metrics import Counters
 from controller.touch.source import TrackedTouch
 from controller.waveforms.selection import REUSE_RADIUS_M
 
-PREFETCH_SLACK_S = 3e-3  # nothing may be due sooner when a waveform is sent ahead
-RESIDENT_START_S = 0.1e-3  # from a report to the start of a waveform that is resident
+PREFETCH_SLACK_S: Final = 3e-3  # nothing may be due sooner when a waveform is sent ahead
+RESIDENT_START_S: Final = 0.1e-3  # from a report to the start of a waveform that is resident
 
 
 class Dispatcher:

@@ -7,12 +7,12 @@ endless repetition is kept in the FPGA's time, in which its period stays exact f
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from controller.clocks import NEVER, FpgaTime
 from controller.fpga.clock_estimate import ClockEstimate
 
-MARGIN_S = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
+MARGIN_S: Final = 10e-6  # between the end of one emission and the start of the next: pin, synchroniser, rounding
 
 
 class Repetition(NamedTuple):

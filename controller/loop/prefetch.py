@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.selection import Key, Selection
 
-PREFETCH_AFTER_HITS = 2  # so many predictions in a row come true, sent or not, before one is sent; one more of several fingers
+PREFETCH_AFTER_HITS: Final = (
+    2  # so many predictions in a row come true, sent or not, before one is sent; one more of several fingers
+)
 
 
 class PrefetchRecord:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from controller.clocks import FpgaTime
 from controller.loop.commands import Outcome
@@ -17,7 +17,7 @@ from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key
 
-ENDLESS = 0  # repetitions: until they are replaced
+ENDLESS: Final = 0  # repetitions: until they are replaced
 
 
 class Turn(NamedTuple):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Final
 
 from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.errors import ConfigError
@@ -20,12 +21,12 @@ from controller.scene.fingers import ActiveEffects
 from controller.scene.scene import OUTSIDE, Scene
 from controller.touch.source import TouchSample
 
-MAX_WAITING_COMMANDS = 32  # if more wait, the oldest is skipped
-PREFETCH_DISTANCE_M = 0.75e-3  # an emission this near is predicted, even if the finger needs more than one report to get there
-MIN_STEP_M = 0.1e-3  # from report to report; a finger that moves less is at rest
-LATEST_IN_REPORT = 0.9  # what is completed later in the time between two reports may be found complete one report later
-MAX_DEFERRAL_S = 10e-3  # a single emission waits this long for the beats of trains
-COMMAND_MERGE_RADIUS_M = 1e-3  # of commands for one effect nearer to each other than this, the newer replaces the older
+MAX_WAITING_COMMANDS: Final = 32  # if more wait, the oldest is skipped
+PREFETCH_DISTANCE_M: Final = 0.75e-3  # an emission this near is predicted, even if it takes more than one report to get there
+MIN_STEP_M: Final = 0.1e-3  # from report to report; a finger that moves less is at rest
+LATEST_IN_REPORT: Final = 0.9  # what is completed later in the time between two reports may be found complete one report later
+MAX_DEFERRAL_S: Final = 10e-3  # a single emission waits this long for the beats of trains
+COMMAND_MERGE_RADIUS_M: Final = 1e-3  # of commands for one effect nearer to each other than this, the newer replaces the older
 
 Owner = int | str
 Confirmed = Callable[[int], bool]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
+from typing import Final
 
 from controller.waveforms.selection import REUSE_RADIUS_M, Key
 
 SingleFocus = tuple[float, float, int]  # x and y in m, amplitude in steps below full
 
-MIN_UNPINNED = 2  # slots: one plays, one is being filled
+MIN_UNPINNED: Final = 2  # slots: one plays, one is being filled
 
 
 class SlotCache:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.loop.batching import select_batch
 from controller.scene.emission import Emission, spot_emission
 from controller.scene.scene import Spot
 
-ROUNDING_S = 1e-9  # a beat reached exactly is reached
+ROUNDING_S: Final = 1e-9  # a beat reached exactly is reached
 
 
 class Spots:

@@ -17,6 +17,7 @@ the largest amplitude.
 from __future__ import annotations
 
 import math
+from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
@@ -26,7 +27,7 @@ from controller.scene.spacings import DistanceProgress, GridProgress
 from controller.scene.trains import NO_BEAT, ActiveTrain, Train
 
 NO_CROSSING = (math.inf, 0.0)
-COMMAND = -1  # in place of a region, for a train that a command started
+COMMAND: Final = -1  # in place of a region, for a train that a command started
 
 
 class UnknownEffect(ConfigError):

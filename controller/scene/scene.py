@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 from msgspec import Meta, Struct
@@ -20,9 +20,9 @@ from controller.scene.shapes import Boxes, Coordinate
 from controller.scene.spacings import Spacing, spacing_of
 from controller.scene.trains import EffectiveAmplitude, Train, train_of
 
-OUTSIDE = -1
-TILES = 32  # of the spatial index, along each axis
-MIN_SIDE_M = 1e-9  # of all tiles together: a region may be so thin that it has no width in floating point
+OUTSIDE: Final = -1
+TILES: Final = 32  # of the spatial index, along each axis
+MIN_SIDE_M: Final = 1e-9  # of all tiles together: a region may be so thin that it has no width in floating point
 TilesPerM = Annotated[float, Meta(gt=0, le=TILES / MIN_SIDE_M)]
 
 

@@ -7,7 +7,7 @@ or more from the last counted place, and a grid line is felt again only after th
 from __future__ import annotations
 
 import math
-from typing import Annotated, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from msgspec import Meta
 
@@ -15,10 +15,10 @@ from controller.scene.effects import EffectTable
 from controller.scene.shapes import Circle, Polygon, Rectangle
 from controller.scene.trains import EffectiveAmplitude
 
-ROUNDING_M = 1e-9  # so that a spacing reached exactly is reached
-REST_M = 0.25e-3  # noise of a finger at rest; for fine spacings a quarter of the spacing
-REARM_SHARE = 0.25  # of a spacing: distance from a line after which it is felt again
-MAX_REARM_M = 0.5e-3
+ROUNDING_M: Final = 1e-9  # so that a spacing reached exactly is reached
+REST_M: Final = 0.25e-3  # noise of a finger at rest; for fine spacings a quarter of the spacing
+REARM_SHARE: Final = 0.25  # of a spacing: distance from a line after which it is felt again
+MAX_REARM_M: Final = 0.5e-3
 
 
 class Spacing(NamedTuple):

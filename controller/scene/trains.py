@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from msgspec import Meta
 
@@ -11,8 +11,8 @@ from controller.clocks import FpgaTime
 from controller.scene.effects import MIN_AMPLITUDE, EffectTable
 
 SILENCE = MIN_AMPLITUDE / 2  # an envelope below it is nearer to silence than to the weakest emission
-NO_BEAT = -1
-MAX_BEATS = 3_600_000  # an hour at the highest rate
+NO_BEAT: Final = -1
+MAX_BEATS: Final = 3_600_000  # an hour at the highest rate
 EffectiveAmplitude = Annotated[float, Meta(ge=SILENCE, le=1)]  # of an effect in its region; played at MIN_AMPLITUDE at least
 Seconds = Annotated[float, Meta(ge=0, le=3600)]
 

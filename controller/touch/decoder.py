@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from itertools import count
+from typing import Final
 
 from controller.touch.associate import FIRST_SERIAL, Contact, associate
 from controller.touch.axes import Axes
@@ -39,14 +40,14 @@ from controller.touch.event_codes import (
 from controller.touch.event_reader import Event
 from controller.touch.source import Counts, TouchSample
 
-MAX_PLAYED = 10
-MAX_SLOTS = 256
-MAX_UNNAMED = 32  # contacts of a report that have no tracking id
+MAX_PLAYED: Final = 10
+MAX_SLOTS: Final = 256
+MAX_UNNAMED: Final = 32  # contacts of a report that have no tracking id
 
 # Values of Contact.identity besides the tracking ids of the device, which are never negative
-NO_CONTACT = -1
-UNKNOWN = -2  # no event of this slot yet: a finger may have been down before the stream began
-IMPLIED = -3  # a position of an unknown slot: a finger is down
+NO_CONTACT: Final = -1
+UNKNOWN: Final = -2  # no event of this slot yet: a finger may have been down before the stream began
+IMPLIED: Final = -3  # a position of an unknown slot: a finger is down
 
 
 class Decoder:

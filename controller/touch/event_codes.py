@@ -4,26 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from enum import Enum
+from typing import Final
 
-EV_SYN, EV_KEY, EV_ABS = 0x00, 0x01, 0x03
+EV_SYN: Final = 0x00
+EV_KEY: Final = 0x01
+EV_ABS: Final = 0x03
 
 BUS_RS232, BUS_I2C = 0x13, 0x18
 
-INPUT_PROP_DIRECT = 0x01
+INPUT_PROP_DIRECT: Final = 0x01
 
-SYN_REPORT, SYN_MT_REPORT, SYN_DROPPED = 0, 2, 3
+SYN_REPORT: Final = 0
+SYN_MT_REPORT: Final = 2
+SYN_DROPPED: Final = 3
 
-BTN_TOUCH = 0x14A
+BTN_TOUCH: Final = 0x14A
 
-ABS_X, ABS_Y = 0x00, 0x01
-ABS_MT_SLOT = 0x2F
-ABS_MT_TOUCH_MAJOR = 0x30
-ABS_MT_POSITION_X, ABS_MT_POSITION_Y = 0x35, 0x36
-ABS_MT_TOOL_TYPE = 0x37
-ABS_MT_TRACKING_ID = 0x39
-ABS_MT_DISTANCE = 0x3B
+ABS_X: Final = 0x00
+ABS_Y: Final = 0x01
+ABS_MT_SLOT: Final = 0x2F
+ABS_MT_TOUCH_MAJOR: Final = 0x30
+ABS_MT_POSITION_X: Final = 0x35
+ABS_MT_POSITION_Y: Final = 0x36
+ABS_MT_TOOL_TYPE: Final = 0x37
+ABS_MT_TRACKING_ID: Final = 0x39
+ABS_MT_DISTANCE: Final = 0x3B
 
-MT_TOOL_PALM = 2
+MT_TOOL_PALM: Final = 2
 
 SLOT_STATE = (  # what the kernel keeps of each slot and the decoder uses, position last
     ABS_MT_TRACKING_ID,

@@ -8,16 +8,18 @@ reported position, so that it does not lag behind a moving finger.
 from __future__ import annotations
 
 from math import hypot
+from typing import Final
 
 ALPHA, BETA = 0.7, 0.4  # gains of position and velocity; best over the recordings, and flat around there
-MAX_SPEED_RATIO = 1.5  # of the velocity used to that of the last step: limits the overshoot when a finger stops or turns
-REST_RADIUS_M = 0.35e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
-REST_REPORTS = 8  # consecutive reports within the dead band of a finger at rest
-MOVING_PERIODS, SILENT_PERIODS = 1.5, 2.5  # since the last report; many panels do not report a finger at rest
-MAX_INTERVAL_S = 50e-3  # since the last report: then the velocity is unknown
-MAX_HORIZON_S = 40e-3  # beyond it the measured errors outweigh the benefit
-MAX_EXTRAPOLATION_M = 20e-3
-MIN_INTERVAL_S = 2e-3  # no panel reports faster; reports read late may appear to
+MAX_SPEED_RATIO: Final = 1.5  # of the velocity used to that of the last step: limits the overshoot when a finger stops or turns
+REST_RADIUS_M: Final = 0.35e-3  # dead band: above the noise of the panels recorded (0.16 mm), far below a focus (5 mm)
+REST_REPORTS: Final = 8  # consecutive reports within the dead band of a finger at rest
+MOVING_PERIODS: Final = 1.5  # since the last report; many panels do not report a finger at rest
+SILENT_PERIODS: Final = 2.5
+MAX_INTERVAL_S: Final = 50e-3  # since the last report: then the velocity is unknown
+MAX_HORIZON_S: Final = 40e-3  # beyond it the measured errors outweigh the benefit
+MAX_EXTRAPOLATION_M: Final = 20e-3
+MIN_INTERVAL_S: Final = 2e-3  # no panel reports faster; reports read late may appear to
 
 
 class Motion:

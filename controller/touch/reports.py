@@ -38,7 +38,8 @@ WARNINGS: Final = {
 MAX_AHEAD_S: Final = 0.01  # an event may be stamped after the loop read its clock, but not much later
 
 INITIAL_PERIOD_S: Final = 10e-3
-MIN_PERIOD_S, MAX_PERIOD_S = 2e-3, 25e-3  # limits of the running median: a flood or a slow finger must not lead it astray
+MIN_PERIOD_S: Final = 2e-3  # limits of the running median: a flood or a slow finger must not lead it astray
+MAX_PERIOD_S: Final = 25e-3
 MEDIAN_STEP: Final = 0.02  # relative step of the running median per report
 BIN_S: Final = 0.25e-3
 BINS: Final = 256  # up to 64 ms; longer is a pause

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import hypot, inf
-from typing import Any
+from typing import Any, Final
 
 from controller.board.touch_panels import TouchPanel
 from controller.touch.ghost_guard import GhostGuard, QuietBudget
@@ -23,10 +23,10 @@ from controller.touch.prediction import Motion
 from controller.touch.reports import ReportRate
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-BRIDGE_RADIUS_M = 5e-3
-BRIDGE_PERIODS = 1.5
-MISSED_REPORT_PERIODS = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
-CONFIRMING_REPORTS = 2
+BRIDGE_RADIUS_M: Final = 5e-3
+BRIDGE_PERIODS: Final = 1.5
+MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
+CONFIRMING_REPORTS: Final = 2
 
 
 @dataclass(slots=True)

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Final
 
 from controller.bank.reader import Bank
 from controller.fpga.frames import ReadyFrames, Waveform
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
 
-LATTICE_M = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
-REUSE_RADIUS_M = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
+LATTICE_M: Final = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
+REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
 
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice

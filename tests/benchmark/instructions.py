@@ -9,12 +9,11 @@ one before still sounded is counted to the end of that turn: its trigger, in a l
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import re
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,11 +23,12 @@ from controller.board.lookup import find_board
 from controller.fpga.registers import FrameType
 from controller.metrics import Counters
 from tests.benchmark import host_latency
+from tests.benchmark.looped_panel import LoopedPanel
 from tests.benchmark.null_link import NullLink
 
 SOURCE = Path(__file__).with_name("marks.c")
 SHORTEST_UPLOAD = 8  # frames; a play alone has three at most
-WARM_UP = 100  # emissions that fill caches
+WARM_UP = 1000  # emissions that fill caches, and for which the responses of all cells are checked
 COUNTED = re.compile(r"^desc: Trigger: Client Request: (\w+)$.*?^(?:summary|totals): (\d+)", re.MULTILINE | re.DOTALL)
 
 
@@ -71,13 +71,15 @@ class Marks:
             self._marks.marks_forget()
             self._toggle()
 
-    @contextlib.contextmanager
-    def exchanging(self, sent: memoryview, lengths: Sequence[int]) -> Iterator[None]:
-        """What the link does is not counted."""
+    def pause(self) -> bool:
+        """What the link does is not counted; whether it would be."""
         counting = self._on
         if counting:
             self._toggle()
-        yield
+        return counting
+
+    def exchanged(self, sent: memoryview, lengths: Sequence[int], counting: bool) -> None:
+        """A message has gone; count again, if `counting`."""
         if sent[sum(lengths[:-2]) + 2] == FrameType.PLAY:  # its answer comes with the NOP behind it
             self._kind = "uploads" if len(lengths) > SHORTEST_UPLOAD else "resident"
         if counting:
@@ -105,8 +107,9 @@ class CountedLink(NullLink):
 
     def exchange(self, sent: memoryview, lengths: Sequence[int], received: memoryview) -> None:
         """As `NullLink`."""
-        with self.marks.exchanging(sent, lengths):
-            super().exchange(sent, lengths, received)
+        counting = self.marks.pause()
+        super().exchange(sent, lengths, received)
+        self.marks.exchanged(sent, lengths, counting)
 
     def trigger(self) -> float:
         """As `NullLink`; what follows is not counted."""
@@ -114,10 +117,21 @@ class CountedLink(NullLink):
         return super().trigger()
 
 
+class CountedPanel(LoopedPanel):
+    """A panel that ends the count where the loop asks for the next report: what was to be handed over has been."""
+
+    marks: Marks
+
+    def next_time_s(self) -> float | None:
+        """As `LoopedPanel`."""
+        self.marks.end()
+        return super().next_time_s()
+
+
 def play(board: Board, bank: Bank, emissions: int, marks: Marks) -> Counters:
     """The loop, with marks."""
-    CountedLink.marks = marks
-    host_latency.NullLink = CountedLink  # type: ignore[misc]
+    CountedLink.marks = CountedPanel.marks = marks
+    host_latency.NullLink, host_latency.LoopedPanel = CountedLink, CountedPanel  # type: ignore[misc]
     return host_latency.play(board, bank, emissions, turn=marks.turn)[0]
 
 
