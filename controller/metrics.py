@@ -184,6 +184,7 @@ class Counters:
     host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again
     outages: int = 0  # times the FPGA was lost, reset, or switched off for another cause
     outage: str = ""  # cause of the last one
+    idled: int = 0  # times the outputs were ramped down since nothing was touched
     outputs_off_s: float = 0.0  # in total, until they were on
     scenes_loaded: int = 0
     scenes_refused: int = 0

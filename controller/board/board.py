@@ -58,6 +58,9 @@ class Board(Record, frozen=True):
         Left out: the defaults.
     application_socket
         Left out: there is no socket.
+    idle_disarm_s
+        After so long without a touch, a command or a spot the outputs ramp to 0 V, and nothing is sent to the FPGA until the next
+        touch or command, which is felt a ramp later. A scene with a region that has `keep_armed` stays armed. Left out: never.
     folder
         Folder of the board.toml; set on reading, not a key of the file.
     """
@@ -75,6 +78,7 @@ class Board(Record, frozen=True):
     temperature: Temperature | None = None
     realtime: Realtime = Realtime()
     application_socket: ApplicationSocket | None = None
+    idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
     folder: Path = msgspec.field(default_factory=Path)
 
     def __post_init__(self) -> None:

@@ -14,6 +14,7 @@ class PanelState(Enum):
     FAULTED = "faulted"  # the FPGA has switched off, or cannot be armed, for another reason
     DISARMED = "disarmed"  # a client has switched the panel off
     WAITING_FOR_PANEL = "waiting for panel"  # no touch panel; commands and spots are still played
+    IDLE = "idle"  # nothing was touched for `idle_disarm_s`: outputs are off until the next touch
     PLAYING = "playing"  # something was played within the last second
     ARMED = "armed"  # outputs are on
 

@@ -136,6 +136,11 @@ class Recovery:
         self.next_s = off_s
         self._pause_s = self._safe_s
 
+    def resume(self, now_s: float) -> None:
+        """Arm after a time in which nothing was sent: the FPGA may have been reset meanwhile, and is verified first."""
+        self.next_s = now_s
+        self._known = False
+
     def step(self, now_s: float) -> bool:
         """Do the next step.
 

@@ -56,7 +56,9 @@ class LoopControl:
         """
         if not self._outputs.wanted:
             raise FaultError("the outputs are off: the panel is disarmed; a client that may operate it has to arm it")
-        if not self._outputs.on:
+        if self._outputs.idle:
+            self._outputs.wake()
+        if not self._outputs.on and not self._outputs.waking:
             raise FaultError(f"the outputs are off: {self._outputs.cause or 'they are being armed'}")
         self._scheduler.play(ticket, effect, x_m, y_m, finger, amplitude, self._clock_estimate.fpga_s(now_s))
 

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable
 
 from controller.board.board import Board
-from controller.clocks import FPGA_NEVER, Clock, FpgaTime
+from controller.clocks import FPGA_NEVER, NEVER, Clock, FpgaTime
 from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.session import Session
@@ -101,6 +101,9 @@ class EventLoop:
         self._wakeup: Wakeup | None = None
         self._reload = False
         self._stopped = False
+        self._idle_after_s = NEVER if board.idle_disarm_s is None else board.idle_disarm_s
+        self._held = False  # the outputs have just come on for what waits
+        self._active_s = -NEVER  # when something was last touched or played
 
     @property
     def outputs(self) -> Outputs:
@@ -162,8 +165,13 @@ class EventLoop:
                         if self._outputs.on and not self._outputs.wanted:
                             self._abandon()
                             self._outputs.disarm()
+                        waited = self._outputs.waking
                         if self._outputs.advance(self._clock.now_s()):
-                            self._scheduler.reset(self._fpga_now_s())  # FPGA time may have begun anew
+                            self._active_s = self._clock.now_s()
+                            if waited:
+                                self._held = True
+                            else:
+                                self._scheduler.reset(self._fpga_now_s())  # FPGA time may have begun anew
                             ready()
                             ready = _nothing
                         next_s = self._turn()
@@ -218,17 +226,38 @@ class EventLoop:
         if self._change is not None:
             self._change_scene(now_s)
         fpga_s = now_s + self._clock_estimate.offset_s
-        self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
+        if self._idle_after_s != NEVER:
+            self._idle(now_s, touched=report_ns >= 0)
+        if self._outputs.waking:  # what is due is played once the outputs are on
+            read_s = self._source.next_time_s()
+            next_s = min(self._outputs.next_s(), NEVER if read_s is None else read_s)
+            return next_s if self._commands is None else min(next_s, self._commands.next_time_s())
+        self._held = self._held and bool(self._scheduler.due)  # what waited for the outputs is played first: trains begin with it
+        if not self._held:
+            self._scheduler.advance(fpga_s + ROUNDING_S, self._timing.lead_s)
         if self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), self._outputs.on):
             self._outputs.emission_started()
             self._emission_started()
         return self._next_s(now_s)
+
+    def _idle(self, now_s: float, *, touched: bool) -> None:
+        """Switch the outputs off when nothing has been touched for long."""
+        outputs, scheduler = self._outputs, self._scheduler
+        if touched or not outputs.on or scheduler.active or self._playback.accepted is not None or not scheduler.scene.may_idle:
+            self._active_s = now_s
+            if outputs.idle and (not outputs.wanted or not scheduler.scene.may_idle):
+                outputs.wake()
+        elif now_s - self._active_s >= self._idle_after_s and now_s >= self._playback.occupancy.free_s:
+            self._abandon()
+            outputs.begin_idle()
 
     def _read(self, now_s: float) -> tuple[int, int | None]:
         """Read at most one touch report: its age in ns, -1 without one, and the finger that it moved."""
         samples = self._source.read(now_s)
         if not samples:
             return -1, None
+        if self._outputs.idle:
+            self._outputs.wake()
         finger, offset_s = None, self._clock_estimate.offset_s
         for sample in samples:
             self._scheduler.touch(sample, sample.time_s + offset_s)
@@ -283,7 +312,7 @@ class EventLoop:
             if handover_s <= max(now_s, self._session.wire_free_s()):  # before anything else is read
                 return min(handover_s, outputs.next_s())
             times.append(handover_s)
-        collect_s = self._scheduler.collect_s(self._timing.lead_s)
+        collect_s = FPGA_NEVER if self._held else self._scheduler.collect_s(self._timing.lead_s)
         if collect_s != FPGA_NEVER:
             times.append(self._clock_estimate.host_s(collect_s))
         if not times and self._source.fileno() is None and self._commands is None:

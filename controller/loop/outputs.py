@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from controller.board.board import Board
 from controller.board.panel_state import PanelState
-from controller.clocks import Clock
+from controller.clocks import NEVER, Clock
 from controller.errors import ControllerError, FaultError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import HostSilent
@@ -17,6 +17,8 @@ from controller.fpga.session import Session
 from controller.metrics import Counters
 
 STALLS_IN_A_ROW = 3  # times the host arms again after it missed heartbeats, without an emission in between
+WAKE_S = 0.2  # what was due this long before the outputs are on again is not played any more
+IDLE_TURN_S = 0.5  # between turns of the loop while nothing happens: watchdogs look at it
 
 
 class Outputs:
@@ -37,10 +39,15 @@ class Outputs:
     ----------
     on : bool
         Armed, and the ramp has ended: the FPGA accepts plays.
+    idle : bool
+        Ramped down since nothing is touched; nothing is sent until `wake`.
     """
 
     def __init__(self, session: Session, board: Board, clock: Clock, clock_estimate: ClockEstimate, counters: Counters) -> None:
         self.on = False
+        self.idle = False
+        self._idle_from_s = 0.0  # end of the ramp
+        self._woken_s = -NEVER
         self._session = session
         self._clock = clock
         self._clock_estimate = clock_estimate
@@ -52,12 +59,21 @@ class Outputs:
     @property
     def state(self) -> PanelState:
         """ARMED, or why the outputs are off; while they are being armed, the state before."""
+        if self.idle or self.waking:
+            return PanelState.IDLE
         return PanelState.ARMED if self.on else self._recovery.state
 
     @property
     def cause(self) -> str:
         """Why the outputs are off; empty while they are on, or armed for the first time."""
+        if self.idle or self.waking:
+            return "nothing is touched"
         return "" if self.on else self._recovery.cause
+
+    @property
+    def waking(self) -> bool:
+        """Whether the outputs are being armed for a touch or command, which waits for them."""
+        return not self.on and self._clock.now_s() - self._woken_s < WAKE_S
 
     @property
     def wanted(self) -> bool:
@@ -70,7 +86,9 @@ class Outputs:
 
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
-        return self._session.heartbeat_due_s if self.on else self._recovery.next_s
+        if self.idle and self._session.heartbeat_due_s >= self._idle_from_s:
+            return self._clock.now_s() + IDLE_TURN_S
+        return self._session.heartbeat_due_s if self.on or self.idle else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
         """Do what is due: bring up, arm, end the ramp, or send a heartbeat; True when the outputs have just come on.
@@ -80,8 +98,9 @@ class Outputs:
         ControllerError
             A fault of the FPGA or an error of the link: to be given to `failed`.
         """
-        if self.on:
-            if self._session.heartbeat_due_s <= now_s:
+        if self.on or self.idle:
+            due_s = self._session.heartbeat_due_s
+            if due_s <= now_s and (self.on or due_s < self._idle_from_s):
                 self._beat()
             return False
         if now_s < self._recovery.next_s or not self._recovery.step(now_s):
@@ -101,7 +120,8 @@ class Outputs:
         """
         if self.on:
             self._off_since_s = now_s
-        self.on = False
+        self.on = self.idle = False
+        self._woken_s = -NEVER
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
             self._stalls += 1
@@ -115,6 +135,31 @@ class Outputs:
     def emission_started(self) -> None:
         """Take note that an emission was played: a later stall is not in a row with an earlier one."""
         self._stalls = 0
+
+    def begin_idle(self) -> None:
+        """Have the outputs ramp to 0 V, and send nothing afterwards: an FPGA whose outputs are off needs no heartbeats.
+
+        Raises
+        ------
+        LinkError, FaultError
+            As `disarm`.
+        """
+        self._idle_from_s = self.disarm()
+        self.idle = True
+        self._counters.idled += 1
+
+    def wake(self) -> None:
+        """End an idle time: the FPGA is verified and armed in the next turns.
+
+        Raises
+        ------
+        ControllerError
+            A fault of the FPGA or an error of the link: to be given to `failed`.
+        """
+        self.idle = False
+        self._woken_s = self._clock.now_s()
+        self._recovery.resume(max(self._woken_s, self._idle_from_s))
+        self._beat()  # what is due from now on is told in the FPGA's time
 
     def disarm(self) -> float:
         """Have the outputs ramp to 0 V; host time at which they are off.

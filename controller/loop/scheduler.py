@@ -199,6 +199,11 @@ class Scheduler:
         return chosen
 
     @property
+    def active(self) -> bool:
+        """Whether a finger is down, or anything is due or going on."""
+        return bool(self._active or self.due)
+
+    @property
     def fingers(self) -> int:
         """Fingers that are down."""
         return sum([active.finger is not None for active in self._active.values()])

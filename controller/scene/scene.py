@@ -63,6 +63,7 @@ class Region(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
     spacings: tuple[Spacing, ...] = ()
     spot: Spot | None = None
     alternate: bool = False
+    keep_armed: bool = False
 
     @property
     def felt(self) -> bool:
@@ -144,6 +145,11 @@ class Scene:
         object.__setattr__(self, "spots", tuple([region.spot for region in self.regions if region.spot]))
         object.__setattr__(self, "index", SpatialIndex.of(self.regions) if known_index is None else known_index)
 
+    @property
+    def may_idle(self) -> bool:
+        """Whether nothing is played without a touch, and the first touch may be felt late."""
+        return not self.spots and not any(region.keep_armed for region in self.regions)
+
     def region_at(self, x_m: float, y_m: float) -> int:
         """Index of the first region that contains the point (x_m, y_m), or OUTSIDE."""
         index = self.index
@@ -186,6 +192,7 @@ def _region(region: CheckedRegion) -> Region:
         spacings=tuple(spacing_of(effect, shape, table.amplitude) for effect in effects if "move" in effect.occasions),
         spot=spot,
         alternate=alternate,
+        keep_armed=table.keep_armed,
     )
 
 

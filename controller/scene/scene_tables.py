@@ -26,12 +26,15 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
         Factor of the amplitudes of its effects.
     policy
         `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
+    keep_armed
+        The first touch in it is felt at once: the board's `idle_disarm_s` has no effect on this scene.
     """
 
     name: Annotated[str, Meta(min_length=1)]
     effects: tuple[str | EffectTable, ...]
     amplitude: Amplitude = 1.0
     policy: Literal["compose", "alternate"] = "compose"
+    keep_armed: bool = False
 
 
 class RectangleTable(RegionTable, frozen=True, kw_only=True, tag="rectangle"):

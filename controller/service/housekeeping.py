@@ -152,7 +152,7 @@ class Housekeeping:
         if self._emission_started or loop.repeating:
             self._emission_started = False
             self._played_s = now_s
-        if on and panel is not None and not present:
+        if (on or state is PanelState.IDLE) and panel is not None and not present:
             state, cause = PanelState.WAITING_FOR_PANEL, panel.cause
         elif on and now_s - self._played_s < PLAYING_S:
             state = PanelState.PLAYING
@@ -183,7 +183,7 @@ class Housekeeping:
         if now.outputs_on != before.outputs_on and now.outputs_on:
             log("the outputs are on")
         if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
-            asked = now.state is PanelState.DISARMED
+            asked = now.state in (PanelState.DISARMED, PanelState.IDLE)
             said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
             log(said, Priority.INFO if asked else Priority.WARNING)
         if now.panel_present and not before.panel_present:
