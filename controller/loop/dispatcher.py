@@ -134,7 +134,8 @@ class Dispatcher:
 
     def _open_s(self) -> float:
         """Host time from which the next batch may be handed over: the wire is free, and the play before has begun."""
-        return max(self._session.wire_free_s(), self._occupancy.last_start_s)
+        free_s, last_start_s = self._session.link.wire_free_s(), self._occupancy.last_start_s
+        return free_s if free_s > last_start_s else last_start_s
 
     def _listen(self, now_s: float, due: bool, repeating: bool) -> None:
         """Give the panel the silence that it asks for; a repetition is stopped for it, and goes on in its beat afterwards."""

@@ -251,7 +251,7 @@ class Playback:
             return
         self.accepted = None
         called_ns, blocked_ns = time.perf_counter_ns(), self._session.link.blocked_ns
-        trigger_s = self._session.trigger()
+        trigger_s = self._session.link.trigger()
         self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.link.blocked_ns - blocked_ns))
 
     def reset(self) -> None:

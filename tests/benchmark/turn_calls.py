@@ -4,8 +4,8 @@
 
 Two fingers are put down in the same report; both feel it, the waveform is composed and uploaded. The link says yes
 (`null_link.py`), so that what is counted is the host's. Counted by `sys.setprofile` are calls of the controller's Python
-functions, and changes of module: calls, in the order in which they begin, of another module than the call before. The
-same on every machine.
+functions, and changes of module: calls, in the order in which they begin, of another module than the call before. Those of the
+kernel, which may be its Python twin, are left out: the same on every machine.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Profile:
         if event not in {"call", "return"}:
             return
         module = frame.f_globals.get("__name__", "")
-        if not module.startswith("controller.") or frame.f_code is VIRTUAL_NOW_S:
+        if not module.startswith("controller.") or module.startswith("controller.kernel") or frame.f_code is VIRTUAL_NOW_S:
             return
         if event == "call":
             if self._stack:

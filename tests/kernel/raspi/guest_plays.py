@@ -71,6 +71,8 @@ def play_loop(board, clock, session, bank):
     assembly = assemble(board, load_scene(TESTS / "benchmark/scene.toml", board), bank, clock, session, source, progress=progress)
     counters = assembly.counters
     assembly.selection.prepare()
+    for cell in bank.cells.nonzero()[0].tolist():  # as the service has it done beside the loop
+        bank.verify_response(cell)
     began_s = clock.now_s()
     last_s = began_s + AT_MOST_S
     armed = []
