@@ -179,7 +179,7 @@ class Dispatcher:
             else:
                 scheduler.spots.restart(fpga_s)
         decided_s = self._clock.now_s()
-        self._timing.decided(decided_s - turn.now_s)
+        self._timing.decided_s = decided_s - turn.now_s
         at_s, has_begun, period_s = None, False, 0.0
         for emission in emissions:
             if emission.period_s and (at_s is None or emission.time_s < at_s):

@@ -118,11 +118,13 @@ class HostTiming:
     Attributes
     ----------
     upload, command : Way
+    decided_s : float
+        To be set: from the beginning of the turn to the newest decision for an emission.
     lead_s : float
         A beat is handed over this long before it is due.
     """
 
-    __slots__ = ("_decide_s", "_plate_s", "_uploads", "_woken", "command", "lead_s", "upload", "upload_bits_s")
+    __slots__ = ("_decide_s", "_plate_s", "_uploads", "_woken", "command", "decided_s", "lead_s", "upload", "upload_bits_s")
 
     def __init__(self, upload_s: float, command_s: float, plate_s: float) -> None:
         self.upload = Way(upload_s)
@@ -130,7 +132,7 @@ class HostTiming:
         self.upload_bits_s = upload_s
         self._plate_s = plate_s
         self._woken = RunningPercentile()
-        self._decide_s = 0.0  # mean
+        self.decided_s = self._decide_s = 0.0  # the newest, and their mean
         self._uploads = 0
         self.lead_s = upload_s + BEAT_LEAD_S
 
@@ -139,18 +141,15 @@ class HostTiming:
         """Emissions a second that this host reaches with a finger that moves, each of which needs an upload."""
         return 1 / max(self._plate_s, self.upload.expected_s + self._decide_s)
 
-    def decided(self, duration_s: float) -> None:
-        """Take the time from the beginning of a turn to the decision for an emission."""
-        self._decide_s += (min(duration_s, MOST_S) - self._decide_s) / MEAN_OF
-
     def woken(self, late_s: float) -> None:
         """Take how long after it could have been handed over a beat was decided on."""
         self._woken.record(late_s)
         self._lead()
 
     def uploaded(self, duration_s: float) -> None:
-        """Take the duration of an upload."""
+        """Take the duration of an upload, from the decision on."""
         self.upload.record(duration_s)
+        self._decide_s += (min(self.decided_s, MOST_S) - self._decide_s) / MEAN_OF
         self._lead()
         self._uploads += 1
         if self._uploads == SAID_AFTER and self.uploads_hz < SLOWER / self._plate_s:

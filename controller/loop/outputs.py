@@ -41,11 +41,13 @@ class Outputs:
         Armed, and the ramp has ended: the FPGA accepts plays.
     idle : bool
         Ramped down since nothing is touched; nothing is sent until `wake`.
+    waking : bool
+        The outputs are being armed for a touch or command, which waits for them.
     """
 
     def __init__(self, session: Session, board: Board, clock: Clock, clock_estimate: ClockEstimate, counters: Counters) -> None:
         self.on = False
-        self.idle = False
+        self.idle = self.waking = False
         self._idle_from_s = 0.0  # end of the ramp
         self._woken_s = -NEVER
         self._session = session
@@ -69,11 +71,6 @@ class Outputs:
         if self.idle or self.waking:
             return "nothing is touched"
         return "" if self.on else self._recovery.cause
-
-    @property
-    def waking(self) -> bool:
-        """Whether the outputs are being armed for a touch or command, which waits for them."""
-        return not self.on and self._clock.now_s() - self._woken_s < WAKE_S
 
     @property
     def wanted(self) -> bool:
@@ -103,9 +100,11 @@ class Outputs:
             if due_s <= now_s and (self.on or due_s < self._idle_from_s):
                 self._beat()
             return False
+        if self.waking and now_s >= self._woken_s + WAKE_S:
+            self.waking = False
         if now_s < self._recovery.next_s or not self._recovery.step(now_s):
             return False
-        self.on = True
+        self.on, self.waking = True, False
         self._counters.outputs_off_s += now_s - self._off_since_s
         self._beat()
         return True
@@ -120,8 +119,7 @@ class Outputs:
         """
         if self.on:
             self._off_since_s = now_s
-        self.on = self.idle = False
-        self._woken_s = -NEVER
+        self.on = self.idle = self.waking = False
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
             self._stalls += 1
@@ -156,7 +154,7 @@ class Outputs:
         ControllerError
             A fault of the FPGA or an error of the link: to be given to `failed`.
         """
-        self.idle = False
+        self.idle, self.waking = False, True
         self._woken_s = self._clock.now_s()
         self._recovery.resume(max(self._woken_s, self._idle_from_s))
         self._beat()  # what is due from now on is told in the FPGA's time

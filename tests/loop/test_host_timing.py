@@ -118,7 +118,7 @@ def test_what_the_host_cannot_do_is_logged_once(monkeypatch):
     monkeypatch.setattr(host_timing, "log", said.append)
     slow, fast = HostTiming(BITS_S, COMMAND_S, PLATE_S), HostTiming(BITS_S, COMMAND_S, PLATE_S)
     for _ in range(3 * SAID_AFTER):
-        slow.decided(0.2e-3)
+        slow.decided_s = 0.2e-3
         slow.uploaded(BITS_S + 1.2e-3)
         fast.uploaded(BITS_S + 0.2e-3)
     assert said == ["this host reaches 363 emissions/s with a moving finger; the plate allows 500"]
