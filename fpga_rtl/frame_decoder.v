@@ -45,11 +45,19 @@ module frame_decoder (
 
     wire is_load = type_q == `TYPE_LOAD;
     wire is_long = is_load || type_q == `TYPE_TEST;
-    wire in_payload = word_valid_q && word_number_q < {1'b0, length_q[8:2]};
-    wire length_good = is_long
-        ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
-        : length_q == `SHORT_PAYLOAD_BYTES;
-    wire whole = length_good && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
+    reg  in_payload, length_good, whole;
+    always @* begin
+        in_payload  = 1'b0;
+        length_good = 1'b0;
+        whole       = 1'b0;
+        if (word_valid_q || release_i) begin
+            in_payload  = word_valid_q && word_number_q < {1'b0, length_q[8:2]};
+            length_good = is_long
+                ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
+                : length_q == `SHORT_PAYLOAD_BYTES;
+            whole       = length_good && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
+        end
+    end
 
     wire [31:0] crc;
     crc32 crc32_frame (
@@ -57,9 +65,10 @@ module frame_decoder (
     );
 
     always @(posedge clk_i) begin
-        word_valid_q  <= byte_valid_i && count_q[9:3] != 7'd0 && count_q[1:0] == 2'd3;
-        word_number_q <= count_q[9:2] - 8'd2;
+        word_valid_q <= 1'b0;
         if (byte_valid_i) begin
+            word_valid_q  <= count_q[9:3] != 7'd0 && count_q[1:0] == 2'd3;
+            word_number_q <= count_q[9:2] - 8'd2;
             recent_q <= {byte_i, recent_q[31:8]};
             if (count_q != 10'h3FF) count_q <= count_q + 10'd1;
             case (count_q)

@@ -51,7 +51,7 @@ module frame_relay (
 
     always @(posedge clk_i) begin
         if (word_valid_i && !word_number_i[7]) words[word_number_i[6:0]] <= word_i;
-        word_q <= words[step_q[6:0]];
+        if (full_q) word_q <= words[step_q[6:0]];
     end
 
     always @(posedge clk_i) begin
@@ -61,9 +61,11 @@ module frame_relay (
 
         if (accept_i) full_q <= 1'b1;
         else if (last) full_q <= 1'b0;
-        turn_q <= start || (run && !last);
-        step_q <= start || (run && !last) ? step_q + 8'd1 : 8'd0;
-        due_q  <= run && step_q == {1'b0, payload_words_i} + 8'd39;
+        if (full_q) begin
+            turn_q <= start || (run && !last);
+            step_q <= start || (run && !last) ? step_q + 8'd1 : 8'd0;
+            due_q  <= run && step_q == {1'b0, payload_words_i} + 8'd39;
+        end
         if (start) begin
             landing_busy_q <= landing_busy_i;
             landing_live_q <= landing_live_i;

@@ -183,19 +183,26 @@ module haptic_core #(
         .word_o(relay_word), .accept_o(relay_accept), .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live)
     );
 
-    // What the frame asks rests long before it is accepted: chosen a clock early, it begins no long path
+    // What the frame asks rests long before it is accepted: chosen a clock early, it begins no long path. It is chosen, and found
+    // out what it means, only in clocks in which it may have changed.
     reg  [7:0]   kind, sequence_number;
     reg  [15:0]  argument;
     reg  [191:0] words;
     reg  [6:0]   payload_words;
+    reg  [1:0]   taken_q;                  // the SPI's decoder took something in one clock ago, two: a word comes a clock later
+    reg          returned_q, chosen_q;
+    wire         choose = taken_q != 2'b00 || relay_begin || from_uart || returned_q;
     always @(posedge clk_i) begin
-        if (relay_begin || from_uart) begin
+        taken_q    <= {taken_q[0], spi_select || spi_byte_valid};
+        returned_q <= from_uart;
+        chosen_q   <= choose;
+        if (choose && (relay_begin || from_uart)) begin
             kind            <= uart_kind;
             sequence_number <= uart_sequence;
             argument        <= uart_argument;
             words           <= uart_words;
             payload_words   <= uart_payload_words;
-        end else begin
+        end else if (choose) begin
             kind            <= spi_kind;
             sequence_number <= spi_sequence;
             argument        <= spi_argument;
@@ -208,6 +215,9 @@ module haptic_core #(
             argument        <= 16'd0;
             words           <= 192'd0;
             payload_words   <= 7'd0;
+            taken_q         <= 2'b00;
+            returned_q      <= 1'b0;
+            chosen_q        <= 1'b0;
         end
     end
 
@@ -216,9 +226,17 @@ module haptic_core #(
     wire         word_valid        = spi_word_valid || relay_word_valid;
     wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
     wire [31:0]  word              = from_uart ? relay_word : spi_word;
+    reg          load_word, play_word;
+    always @* begin
+        load_word = 1'b0;
+        play_word = 1'b0;
+        if (word_valid) begin
+            load_word = spi_load_word || (relay_word_valid && uart_kind == `TYPE_LOAD && uart_argument < {12'd0, `CHUNKS});
+            play_word = kind == `TYPE_PLAY;
+        end
+    end
     wire         landing_was_busy  = from_uart ? uart_landing_busy : spi_landing_busy;
     wire         landing_was_live  = from_uart ? uart_landing_live : spi_landing_live;
-    wire         load_word         = spi_load_word || (relay_word_valid && uart_kind == `TYPE_LOAD && uart_argument < {12'd0, `CHUNKS});
     assign       uart_refuse       = uart_damaged || relay_refuse;
 
     // What becomes of them
@@ -232,33 +250,42 @@ module haptic_core #(
 
     wire [31:0] register_data, memory_data, crc_data, queue_data;
     reg  [31:0] read_data, spi_data_q, uart_data_q;
+    reg         gap, read;
+    wire        judge = chosen_q || accept;  // results hold in this clock
     always @* begin
-        if (argument[15]) begin
-            read_result = memory_result;
-            read_data   = memory_data;
-        end else if (argument[14:8] == 7'd1) begin
-            read_result = crc_result;
-            read_data   = crc_data;
-        end else if (argument[14:8] == 7'd2) begin
-            read_result = argument[7:6] != 2'd0 ? `RESULT_BAD_RANGE : queue_result;
-            read_data   = queue_data;
-        end else begin
-            read_result = register_result;
-            read_data   = register_data;
+        read_result = `RESULT_OK;
+        read_data   = 32'd0;
+        result      = `RESULT_OK;
+        gap         = 1'b0;
+        read        = 1'b0;
+        if (accept) begin
+            if (argument[15]) begin
+                read_result = memory_result;
+                read_data   = memory_data;
+            end else if (argument[14:8] == 7'd1) begin
+                read_result = crc_result;
+                read_data   = crc_data;
+            end else if (argument[14:8] == 7'd2) begin
+                read_result = argument[7:6] != 2'd0 ? `RESULT_BAD_RANGE : queue_result;
+                read_data   = queue_data;
+            end else begin
+                read_result = register_result;
+                read_data   = register_data;
+            end
+            case (kind)
+                `TYPE_NOP, `TYPE_TEST: result = `RESULT_OK;
+                `TYPE_READ:  result = read_result;
+                `TYPE_WRITE: result = write_result;
+                `TYPE_LOAD:  result = load_result;
+                `TYPE_STORE: result = store_result;
+                `TYPE_PLAY:  result = play_result;
+                default:     result = `RESULT_UNKNOWN_TYPE;
+            endcase
+            gap  = sequence_number != (from_uart ? uart_sequence_q : spi_sequence_q) + 8'd1;
+            read = kind == `TYPE_READ && read_result == `RESULT_OK;
         end
-        case (kind)
-            `TYPE_NOP, `TYPE_TEST: result = `RESULT_OK;
-            `TYPE_READ:  result = read_result;
-            `TYPE_WRITE: result = write_result;
-            `TYPE_LOAD:  result = load_result;
-            `TYPE_STORE: result = store_result;
-            `TYPE_PLAY:  result = play_result;
-            default:     result = `RESULT_UNKNOWN_TYPE;
-        endcase
     end
 
-    wire       gap  = sequence_number != (from_uart ? uart_sequence_q : spi_sequence_q) + 8'd1;
-    wire       read = kind == `TYPE_READ && read_result == `RESULT_OK;
     always @(posedge clk_i) begin
         if (spi_refuse) spi_result_q <= spi_refusal;
         if (spi_accept) begin
@@ -307,7 +334,7 @@ module haptic_core #(
         .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD)
     ) register_file (
         .clk_i(clk_i), .rst_i(rst_i),
-        .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
+        .judge_i(judge), .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
         .off_i(off), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
@@ -363,7 +390,7 @@ module haptic_core #(
     assign landing_live = head_live || player_live;
 
     waveform_buffer #(.SLOTS(SLOTS), .BUFFER_BITS(BUFFER_BITS)) waveform_buffer (
-        .clk_i(clk_i), .rst_i(rst_i),
+        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .look_i(kind == `TYPE_STORE),
         .write_i(load_word), .write_word_i(word_number[6:0]), .write_data_i(word),
         .load_i(accept && kind == `TYPE_LOAD), .store_i(accept && kind == `TYPE_STORE),
         .argument_i(argument), .word0_i(words[31:0]), .word1_i(words[63:32]), .load_words_i(payload_words),
@@ -378,10 +405,10 @@ module haptic_core #(
     );
 
     reg lengths_q;                         // words 0 to 2 of a PLAY are there
-    always @(posedge clk_i) lengths_q <= !rst_i && word_valid && kind == `TYPE_PLAY && word_number == 8'd2;
+    always @(posedge clk_i) lengths_q <= play_word && word_number == 8'd2 && !rst_i;
 
     play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
-        .clk_i(clk_i), .rst_i(rst_i), .begin_i(lengths_q), .accept_i(play_accept), .forget_i(stop || disarm || shut),
+        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths_q), .accept_i(play_accept), .forget_i(stop || disarm || shut),
         .argument_i(argument), .first_i(words[15:0]), .asked_i(words[31:16]), .count_i(words[47:32]), .start_i(words[55:48]),
         .polarity_i(words[63:56]), .period_i(words[95:64]), .when_i(words[191:128]),
         .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now_q),
@@ -394,7 +421,7 @@ module haptic_core #(
 
     play_queue #(.BUFFER_BITS(BUFFER_BITS)) play_queue (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(select),
-        .write_i(word_valid && kind == `TYPE_PLAY), .write_word_i(word_number[2:0]), .write_data_i(word),
+        .write_i(play_word), .write_word_i(word_number[2:0]), .write_data_i(word),
         .push_i(push), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
@@ -462,21 +489,25 @@ module haptic_core #(
     assign fault_o = fault_q;
 
     // The answer
-    wire [15:0] state;
-    assign state[`STATE_ARMED]            = armed;
-    assign state[`STATE_RAMPING]          = settling || ramp_up || ramp_down || stopping;
-    assign state[`STATE_PLAYING]          = playing;
-    assign state[`STATE_REPEATING]        = repeating;
-    assign state[`STATE_PENDING]          = queue != 4'd0;
-    assign state[`STATE_LANDING_BUSY]     = landing_busy;
-    assign state[`STATE_RUN_PERMIT]       = run_permit;
-    assign state[`STATE_HEARTBEAT]        = alive;
-    assign state[`STATE_HV_ENABLE]        = hv_enable_o;
-    assign state[`STATE_TEMPERATURE_GOOD] = temperature_ok;
-    assign state[`STATE_CHECKING]         = checking;
-    assign state[`STATE_DELAYED]          = delayed;
-    assign state[`STATE_WAITING]          = waiting;
-    assign state[15:`STATE_WAITING+1]     = 3'd0;
+    reg [15:0] state;                      // as a frame begins
+    always @* begin
+        state = 16'd0;
+        if (spi_select || uart_select) begin
+            state[`STATE_ARMED]             = armed;
+            state[`STATE_RAMPING]           = settling || ramp_up || ramp_down || stopping;
+            state[`STATE_PLAYING]           = playing;
+            state[`STATE_REPEATING]         = repeating;
+            state[`STATE_PENDING]           = queue != 4'd0;
+            state[`STATE_LANDING_BUSY]      = landing_busy;
+            state[`STATE_RUN_PERMIT]        = run_permit;
+            state[`STATE_HEARTBEAT]         = alive;
+            state[`STATE_HV_ENABLE]         = hv_enable_o;
+            state[`STATE_TEMPERATURE_GOOD]  = temperature_ok;
+            state[`STATE_CHECKING]          = checking;
+            state[`STATE_DELAYED]           = delayed;
+            state[`STATE_WAITING]           = waiting;
+        end
+    end
 
     status_encoder spi_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select), .take_i(spi_take), .byte_o(spi_answer),

@@ -32,38 +32,54 @@ module idle_ramp #(
     wire done   = active && wait_q == 16'd1 && level_q == (up_i ? samples_i : {SAMPLES_BITS{1'b0}});
 
     wire signed [BITS-1:0] full_scale = $signed({4'd0, samples_i});
-    wire signed [BITS-1:0] half       = (full_scale + 1) >>> 1;
-    wire signed [BITS-1:0] limit      = full_scale + (full_scale >>> 1);
     wire signed [BITS-1:0] level      = $signed({4'd0, level_q});
-    wire signed [BITS-1:0] value      = up_i ? base_q + 1 : base_q - 1;
-    wire signed [BITS-1:0] error      = bit_q ? value_q - full_scale : value_q;
+    reg  signed [BITS-1:0] half, limit, value, error;
+    always @* begin
+        half  = {BITS{1'b0}};
+        limit = {BITS{1'b0}};
+        value = {BITS{1'b0}};
+        error = {BITS{1'b0}};
+        if (sample || fresh_q) begin
+            half  = (full_scale + 1) >>> 1;
+            limit = full_scale + (full_scale >>> 1);
+            value = up_i ? base_q + 1 : base_q - 1;
+            error = bit_q ? value_q - full_scale : value_q;
+        end
+    end
 
     always @(posedge clk_i) begin
-        fresh_q <= sample;
-        base_q  <= level + (recent_q <<< 1) - older_q;
-        if (active) wait_q <= sample ? bit_ticks_i - 16'd1 : wait_q - 16'd1;
-        if (sample) begin
-            level_q <= up_i ? level_q + 1'b1 : level_q - 1'b1;
-            value_q <= value;
-            bit_q   <= value >= half;
-        end
-        if (fresh_q) begin
-            older_q  <= recent_q;
-            recent_q <= error > limit ? limit : error < -limit ? -limit : error;
-        end
-        if (done) begin
-            recent_q <= {BITS{1'b0}};
-            older_q  <= {BITS{1'b0}};
-            base_q   <= level;
-        end
-        if (rst_i || !active) begin
+        if (active) begin
+            fresh_q <= sample;
+            base_q  <= level + (recent_q <<< 1) - older_q;
+            wait_q  <= sample ? bit_ticks_i - 16'd1 : wait_q - 16'd1;
+            if (sample) begin
+                level_q <= up_i ? level_q + 1'b1 : level_q - 1'b1;
+                value_q <= value;
+                bit_q   <= value >= half;
+            end
+            if (fresh_q) begin
+                older_q  <= recent_q;
+                recent_q <= error > limit ? limit : error < -limit ? -limit : error;
+            end
+            if (done) begin
+                recent_q <= {BITS{1'b0}};
+                older_q  <= {BITS{1'b0}};
+                base_q   <= level;
+            end
+        end else begin
             wait_q   <= 16'd0;
             recent_q <= {BITS{1'b0}};
             older_q  <= {BITS{1'b0}};
             fresh_q  <= 1'b0;
+            base_q   <= level;
+            if (!stay_i) level_q <= {SAMPLES_BITS{1'b0}};
         end
-        if (rst_i || (!active && !stay_i)) level_q <= {SAMPLES_BITS{1'b0}};
         if (rst_i) begin
+            wait_q   <= 16'd0;
+            recent_q <= {BITS{1'b0}};
+            older_q  <= {BITS{1'b0}};
+            fresh_q  <= 1'b0;
+            level_q  <= {SAMPLES_BITS{1'b0}};
             base_q  <= {BITS{1'b0}};
             value_q <= {BITS{1'b0}};
             bit_q   <= 1'b0;

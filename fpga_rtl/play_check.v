@@ -8,6 +8,7 @@ module play_check #(
 ) (
     input  wire                   clk_i,
     input  wire                   rst_i,
+    input  wire                   judge_i,          // slot and words may have changed a clock ago, or are accepted: results hold only then
     input  wire                   begin_i,          // pulse: words 0 to 2 of the frame are there
     input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY
     input  wire                   forget_i,         // pulse: nothing scheduled counts any more
@@ -55,6 +56,7 @@ module play_check #(
     reg [48:0] span_q;               // ticks from the first word of all to where another play may begin
     reg [9:0]  length_q;
     reg        live_q, unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
+    reg        open_q;               // from then on, until it is accepted
     reg [63:0] lead_q, free_q;       // earliest time that can still be met, that is not taken
     reg        late_q, overlap_q;
 
@@ -80,19 +82,27 @@ module play_check #(
             bits_q    <= {bits_q[14:0], 1'b0};
             product_q <= doubled + (bits_q[15] ? {16'd0, second ? period_i : bit_period_i} : 48'd0);
         end
+        if (step_q != 6'd63) begin
+            long_q         <= sounding_q > emission_ticks_i;
+            back_to_back_q <= period_i == sounding_q;
+            roomy_q        <= {1'b0, period_i} >= {1'b0, sounding_q} + {1'b0, rest};
+        end
 
-        length_q       <= length;
-        live_q         <= live;
-        unnamed_q      <= !live && !slot_good_i;
-        empty_q        <= !live && slot_words_i == 10'd0;
-        range_good_q   <= range_good;
-        start_good_q   <= start_i <= {6'd0, `START_TIME} && polarity_i <= 8'd1;
-        long_q         <= sounding_q > emission_ticks_i;
-        back_to_back_q <= period_i == sounding_q;
-        roomy_q        <= {1'b0, period_i} >= {1'b0, sounding_q} + {1'b0, rest};
-        lead_q         <= now_i + `TIME_LEAD_TICKS;
-        late_q         <= when_i < lead_q;
-        overlap_q      <= when_i < free_q;
+        if (judge_i) begin
+            length_q     <= length;
+            live_q       <= live;
+            unnamed_q    <= !live && !slot_good_i;
+            empty_q      <= !live && slot_words_i == 10'd0;
+            range_good_q <= range_good;
+            start_good_q <= start_i <= {6'd0, `START_TIME} && polarity_i <= 8'd1;
+        end
+        if (begin_i)       open_q <= 1'b1;
+        else if (accept_i) open_q <= 1'b0;
+        if (open_q) begin
+            lead_q    <= now_i + `TIME_LEAD_TICKS;
+            late_q    <= when_i < lead_q;
+            overlap_q <= when_i < free_q;
+        end
 
         if (accept_i && good_o && scheduled) free_q <= when_i + {15'd0, span_q};
         if (forget_i) free_q <= 64'd0;
@@ -111,6 +121,7 @@ module play_check #(
             long_q         <= 1'b0;
             back_to_back_q <= 1'b0;
             roomy_q        <= 1'b0;
+            open_q         <= 1'b0;
             lead_q         <= 64'd0;
             free_q         <= 64'd0;
             late_q         <= 1'b0;
@@ -119,16 +130,16 @@ module play_check #(
     end
 
     // All that speaks against it, the first to be named highest: only its name takes long to find out
-    wire [15:0] against = {
-        unnamed_q, faulted_i, !armed_i, empty_q, !live_q && slot_checking_i, !live_q && !slot_intact_i,
-        live_q && !arriving_i, live_q && !fast_i, live_q && queued_i != 4'd0,
-        !range_good_q, !start_good_q, long_q, count_i != 16'd1 && !back_to_back_q && !roomy_q,
-        full_i, scheduled && late_q, scheduled && overlap_q
-    };
-    assign good_o = against == 16'd0;
-
-    reg [7:0] result;
+    reg [15:0] against;
+    reg [7:0]  result;
     always @* begin
+        if (!judge_i) against = 16'd0;
+        else against = {
+            unnamed_q, faulted_i, !armed_i, empty_q, !live_q && slot_checking_i, !live_q && !slot_intact_i,
+            live_q && !arriving_i, live_q && !fast_i, live_q && queued_i != 4'd0,
+            !range_good_q, !start_good_q, long_q, count_i != 16'd1 && !back_to_back_q && !roomy_q,
+            full_i, scheduled && late_q, scheduled && overlap_q
+        };
         casez (against)
             16'b1???_????_????_????: result = `RESULT_BAD_SLOT;
             16'b01??_????_????_????: result = `RESULT_FAULTED;
@@ -150,6 +161,7 @@ module play_check #(
         endcase
     end
 
+    assign good_o   = against == 16'd0;
     assign result_o = result;
     assign live_o   = live_q;
     assign buffer_o = live_q ? landing_i : slot_buffer_i;

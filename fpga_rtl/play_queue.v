@@ -70,7 +70,7 @@ module play_queue #(
 
     always @(posedge clk_i) begin
         if (write_i && !full_q) memory[{tail_q, write_word_i}] <= write_data_i;
-        data_q <= memory[address];
+        if (push_i || count_q != 4'd0) data_q <= memory[address];
     end
 
     always @(posedge clk_i) begin : queue
@@ -79,8 +79,6 @@ module play_queue #(
         index_later_q <= index_q;
         fetched_q     <= fetch_q;
         moved_q       <= pop_i;
-        delayed_q     <= start_q != `START_TIME && when_q[31:0] != 32'd0;
-        delayed_one_q <= when_q[31:0] == 32'd1;
         if (select_i) full_q <= count_q == 4'd8;
         if (!valid_q && !fetch_q && !fetched_q && count_q != 4'd0) begin
             fetch_q <= 1'b1;
@@ -99,7 +97,11 @@ module play_queue #(
                 3'd4: when_q[31:0]  <= data_q;
                 default: when_q[63:32] <= data_q;
             endcase
-            if (index_later_q == 3'd5) valid_q <= 1'b1;
+            if (index_later_q == 3'd5) begin
+                valid_q       <= 1'b1;
+                delayed_q     <= start_q != `START_TIME && when_q[31:0] != 32'd0;
+                delayed_one_q <= when_q[31:0] == 32'd1;
+            end
         end
 
         if (pop_i) begin
@@ -151,7 +153,8 @@ module play_queue #(
     always @* begin : uses
         integer index;
         landing_used = 1'b0;
-        for (index = 0; index < PLAYS; index = index + 1)
+        index        = 0;
+        if (used_q != {PLAYS{1'b0}}) for (index = 0; index < PLAYS; index = index + 1)
             if (used_q[index] && buffer_q[index] == landing_i) landing_used = 1'b1;
     end
 

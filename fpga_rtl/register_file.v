@@ -28,6 +28,7 @@ module register_file #(
     input  wire        clk_i,
     input  wire        rst_i,
     // accepted READ and WRITE frames
+    input  wire        judge_i,            // address and words may have changed a clock ago, or are accepted: results hold only then
     input  wire        accept_i,           // pulse: any frame
     input  wire        uart_i,             // it came by the UART
     input  wire        read_i,             // pulse
@@ -175,7 +176,7 @@ module register_file #(
         low      = 1'b0;
         setting  = 1'b0;
         in_range = 1'b1;
-        case (register)
+        if (judge_i) case (register)
             // generated: read
             `REGISTER_IDENTITY: value = `IDENTITY_MAGIC;
             `REGISTER_PROTOCOL: value = `PROTOCOL_VERSION;
@@ -273,25 +274,27 @@ module register_file #(
             // end of read
             default: ;
         endcase
-        if (register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q) in_range = 1'b0;
+        if (judge_i && register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q) in_range = 1'b0;
     end
 
     // Address and words rest long before their frame ends: what they mean is found out a clock early
     reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, known_q, idle_q;
 
     always @(posedge clk_i) begin
-        known_q    <= address_i < `REGISTER_COUNT;
-        control_q  <= address_i == `REGISTER_CONTROL;
-        idle_q     <= register == `REGISTER_BIT_PERIOD;
-        arm_q      <= word0 == `CONTROL_ARM;
-        disarm_q   <= word0 == `CONTROL_DISARM;
-        clear_q    <= word0 == `CONTROL_CLEAR;
-        stop_q     <= word0 == `CONTROL_STOP;
-        unlock_q   <= word0 == `CONTROL_UNLOCK;
-        trigger_q  <= word0 == `CONTROL_TRIGGER;
-        key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
-        setting_q  <= setting;
-        in_range_q <= in_range;
+        if (judge_i) begin
+            known_q    <= address_i < `REGISTER_COUNT;
+            control_q  <= address_i == `REGISTER_CONTROL;
+            idle_q     <= register == `REGISTER_BIT_PERIOD;
+            arm_q      <= word0 == `CONTROL_ARM;
+            disarm_q   <= word0 == `CONTROL_DISARM;
+            clear_q    <= word0 == `CONTROL_CLEAR;
+            stop_q     <= word0 == `CONTROL_STOP;
+            unlock_q   <= word0 == `CONTROL_UNLOCK;
+            trigger_q  <= word0 == `CONTROL_TRIGGER;
+            key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
+            setting_q  <= setting;
+            in_range_q <= in_range;
+        end
         if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
                     in_range_q} <= 12'd0;
     end
@@ -300,7 +303,8 @@ module register_file #(
     wire arm_good = unlocked && off_i && fault_i == 16'd0 && permitted_i;
     reg [7:0] control_result;
     always @* begin
-        if (unlock_q)   control_result = key_good_q ? `RESULT_OK : `RESULT_BAD_KEY;
+        if (!judge_i)   control_result = `RESULT_OK;
+        else if (unlock_q)   control_result = key_good_q ? `RESULT_OK : `RESULT_BAD_KEY;
         else if (arm_q) control_result = !unlocked ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
                                        : fault_i != 16'd0 ? `RESULT_FAULTED : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
         else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
@@ -315,13 +319,16 @@ module register_file #(
             if (uart_i) uart_high_q <= high;
             else        spi_high_q  <= high;
         end
-        if (refused_i[0]) spi_errors_q  <= spi_errors_q + 32'd1;
-        if (refused_i[1]) uart_errors_q <= uart_errors_q + 32'd1;
-        if (accept_i && gap_i && !uart_i) spi_gaps_q  <= spi_gaps_q + 32'd1;
-        if (accept_i && gap_i && uart_i)  uart_gaps_q <= uart_gaps_q + 32'd1;
-        if (refused_i[0]) unlocked_q[0] <= 1'b0;
-        if (refused_i[1]) unlocked_q[1] <= 1'b0;
-        if (accept_i) unlocked_q[uart_i] <= command && unlock_q && key_good_q;
+        if (refused_i != 2'b00) begin
+            if (refused_i[0]) spi_errors_q  <= spi_errors_q + 32'd1;
+            if (refused_i[1]) uart_errors_q <= uart_errors_q + 32'd1;
+            unlocked_q <= unlocked_q & ~refused_i;
+        end
+        if (accept_i) begin
+            if (gap_i && !uart_i) spi_gaps_q  <= spi_gaps_q + 32'd1;
+            if (gap_i && uart_i)  uart_gaps_q <= uart_gaps_q + 32'd1;
+            unlocked_q[uart_i] <= command && unlock_q && key_good_q;
+        end
         if (rst_i) begin
             spi_errors_q      <= 32'd0;
             uart_errors_q     <= 32'd0;
@@ -333,15 +340,36 @@ module register_file #(
         end
     end
 
+    reg [7:0] write_result;
+    always @* begin
+        if (!judge_i)        write_result = `RESULT_OK;
+        else if (!known_q)   write_result = `RESULT_UNKNOWN_REGISTER;
+        else if (control_q)  write_result = control_result;
+        else if (!setting_q) write_result = `RESULT_READ_ONLY;
+        else if (!free)      write_result = idle_q ? `RESULT_BUSY : `RESULT_ARMED;
+        else                 write_result = in_range_q ? `RESULT_OK : `RESULT_BAD_VALUE;
+    end
+
     assign read_result_o  = known_q ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;
-    assign write_result_o = !known_q ? `RESULT_UNKNOWN_REGISTER : control_q ? control_result : !setting_q ? `RESULT_READ_ONLY
-                          : !free ? (idle_q ? `RESULT_BUSY : `RESULT_ARMED) : !in_range_q ? `RESULT_BAD_VALUE : `RESULT_OK;
+    assign write_result_o = write_result;
     assign data_o    = value;
-    assign arm_o     = command && arm_q && arm_good;
-    assign disarm_o  = command && disarm_q;
-    assign clear_o   = command && clear_q;
-    assign stop_o    = command && stop_q;
-    assign trigger_o = command && trigger_q;
+    reg arm, disarm, clear, stop, trigger;
+    always @* begin
+        {arm, disarm, clear, stop, trigger} = 5'd0;
+        if (command) begin
+            arm     = arm_q && arm_good;
+            disarm  = disarm_q;
+            clear   = clear_q;
+            stop    = stop_q;
+            trigger = trigger_q;
+        end
+    end
+
+    assign arm_o     = arm;
+    assign disarm_o  = disarm;
+    assign clear_o   = clear;
+    assign stop_o    = stop;
+    assign trigger_o = trigger;
 endmodule
 
 `default_nettype wire

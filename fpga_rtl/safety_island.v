@@ -98,13 +98,15 @@ module safety_island #(
     always @(posedge clk_i) begin
         run_permit_q      <= {run_permit_q[0], run_permit_i};
         temperature_ok_q  <= {temperature_ok_q[0], temperature_ok_i};
-        heartbeat_ticks_q <= least(heartbeat_ticks_i, HEARTBEAT_TICKS_MAX);
-        channel_edges_q   <= least(channel_edges_i, CHANNEL_EDGES_MAX);
-        total_edges_q     <= least(total_edges_i, TOTAL_EDGES_MAX);
-        emission_ticks_q  <= least(emission_ticks_i, EMISSION_TICKS_MAX);
-        duty_share_q      <= duty_share_i > DUTY_SHARE_MAX[16:0] ? DUTY_SHARE_MAX[16:0] : duty_share_i;
-        duty_ticks_q      <= least(duty_ticks_i, DUTY_TICKS_MAX);
-        pulse_ticks_q     <= pulse_ticks_i < PULSE_TICKS_MIN[15:0] ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
+        if (off_o) begin                   // what is asked for while anything is on does not count
+            heartbeat_ticks_q <= least(heartbeat_ticks_i, HEARTBEAT_TICKS_MAX);
+            channel_edges_q   <= least(channel_edges_i, CHANNEL_EDGES_MAX);
+            total_edges_q     <= least(total_edges_i, TOTAL_EDGES_MAX);
+            emission_ticks_q  <= least(emission_ticks_i, EMISSION_TICKS_MAX);
+            duty_share_q      <= duty_share_i > DUTY_SHARE_MAX[16:0] ? DUTY_SHARE_MAX[16:0] : duty_share_i;
+            duty_ticks_q      <= least(duty_ticks_i, DUTY_TICKS_MAX);
+            pulse_ticks_q     <= pulse_ticks_i < PULSE_TICKS_MIN[15:0] ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
+        end
         if (arm) link_q <= link_i;
         if (rst_i) begin
             link_q            <= 1'b0;

@@ -20,6 +20,9 @@
 // clock has its turn: its purse is given what the limit still allows. A purse that lasts for 63 clocks never runs dry
 // between turns. Behind the first turn in each part a second memory keeps what the channel had made by then; an
 // account less what it was 15 parts ago is what counts.
+// A turn finds the same as the one before unless the channel has changed, a part has begun or the limit was written: turns
+// rest from 63 clocks after the last of these, with every purse as full as it may be, and go on in the clock in which the next
+// change is counted; each purse is filled within 35 clocks of it. Changes are taken from the purses whether turns rest or not.
 `default_nettype none
 
 module stage_limits #(
@@ -56,6 +59,7 @@ module stage_limits #(
     reg                  begins_q;               // the first clock behind reset
     reg                  first_round_q;
     wire                 part_begins = turn_q == 5'd0 && round_q == {ROUND_BITS{1'b0}};
+    wire                 part_ends   = turn_q == 5'd31 && round_q == LAST_ROUND[ROUND_BITS-1:0];
     wire [3:0]           oldest      = part_q + 4'd1;  // of the 15 before this one; 15 behind is one ahead, modulo 16
 
     always @(posedge clk_i) begin
@@ -99,9 +103,15 @@ module stage_limits #(
     // Short pulses
     reg [15:0] since_q;                          // ticks from the last change to the one in change_q
     reg [31:0] recent_q;                         // channels that changed since the pins last rested
-    wire        close = since_q < pulse_ticks_i;
-    wire [31:0] kept  = close ? recent_q : 32'd0;
-    wire [31:0] short_pulse = change_q & kept;
+    reg  [31:0] kept, short_pulse;
+    always @* begin
+        kept        = 32'd0;
+        short_pulse = 32'd0;
+        if (moved_q && since_q < pulse_ticks_i) begin
+            kept        = recent_q;
+            short_pulse = change_q & recent_q;
+        end
+    end
 
     always @(posedge clk_i) begin
         if (moved_q) begin
@@ -114,39 +124,57 @@ module stage_limits #(
         end
     end
 
-    // Edges of each channel: purses
-    wire [31:0]  edge_too_many;
-    wire [191:0] purses;
-    reg  [31:0]  filled_q;                       // whose purse is filled: all behind reset, then one after the other
-    reg  [5:0]   given;                          // into them
-    genvar number;
-
-    generate
-        for (number = 0; number < 32; number = number + 1) begin : channel
-            reg  [5:0] purse_q;
-            wire       zero_4 = purse_q[3:0] == 4'd0;        // by hand: an adder would take twice the LUTs
-            wire       zero_5 = zero_4 && !purse_q[4];
-            wire       empty  = zero_5 && !purse_q[5];
-            wire [5:0] less   = purse_q ^ {zero_5, zero_4, purse_q[2:0] == 3'd0, purse_q[1:0] == 2'd0, !purse_q[0], 1'b1};
-            always @(posedge clk_i)
-                if (filled_q[number] || (change_q[number] && !empty)) purse_q <= filled_q[number] ? given : less;
-            assign edge_too_many[number] = change_q[number] && empty;
-            assign purses[6*number +: 6] = purse_q;
+    // Edges of each channel: purses. Bit k of all 32 lies in purse_k_q, so that one change of many channels is one subtraction
+    reg  [31:0] purse_0_q, purse_1_q, purse_2_q, purse_3_q, purse_4_q, purse_5_q;
+    reg  [31:0] filled;                          // whose purse is filled: all behind reset, then that of the turn that is judged
+    reg  [5:0]  given;                           // into them
+    reg  [31:0] edge_too_many, borrow_0, borrow_1, borrow_2, borrow_3, borrow_4, borrow_5;
+    always @* begin
+        edge_too_many = 32'd0;
+        borrow_0 = 32'd0;
+        borrow_1 = 32'd0;
+        borrow_2 = 32'd0;
+        borrow_3 = 32'd0;
+        borrow_4 = 32'd0;
+        borrow_5 = 32'd0;
+        if (moved_q) begin
+            borrow_0      = change_q & (purse_0_q | purse_1_q | purse_2_q | purse_3_q | purse_4_q | purse_5_q);
+            edge_too_many = change_q & ~borrow_0;
+            borrow_1      = borrow_0 & ~purse_0_q;
+            borrow_2      = borrow_1 & ~purse_1_q;
+            borrow_3      = borrow_2 & ~purse_2_q;
+            borrow_4      = borrow_3 & ~purse_3_q;
+            borrow_5      = borrow_4 & ~purse_4_q;
         end
-    endgenerate
+    end
+
+    function [31:0] refilled(input [31:0] left, input [31:0] whose, input into);
+        refilled = into ? left | whose : left & ~whose;
+    endfunction
+
+    // Turns change nothing but behind a change, with a part or behind a limit that is written: they rest till then
+    localparam [5:0] AWAKE = 6'd63;              // one round and the way of its last turn at least, and 3 for those under way to end
+    reg  [5:0] stay_q;
+    wire       awake = stay_q != 6'd0;
+
+    always @(posedge clk_i) if (moved_q || awake) begin
+        purse_0_q <= refilled(purse_0_q ^ borrow_0, filled, given[0]);
+        purse_1_q <= refilled(purse_1_q ^ borrow_1, filled, given[1]);
+        purse_2_q <= refilled(purse_2_q ^ borrow_2, filled, given[2]);
+        purse_3_q <= refilled(purse_3_q ^ borrow_3, filled, given[3]);
+        purse_4_q <= refilled(purse_4_q ^ borrow_4, filled, given[4]);
+        purse_5_q <= refilled(purse_5_q ^ borrow_5, filled, given[5]);
+    end
 
     // Their accounts: fetched, looked at, judged by the limit, settled; all modulo 2**24, which no difference reaches
+    localparam TAG = 12;                         // of a turn: it counts, first round, first turn in a part, part, channel
     reg [23:0] accounts [0:31];                  // edges made and in the purse; not since reset until the first round is over
     (* no_rw_check *)
     reg [23:0] made_by [0:511];                  // edges made when a part began: part, channel
     reg [23:0] limit_q;
     reg [5:0]  first_q;                          // what the purses held behind reset
-    reg [4:0]  fetched_q, looked_q, judged_q, settled_q;  // the channel in each step
-    reg        fetched_first_q, looked_first_q;  // in the first round
-    reg        fetched_valid_q, looked_valid_q;
-    reg [3:0]  fetched_part_q, looked_part_q, judged_part_q, settled_part_q;
-    reg        fetched_begins_q, looked_begins_q, judged_begins_q, settled_begins_q;  // first turn in a part
-    reg        full_q;                           // parts_full_q, in step with fetched_q
+    reg [4*TAG-1:0] tags_q;                      // of the turns in each step, fetched lowest
+    reg        full_q;                           // parts_full_q, in step with the turn that is fetched
     reg [23:0] oldest_q, base_q, account_q;
     reg        looked_change_q, judged_change_q; // its bit of change_q
     reg [23:0] judged_account_q, settled_account_q;
@@ -154,67 +182,87 @@ module stage_limits #(
     reg        plenty_q, nothing_q;
     reg [6:0]  more_q;                           // limit less what counts less one, signed, unless plenty or nothing
 
-    wire [23:0] account = looked_first_q ? {18'd0, first_q} : account_q;
-    wire [23:0] counts  = account - base_q;
-    wire [24:0] more    = {1'b0, limit_q} + {1'b1, ~counts};
-    wire [5:0]  purse   = purses[6*looked_q +: 6];
-    wire        spent   = judged_change_q && judged_purse_q != 6'd0;
-    wire [7:0]  allowed = {more_q[6], more_q} + {2'b00, judged_purse_q} + {7'd0, !spent};
-    wire [5:0]  first   = limit_q > {18'd0, PURSE} ? PURSE : limit_q[5:0];
-    wire [23:0] made    = settled_account_q - {18'd0, settled_purse_q};
+    wire [4:0]  fetched        = tags_q[4:0];    // the channel in each step
+    wire [4:0]  looked         = tags_q[TAG+4:TAG];
+    wire        looked_first   = tags_q[2*TAG-2];
+    wire [4:0]  judged         = tags_q[2*TAG+4:2*TAG];
+    wire        judged_counts  = tags_q[3*TAG-1];
+    wire [4:0]  settled        = tags_q[3*TAG+4:3*TAG];
+    wire [3:0]  settled_part   = tags_q[3*TAG+8:3*TAG+5];
+    wire        settled_begins = tags_q[3*TAG+9];
+    wire        settled_counts = tags_q[4*TAG-1];
+    wire [23:0] limit          = channel_edges_i > {8'd0, MOST} ? MOST : channel_edges_i[23:0];
 
+    reg [23:0]  account, counts, made;
+    reg [24:0]  more;
+    reg [5:0]   purse, first;
+    reg         spent;
+    reg [7:0]   allowed;
     always @* begin
-        if (begins_q)                     given = first;
-        else if (plenty_q)                given = PURSE;
-        else if (nothing_q || allowed[7]) given = 6'd0;
-        else if (allowed[6])              given = PURSE;
-        else                              given = allowed[5:0];
+        account = 24'd0;
+        counts  = 24'd0;
+        made    = 24'd0;
+        more    = 25'd0;
+        purse   = 6'd0;
+        first   = 6'd0;
+        spent   = 1'b0;
+        allowed = 8'd0;
+        given  = 6'd0;
+        filled = 32'd0;
+        if (awake) begin
+            account = looked_first ? {18'd0, first_q} : account_q;
+            counts  = account - base_q;
+            more    = {1'b0, limit_q} + {1'b1, ~counts};
+            purse   = {purse_5_q[looked], purse_4_q[looked], purse_3_q[looked], purse_2_q[looked], purse_1_q[looked],
+                       purse_0_q[looked]};
+            spent   = judged_change_q && judged_purse_q != 6'd0;
+            allowed = {more_q[6], more_q} + {2'b00, judged_purse_q} + {7'd0, !spent};
+            first   = limit_q > {18'd0, PURSE} ? PURSE : limit_q[5:0];
+            made    = settled_account_q - {18'd0, settled_purse_q};
+            if (begins_q)                     given = first;
+            else if (plenty_q)                given = PURSE;
+            else if (nothing_q || allowed[7]) given = 6'd0;
+            else if (allowed[6])              given = PURSE;
+            else                              given = allowed[5:0];
+            filled = begins_q ? {32{1'b1}} : {31'd0, judged_counts} << judged;
+        end
     end
 
     always @(posedge clk_i) begin
-        limit_q <= channel_edges_i > {8'd0, MOST} ? MOST : channel_edges_i[23:0];
-        if (begins_q) first_q <= first;
-        filled_q <= {filled_q[30:0] & {31{!begins_q}}, looked_valid_q && looked_q == 5'd0};
+        limit_q <= limit;
+        if (change != 32'd0)       stay_q <= AWAKE;
+        else if (limit != limit_q) stay_q <= AWAKE;
+        else if (part_ends)        stay_q <= AWAKE;
+        else if (awake)            stay_q <= stay_q - 6'd1;
 
-        oldest_q         <= made_by[{oldest, turn_q}];
-        fetched_q        <= turn_q;
-        fetched_first_q  <= first_round_q;
-        fetched_valid_q  <= 1'b1;
-        fetched_part_q   <= part_q;
-        fetched_begins_q <= round_q == {ROUND_BITS{1'b0}};
-        full_q           <= parts_full_q;
+        if (awake) begin
+            if (begins_q) first_q <= first;
+            tags_q   <= {tags_q[3*TAG-1:0], stay_q > 6'd3, first_round_q, round_q == {ROUND_BITS{1'b0}}, part_q, turn_q};
+            full_q   <= parts_full_q;
+            oldest_q <= made_by[{oldest, turn_q}];
 
-        base_q          <= full_q ? oldest_q : 24'd0;
-        account_q       <= accounts[fetched_q];
-        looked_q        <= fetched_q;
-        looked_first_q  <= fetched_first_q;
-        looked_valid_q  <= fetched_valid_q;
-        looked_part_q   <= fetched_part_q;
-        looked_begins_q <= fetched_begins_q;
-        looked_change_q <= change[fetched_q];
+            base_q          <= full_q ? oldest_q : 24'd0;
+            account_q       <= accounts[fetched];
+            looked_change_q <= change[fetched];
 
-        judged_q         <= looked_q;
-        judged_part_q    <= looked_part_q;
-        judged_begins_q  <= looked_begins_q;
-        judged_change_q  <= change[looked_q];
-        judged_account_q <= account;
-        judged_purse_q   <= purse - {5'd0, looked_change_q && purse != 6'd0};
-        plenty_q         <= !more[24] && more[23:6] != 18'd0;
-        nothing_q        <= more[24] && more[23:6] != {18{1'b1}};
-        more_q           <= more[6:0];
+            judged_change_q  <= change[looked];
+            judged_account_q <= account;
+            judged_purse_q   <= purse - {5'd0, looked_change_q && purse != 6'd0};
+            plenty_q         <= !more[24] && more[23:6] != 18'd0;
+            nothing_q        <= more[24] && more[23:6] != {18{1'b1}};
+            more_q           <= more[6:0];
 
-        settled_q         <= judged_q;
-        settled_part_q    <= judged_part_q;
-        settled_begins_q  <= judged_begins_q;
-        settled_account_q <= judged_account_q;
-        settled_purse_q   <= judged_purse_q - {5'd0, spent};
-        settled_given_q   <= given;
-        accounts[settled_q] <= made + {18'd0, settled_given_q};
-        if (settled_begins_q) made_by[{settled_part_q, settled_q}] <= made;
+            settled_account_q <= judged_account_q;
+            settled_purse_q   <= judged_purse_q - {5'd0, spent};
+            settled_given_q   <= given;
+            if (settled_counts) begin
+                accounts[settled] <= made + {18'd0, settled_given_q};
+                if (settled_begins) made_by[{settled_part, settled}] <= made;
+            end
+        end
         if (rst_i) begin
-            filled_q        <= {32{1'b1}};
-            fetched_valid_q <= 1'b0;
-            looked_valid_q  <= 1'b0;
+            stay_q <= AWAKE;
+            tags_q <= {4*TAG{1'b0}};
         end
     end
 
@@ -247,9 +295,8 @@ module stage_limits #(
     wire [17:0] flow    = {1'b0, active_i, 16'd0} - {1'b0, duty_share_i};
     wire [49:0] level   = {2'b00, level_q} + {{32{flow[17]}}, flow};
 
-    reg [4:0]  cause_q;
+    reg        short_q, edges_q, total_edges_q, late_q, duty_q;
     reg [31:0] channels_q;
-    wire [31:0] culprits = short_pulse | edge_too_many;
 
     always @(posedge clk_i) begin
         begun_q       <= part_begins;
@@ -257,23 +304,35 @@ module stage_limits #(
         if (begun_q) begin
             total_part_q <= part_q;
             total_full_q <= parts_full_q;
+            rest_q       <= total - expiring_q;
         end
-        moves_q       <= ones_32(change_q);
-        total_q       <= total;
-        rest_q        <= total - expiring_q;
-        part_moves_q  <= (first_moves_q ? 32'd0 : part_moves_q) + {26'd0, moves_q};
-        if (first_moves_q) made_in[total_part_q - 4'd1] <= part_moves_q;
-        expiring_q    <= total_full_q ? made_in[total_part_q + 4'd1] : 32'd0;
+        if (first_moves_q) begin
+            made_in[total_part_q - 4'd1] <= part_moves_q;
+            expiring_q <= total_full_q ? made_in[total_part_q + 4'd1] : 32'd0;
+        end
+        if (first_moves_q || moves_q != 6'd0) begin
+            total_q       <= total;
+            part_moves_q  <= (first_moves_q ? 32'd0 : part_moves_q) + {26'd0, moves_q};
+            total_edges_q <= moves_q != 6'd0 && total > total_edges_i;
+        end else total_edges_q <= 1'b0;
 
-        age_q <= start_i || !emission_i ? 32'd0 : late ? age_q : age_q + 32'd1;
+        if (moved_q) begin
+            moves_q <= ones_32(change_q);
+            short_q <= short_pulse != 32'd0;
+            edges_q <= edge_too_many != 32'd0;
+            if (clear_i || channels_q == 32'd0) channels_q <= short_pulse | edge_too_many;
+        end else begin
+            moves_q <= 6'd0;
+            short_q <= 1'b0;
+            edges_q <= 1'b0;
+            if (clear_i) channels_q <= 32'd0;
+        end
+
+        late_q <= late;
+        if (start_i || !emission_i) age_q <= 32'd0;
+        else if (!late)             age_q <= age_q + 32'd1;
+        duty_q  <= active_i && level_q > {duty_ticks_i, 16'd0};
         level_q <= level[49] ? 48'd0 : level[48] ? {48{1'b1}} : level[47:0];
-
-        cause_q[0] <= short_pulse != 32'd0;
-        cause_q[1] <= edge_too_many != 32'd0;
-        cause_q[2] <= moves_q != 6'd0 && total > total_edges_i;
-        cause_q[3] <= late;
-        cause_q[4] <= active_i && level_q > {duty_ticks_i, 16'd0};
-        if (clear_i || channels_q == 32'd0) channels_q <= culprits;
 
         if (rst_i) begin
             begun_q       <= 1'b0;
@@ -287,12 +346,12 @@ module stage_limits #(
             expiring_q    <= 32'd0;
             age_q         <= 32'd0;
             level_q       <= 48'd0;
-            cause_q       <= 5'd0;
+            {duty_q, late_q, total_edges_q, edges_q, short_q} <= 5'd0;
             channels_q    <= 32'd0;
         end
     end
 
-    assign cause_o      = cause_q;
+    assign cause_o      = {duty_q, late_q, total_edges_q, edges_q, short_q};
     assign channels_o   = channels_q;
     assign duty_level_o = level_q[47:16];
 endmodule

@@ -33,10 +33,12 @@ module uart_receiver #(
         valid_q <= 1'b0;
 
         if (!busy_q) begin
-            high_q  <= rx;
-            busy_q  <= high_q && !rx;
-            bit_q   <= 4'd0;
-            timer_q <= HALF[BITS-1:0];
+            high_q <= rx;
+            if (high_q && !rx) begin
+                busy_q  <= 1'b1;
+                bit_q   <= 4'd0;
+                timer_q <= HALF[BITS-1:0];
+            end
         end else if (!due) begin
             timer_q[BITS-1:8] <= timer_q[BITS-1:8] - 1'b1;
         end else begin

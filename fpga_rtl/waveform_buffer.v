@@ -10,6 +10,8 @@ module waveform_buffer #(
 ) (
     input  wire                   clk_i,
     input  wire                   rst_i,
+    input  wire                   judge_i,        // results, slot_words_o and slot_checking_o hold only then
+    input  wire                   look_i,         // the frame is a STORE: whether it finds its words is looked for
     // words of a LOAD as they arrive; its chunk counts once the frame is accepted
     input  wire                   write_i,
     input  wire [6:0]             write_word_i,
@@ -58,6 +60,7 @@ module waveform_buffer #(
     reg [SLOTS-1:0]       intact_q;
     reg [BUFFER_BITS-1:0] landing_q;
     reg [6:0]             chunk_words_q [0:7];  // 0: does not count
+    reg [7:0]             chunks_q;             // which do
 
     reg                   check_q;
     reg [SLOT_BITS-1:0]   check_slot_q;
@@ -77,7 +80,7 @@ module waveform_buffer #(
     wire [BUFFER_BITS-1:0] buffer      = check_q ? check_buffer_q : slot_buffer;
     wire [9:0]             word        = check_q ? check_word_q : argument_i[9:0];
     wire [2:0]             chunk       = argument_i[2:0];
-    wire                   count_good  = load_live_i ? chunk_words_q[chunk] == 7'd0 : !load_busy_i;
+    wire                   count_good  = load_live_i ? !chunks_q[chunk] : !load_busy_i;
     wire                   write       = write_i && !load_busy_i && count_good;
     wire [9:0]  write_word = {chunk, 7'd0} - {6'd0, chunk, 1'b0} - {7'd0, chunk} + {3'd0, write_word_i};
     wire [31:0] read_data [0:SLOTS];
@@ -87,7 +90,7 @@ module waveform_buffer #(
         for (index = 0; index <= SLOTS; index = index + 1) begin : buffers
             buffer_memory buffer_memory (
                 .clk_i(clk_i),
-                .write_i(write && landing_q == index), .write_word_i(write_word), .write_data_i(write_data_i),
+                .write_i(write), .here_i(landing_q == index), .write_word_i(write_word), .write_data_i(write_data_i),
                 .read_word_i(play_i && play_buffer_i == index ? play_word_i : word), .read_data_o(read_data[index])
             );
         end
@@ -98,9 +101,6 @@ module waveform_buffer #(
                 assign loaded_o[index] = 1'b0;
             end
         end
-        for (index = 0; index < 8; index = index + 1) begin : chunks
-            assign chunks_o[index] = chunk_words_q[index] != 7'd0;
-        end
     endgenerate
 
     // Whether a STORE finds all its words: chunk by chunk, over and over, long before its frame ends
@@ -110,13 +110,15 @@ module waveform_buffer #(
     reg        complete_q;
     wire [6:0] there = chunk_words_q[look_q];
     always @(posedge clk_i) begin
-        look_q  <= look_q + 3'd1;
-        left_q  <= left_q > 10'd125 ? left_q - 10'd125 : 10'd0;
-        whole_q <= whole_q && there >= (left_q > 10'd125 ? 7'd125 : left_q[6:0]);
-        if (look_q == 3'd7) begin
-            left_q     <= word0_i[9:0];
-            whole_q    <= 1'b1;
-            complete_q <= whole_q && {3'd0, there} >= left_q;
+        if (look_i) begin
+            look_q  <= look_q + 3'd1;
+            left_q  <= left_q > 10'd125 ? left_q - 10'd125 : 10'd0;
+            whole_q <= whole_q && there >= (left_q > 10'd125 ? 7'd125 : left_q[6:0]);
+            if (look_q == 3'd7) begin
+                left_q     <= word0_i[9:0];
+                whole_q    <= 1'b1;
+                complete_q <= whole_q && {3'd0, there} >= left_q;
+            end
         end
         if (rst_i) begin
             look_q     <= 3'd0;
@@ -127,11 +129,20 @@ module waveform_buffer #(
     end
 
     // Book-keeping
-    wire chunk_good  = argument_i < {12'd0, `CHUNKS};
-    wire length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
-    wire load_good   = chunk_good && !load_busy_i && count_good;
-    wire store_slot  = slot_good && argument_i[15:8] == 8'd0;
-    wire store_good  = store_slot && length_good && !check_q && !live_i && complete_q;
+    wire store_slot = slot_good && argument_i[15:8] == 8'd0;
+    reg  chunk_good, length_good, load_good, store_good, checking;
+    reg  [9:0] slot_words;
+    always @* begin
+        {chunk_good, length_good, load_good, store_good, checking, slot_words} = 15'd0;
+        if (judge_i) begin
+            chunk_good  = argument_i < {12'd0, `CHUNKS};
+            length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
+            load_good   = chunk_good && !load_busy_i && count_good;
+            store_good  = store_slot && length_good && !check_q && !live_i && complete_q;
+            checking    = check_q && check_slot_q == slot;
+            slot_words  = slot_words_q[slot];
+        end
+    end
 
     wire        reading  = check_q && check_word_q != check_words_q;
     wire        checked  = check_q && !reading && reading_q == 3'd0;
@@ -151,13 +162,20 @@ module waveform_buffer #(
             intact_q[check_slot_q]   <= crc == expected_q;
         end
 
-        if (write)               chunk_words_q[chunk] <= 7'd0;
-        if (load_i && load_good) chunk_words_q[chunk] <= load_words_i;
+        if (write) begin
+            chunk_words_q[chunk] <= 7'd0;
+            chunks_q[chunk]      <= 1'b0;
+        end
+        if (load_i && load_good) begin
+            chunk_words_q[chunk] <= load_words_i;
+            chunks_q[chunk]      <= load_words_i != 7'd0;
+        end
         if (store_i && store_good) begin
             slot_buffer_q[slot] <= landing_q;
             slot_words_q[slot]  <= word0_i[9:0];
             intact_q[slot]      <= 1'b0;
             landing_q           <= slot_buffer;
+            chunks_q            <= 8'd0;
             for (piece = 0; piece < 8; piece = piece + 1) chunk_words_q[piece] <= 7'd0;
             check_q        <= 1'b1;
             check_slot_q   <= slot;
@@ -172,6 +190,7 @@ module waveform_buffer #(
 
         if (rst_i) begin
             landing_q <= SLOTS[BUFFER_BITS-1:0];
+            chunks_q  <= 8'd0;
             for (piece = 0; piece < 8; piece = piece + 1) chunk_words_q[piece] <= 7'd0;
             for (piece = 0; piece < SLOTS; piece = piece + 1) begin
                 slot_buffer_q[piece] <= piece[BUFFER_BITS-1:0];
@@ -191,17 +210,29 @@ module waveform_buffer #(
         end
     end
 
-    wire [9:0] slot_words = slot_words_q[slot];
-    wire       checking   = check_q && check_slot_q == slot;
+    reg [7:0] load_result, store_result, memory_result, crc_result;
+    always @* begin
+        load_result   = `RESULT_OK;
+        store_result  = `RESULT_OK;
+        memory_result = `RESULT_OK;
+        crc_result    = `RESULT_OK;
+        if (judge_i) begin
+            load_result   = !chunk_good ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
+            store_result  = !store_slot ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
+                          : check_q || live_i ? `RESULT_BUSY : !complete_q ? `RESULT_INCOMPLETE : `RESULT_OK;
+            memory_result = !slot_good ? `RESULT_BAD_SLOT : argument_i[9:0] >= slot_words ? `RESULT_BAD_RANGE
+                          : settled_q != 3'd4 ? `RESULT_BUSY : `RESULT_OK;
+            crc_result    = !slot_good ? `RESULT_BAD_SLOT : slot_words == 10'd0 ? `RESULT_EMPTY_SLOT
+                          : checking ? `RESULT_BUSY : `RESULT_OK;
+        end
+    end
 
-    assign load_result_o   = !chunk_good ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
-    assign store_result_o  = !store_slot ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
-                           : check_q || live_i ? `RESULT_BUSY : !complete_q ? `RESULT_INCOMPLETE : `RESULT_OK;
-    assign memory_result_o = !slot_good ? `RESULT_BAD_SLOT : argument_i[9:0] >= slot_words ? `RESULT_BAD_RANGE
-                           : settled_q != 3'd4 ? `RESULT_BUSY : `RESULT_OK;
+    assign load_result_o   = load_result;
+    assign store_result_o  = store_result;
+    assign memory_result_o = memory_result;
     assign memory_data_o   = data_q;
-    assign crc_result_o    = !slot_good ? `RESULT_BAD_SLOT : slot_words == 10'd0 ? `RESULT_EMPTY_SLOT
-                           : checking ? `RESULT_BUSY : `RESULT_OK;
+    assign crc_result_o    = crc_result;
+    assign chunks_o        = chunks_q;
     assign crc_data_o      = slot_crc_q[slot];
     assign slot_good_o     = store_slot;
     assign slot_buffer_o   = slot_buffer;

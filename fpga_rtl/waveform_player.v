@@ -96,10 +96,7 @@ module waveform_player #(
     wire halted    = stop_i || disarm_i;     // nothing begins in this clock; what begins with a fault ends with it
     wire room      = armed_i && !playing_q && !delayed_q && !resting;
     wire free      = room && !halted;
-    wire by_trigger = head_i && head_start_i == `START_TRIGGER && trigger_i;
-    wire by_time    = head_i && head_start_i == `START_TIME && due_q;
-    wire at_once    = head_i && head_start_i == `START_NOW && remaining_q == 16'd0;
-    wire begins    = free && (by_trigger || by_time || at_once);
+    reg  by_trigger, begins;
     wire missed    = head_i && missed_q;
     wire delay     = head_delayed_i;
 
@@ -109,20 +106,37 @@ module waveform_player #(
     wire released  = delayed_q && delay_over_q && !halted;
     wire from_head = begins && !delay;
     wire start     = due || released || from_head;
+    always @* begin
+        by_trigger = 1'b0;
+        begins     = 1'b0;
+        if (head_i) begin
+            by_trigger = head_start_i == `START_TRIGGER && trigger_i;
+            begins     = free && (by_trigger || (head_start_i == `START_TIME && due_q)
+                                  || (head_start_i == `START_NOW && remaining_q == 16'd0));
+        end
+    end
     wire [16:0] next_fraction = {1'b0, fraction_q} + {1'b0, bit_period_i[15:0]};
 
     always @(posedge clk_i) begin
         if (trigger_i) begin
             triggers_q     <= triggers_q + 32'd1;
             trigger_time_q <= now_i;
+            if (!(begins && by_trigger)) ignored_q <= ignored_q + 32'd1;
         end
-        if (trigger_i && !(begins && by_trigger)) ignored_q <= ignored_q + 32'd1;
         if (missed) missed_count_q <= missed_count_q + 32'd1;
         ahead_q  <= ahead_q + 64'd1;
-        due_q    <= head_i && head_when_i == ahead_q;
-        missed_q <= head_i && head_start_i == `START_TIME && head_when_i < ahead_q && !pop_o;
+        due_q    <= 1'b0;
+        missed_q <= 1'b0;
+        if (head_i && head_start_i == `START_TIME) begin
+            due_q    <= head_when_i == ahead_q;
+            missed_q <= head_when_i < ahead_q && !pop_o;
+        end
 
         // words of an emission
+        if (playing_q) begin
+            hold_over_q <= !boundary && hold_q == 16'd1;
+            hold_q      <= hold_q - 16'd1;
+        end
         if (boundary) begin
             hold_q     <= bit_period_i[31:16] - 16'd1 + {15'd0, next_fraction[16]};
             fraction_q <= next_fraction[15:0];
@@ -130,11 +144,10 @@ module waveform_player #(
             left_q     <= left_q - 10'd1;
             within_q   <= within_q == 7'd124 ? 7'd0 : within_q + 7'd1;
             if (within_q == 7'd124) chunk_q <= chunk_q + 3'd1;
-        end else hold_q <= hold_q - 16'd1;
-        hold_over_q <= !boundary && hold_q == 16'd1;
-        if (last || (boundary && halting_q)) begin
-            playing_q <= 1'b0;
-            halting_q <= 1'b0;
+            if (last || halting_q) begin
+                playing_q <= 1'b0;
+                halting_q <= 1'b0;
+            end
         end
         if (!until_next_over_q) begin
             until_next_q      <= until_next_q - 32'd1;

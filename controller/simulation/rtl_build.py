@@ -24,7 +24,7 @@ from controller.board.paths import state_folder
 from controller.errors import LinkError
 from controller.service.installation import install_line
 
-VERILATE = ["--cc", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
+VERILATE = ["--cc", "-O3", "-fno-table", "-fno-dfg", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
 COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and slow to optimise: compiled with -O0

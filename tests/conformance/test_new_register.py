@@ -104,7 +104,8 @@ module bench;
     wire [19:0] tests_max;
     always #1 clk = !clk;
     register_file #(.TESTS_BUILT(32'd4321)) register_file (
-        .clk_i(clk), .rst_i(rst), .accept_i(write), .uart_i(1'b0), .read_i(1'b0), .write_i(write), .address_i(address),
+        .clk_i(clk), .rst_i(rst), .judge_i(1'b1), .accept_i(write), .uart_i(1'b0), .read_i(1'b0), .write_i(write),
+        .address_i(address),
         .words_i({96'd0, word}), .read_result_o(read_result), .write_result_o(write_result), .data_o(data), .off_i(1'b1),
         .quiet_i(1'b1), .permitted_i(1'b1), .refused_i(2'b00), .gap_i(1'b0), .tests_i(20'd777), .tests_max_o(tests_max)
     );

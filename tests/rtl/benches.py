@@ -113,6 +113,9 @@ RUNS |= {
     )
     for clock_hz, baud in OTHER_RATES
 }
+RUNS["stage_limits_resting"] = partial(
+    run_bench, "stage_limits", {"EDGE_WINDOW_TICKS": 4800}, test_filter="rest_between|random_days"
+)
 RUNS["serial_link"] = partial(run_bench, "uart_panel", SERIAL, beside=[Path(__file__).parent / "uart_panel.v"])
 
 if __name__ == "__main__":

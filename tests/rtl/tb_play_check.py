@@ -108,7 +108,7 @@ class Bench:
 
     @classmethod
     async def ready(cls, dut, now=0):
-        await after_reset(dut, now_i=now)
+        await after_reset(dut, now_i=now, judge_i=1)
         bench = cls(dut)
         bench.tick = now
         await bench.step(2)

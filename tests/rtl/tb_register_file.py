@@ -160,7 +160,7 @@ class Bench:
 
     @classmethod
     async def ready(cls, dut):
-        await after_reset(dut)
+        await after_reset(dut, judge_i=1)
         bench = cls(dut)
         bench.begin()
         return bench

@@ -62,6 +62,14 @@ async def asked_for_more_edges_it_gives_those_built_in_and_asked_for_fewer_those
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
+async def what_is_asked_for_while_anything_is_on_does_not_count(dut):
+    await armed(dut, channel_edges=12)
+    dut.channel_edges_i.value = 40
+    await clocks(dut, 50)
+    assert await toggled(dut, 0x2, 5) == 13
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
 async def asked_for_shorter_pulses_it_takes_those_built_in(dut):
     for asked, ticks, bad in ((0, 3, False), (0, 2, True), (2, 2, True), (5, 3, True), (5, 5, False)):
         await armed(dut, pulse_ticks=asked)

@@ -6,7 +6,7 @@ import cocotb
 from clocked import after_reset, clocks
 from limits_reference import CHANNEL_EDGES, DUTY, LONG_EMISSION, NO_LIMITS, SHORT_PULSE, TOTAL_EDGES, Inputs, limits_reference
 
-WINDOW_TICKS = 480  # as in BENCHES
+WINDOW_TICKS = 480  # as in BENCHES; resting turns have a longer one
 PART_TICKS = 32
 ALL = 0xFFFFFFFF
 
@@ -21,7 +21,8 @@ async def follow(dut, inputs, **limits):
         dut.active_i.value, dut.emission_i.value, dut.start_i.value = now.active, now.emission, now.start
         seen.append(tuple(int(signal.value) for signal in (dut.cause_o, dut.channels_o, dut.duty_level_o)))
         await clocks(dut)
-    expected = [(o.cause, o.channels, o.duty_level) for o in limits_reference(inputs, settings, WINDOW_TICKS)]
+    window_ticks = int(dut.EDGE_WINDOW_TICKS.value)
+    expected = [(o.cause, o.channels, o.duty_level) for o in limits_reference(inputs, settings, window_ticks)]
     for tick, (got, due) in enumerate(zip(seen, expected, strict=False)):
         assert got == due, f"tick {tick}: {got} for {due}, {settings}"
     return seen
@@ -192,3 +193,24 @@ async def random_days_are_as_in_the_reference(dut):
         for cause, _, _ in await follow(dut, inputs, **limits):
             tripped |= cause
     assert tripped == 31, "each of the five happens"
+
+
+@cocotb.test(timeout_time=20, timeout_unit="ms")
+async def turns_that_rest_between_bursts_have_lost_nothing(dut):
+    """With parts longer than turns stay awake; pulses alone at any distance from a burst, a part's beginning and each other."""
+    tripped = 0
+    for _ in range(6):
+        word, inputs, gap = 0, [], 1
+        for tick in range(3000):
+            if tick % 150 == 0:
+                gap = random.choice([1, 2, 7, 60, 70, 10**6])
+            if random.randrange(gap) == 0:
+                word ^= random.getrandbits(32) & random.getrandbits(32)
+            inputs.append(Inputs(word))
+        limits = {
+            "channel_edges": random.randrange(10, 130),
+            "total_edges": random.choice([2**32 - 1, random.randrange(300, 4000)]),
+        }
+        for cause, _, _ in await follow(dut, inputs, **limits):
+            tripped |= cause
+    assert tripped == CHANNEL_EDGES | TOTAL_EDGES

@@ -116,7 +116,7 @@ class Bench:
 
     @classmethod
     async def ready(cls, dut):
-        await after_reset(dut)
+        await after_reset(dut, judge_i=1, look_i=1)
         return cls(dut)
 
     @property
