@@ -36,6 +36,18 @@ def processor_s(pid):
     return sum(map(int, fields[PROCESS_FIELDS])) / TICKS_HZ
 
 
+def spare_s():
+    """Seconds that the machine had to spare for this process: idle processors, and the process's own work."""
+    return idle_s() + processor_s(os.getpid())
+
+
+class SpareTime:
+    """In place of the module `time` for a link whose peer is a thread of this process: only time to spare passes."""
+
+    monotonic = staticmethod(spare_s)
+    perf_counter_ns = staticmethod(time.perf_counter_ns)
+
+
 class Patience:
     """So many seconds to spare, from now on.
 

@@ -33,7 +33,8 @@ def served(panel):
                 panel.socket.loaded(ticket, "absent.toml: no such scene" if name == "absent" else "")
             while panel.conditions:
                 panel.socket.changed(panel.conditions.popleft())
-            panel.socket.touches([TouchSample(7, 0.1, 0.07, panel.now_s, True, 8e-3)])
+            if not any(client.open and client.unsent for client in panel.socket._clients.places):  # on a busy machine it reads late
+                panel.socket.touches([TouchSample(7, 0.1, 0.07, panel.now_s, True, 8e-3)])
             panel.now_s += 1e-3
 
     thread = threading.Thread(target=loop)

@@ -6,7 +6,8 @@ import pytest
 
 from controller.bank.reader import Bank
 from controller.benchmark import slow_hosts
-from controller.benchmark.slow_hosts import LATE_S, TRAIN, aim_errors, moving, rates, run_slow, scene_of
+from controller.benchmark.slow_host import LATE_S, moving, run_slow, scene_of
+from controller.benchmark.slow_hosts import TRAIN, aim_errors, rates
 
 LATE_PERCENT = {140: 0.5, 220: 0.5, 550: 2.0, 1300: 5.0}  # of the beats, at most, by the median host time in µs
 

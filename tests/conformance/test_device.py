@@ -9,9 +9,10 @@ import time
 
 import numpy as np
 import pytest
+from patience import SpareTime
 
 from controller.board.lookup import data_folder
-from controller.fpga import frames
+from controller.fpga import frames, serial_link
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
@@ -29,7 +30,7 @@ OWN |= {register for register in Register if register.kind is Kind.BUILT_IN}
 
 
 @pytest.fixture
-def link(board):
+def link(board, monkeypatch):
     """The device, or what stands in for one."""
     device = os.environ.get("HAPTIC_PANEL_SERIAL")
     if device:
@@ -37,6 +38,7 @@ def link(board):
         yield opened
         opened.close()
         return
+    monkeypatch.setattr(serial_link, "time", SpareTime)
     model = GatewareModel(BuildParameters.of(board, BUILD))
     with PseudoTerminal(UartPanel(model, board.link.clock_hz, BAUD, time.monotonic).receive) as terminal:
         opened = SerialLink(terminal.device, BAUD, time.monotonic)

@@ -5,12 +5,13 @@ import json
 
 import numpy as np
 import pytest
+from patience import SpareTime
 
 from controller.board.lookup import data_folder
 from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.errors import LinkError
-from controller.fpga import bring_up, frames
+from controller.fpga import bring_up, frames, serial_link
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.clock_estimate import ClockEstimate
@@ -183,6 +184,7 @@ def test_check_is_a_command_for_simulated_and_serial_gateware(board, capsys, mon
     model = GatewareModel(BuildParameters.of(board, BUILD))
     clock = VirtualClock()
     monkeypatch.setattr("controller.commands.gateware.MonotonicClock", lambda: clock)
+    monkeypatch.setattr(serial_link, "time", SpareTime)
     panel = UartPanel(model, board.link.clock_hz, 1_000_000, clock.now_s)
     with PseudoTerminal(panel.receive) as terminal:
         assert main(["gateware", "check", "--device", terminal.device, "--channel", "3", "--bits", "1e4", "--json"]) == 0
