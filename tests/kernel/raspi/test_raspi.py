@@ -24,9 +24,9 @@ from controller.fpga.bring_up import CHIRP_REPETITIONS
 HERE = Path(__file__).parent
 NS_PER_INSTRUCTION = 2
 FORMS = {  # most instructions of the host at the median, of an upload and of a resident play: 15 % above what was measured
-    "kernel": (0.62e6, 0.28e6),
-    "mypyc": (0.44e6, 0.16e6),
-    "numpy": (1.19e6, 0.30e6),
+    "kernel": (0.61e6, 0.27e6),
+    "mypyc": (0.38e6, 0.133e6),
+    "numpy": (1.18e6, 0.29e6),
 }
 UPLOAD_IN_KERNEL_US = 1600  # bits, pauses between frames, and the driver
 
