@@ -94,7 +94,7 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
     assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
 
 
-@pytest.mark.slow
+@pytest.mark.kernel  # with the tests that take minutes and that CI runs too
 def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
     copy = tmp_path / "checkout"
     assert re.search(r"-(cp\d+)-\1-linux_", compiled_copy(copy)), "for this version of CPython alone"
