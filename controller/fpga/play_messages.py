@@ -6,7 +6,7 @@ all of them numbered and sealed by one call.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Final
 
 from controller.board.board import Board
 from controller.fpga import frames
@@ -18,7 +18,7 @@ from controller.kernel import pack_loads, renumber_loads, seal_short_frames
 CHECK_TICKS: Final = 8  # beyond one for each word, until the FPGA has checked what it stored
 
 
-class Pattern(NamedTuple):
+class Pattern:
     """Short frames of a message, the LOADs before them, and where what differs from message to message belongs.
 
     Attributes
@@ -35,11 +35,14 @@ class Pattern(NamedTuple):
         Bytes of each frame of the message.
     """
 
-    part: slice
-    blank: bytes
-    number: int
-    play_at: int
-    lengths: tuple[int, ...]
+    __slots__ = ("blank", "lengths", "number", "part", "play_at")
+
+    def __init__(self, part: slice, blank: bytes, number: int, play_at: int, lengths: tuple[int, ...]) -> None:
+        self.part: Final = part
+        self.blank: Final = blank
+        self.number: Final = number
+        self.play_at: Final = play_at
+        self.lengths: Final = lengths
 
 
 class PlayMessages:
@@ -102,11 +105,11 @@ class PlayMessages:
         stop : bool
             Put a STOP first.
         """
-        sent, (part, blank, number, play_at, lengths) = self._sent, self._plays[stop]
-        sent[part] = blank
-        PLAY_FIELDS.pack_into(sent, play_at, slot, 0, 0, count, start, 0, period_ticks, mask, when_ticks)
-        seal_short_frames(sent, 0, number, sequence)
-        return lengths
+        sent, pattern = self._sent, self._plays[stop]
+        sent[pattern.part] = pattern.blank
+        PLAY_FIELDS.pack_into(sent, pattern.play_at, slot, 0, 0, count, start, 0, period_ticks, mask, when_ticks)
+        seal_short_frames(sent, 0, pattern.number, sequence)
+        return pattern.lengths
 
     def upload(self, sequence: int, slot: int, waveform: Waveform) -> tuple[int, ...]:
         """Pack an upload into a slot, with NOPs until its check is done; returns the length of each frame in bytes.
@@ -124,12 +127,12 @@ class PlayMessages:
         ValueError
             If the waveform is not as long as the board's.
         """
-        sent, (part, blank, number, _, lengths) = self._sent, self._upload
+        sent, pattern = self._sent, self._upload
         crc = self._pack_loads(sequence, waveform)
-        sent[part] = blank
+        sent[pattern.part] = pattern.blank
         STORE_FIELDS.pack_into(sent, self._loads_bytes + SHORT_FIELDS_AT, slot, self._samples, crc)
-        seal_short_frames(sent, self._loads_bytes, number, sequence + self.loads)
-        return lengths
+        seal_short_frames(sent, self._loads_bytes, pattern.number, sequence + self.loads)
+        return pattern.lengths
 
     def upload_and_play(
         self,
@@ -161,13 +164,13 @@ class PlayMessages:
         ValueError
             As `upload`.
         """
-        sent, (part, blank, number, play_at, lengths) = self._sent, self._uploads_and_plays[stop]
+        sent, pattern = self._sent, self._uploads_and_plays[stop]
         crc = self._pack_loads(sequence, waveform)
-        sent[part] = blank
+        sent[pattern.part] = pattern.blank
         STORE_FIELDS.pack_into(sent, self._loads_bytes + SHORT_FIELDS_AT, slot, self._samples, crc)
-        PLAY_FIELDS.pack_into(sent, play_at, slot, 0, 0, count, start, 0, period_ticks, ALL_CHANNELS, when_ticks)
-        seal_short_frames(sent, self._loads_bytes, number, sequence + self.loads)
-        return lengths
+        PLAY_FIELDS.pack_into(sent, pattern.play_at, slot, 0, 0, count, start, 0, period_ticks, ALL_CHANNELS, when_ticks)
+        seal_short_frames(sent, self._loads_bytes, pattern.number, sequence + self.loads)
+        return pattern.lengths
 
     def _pack_loads(self, sequence: int, waveform: Waveform) -> int:
         """Pack the LOADs of a waveform; returns the CRC-32 that its STORE demands."""

@@ -83,9 +83,9 @@ class Outputs:
 
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
-        if self.idle and self._session.heartbeat_due_s >= self._idle_from_s:
+        if self.idle and self._session.exchange.heartbeat_due_s >= self._idle_from_s:
             return self._clock.now_s() + IDLE_TURN_S
-        return self._session.heartbeat_due_s if self.on or self.idle else self._recovery.next_s
+        return self._session.exchange.heartbeat_due_s if self.on or self.idle else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
         """Do what is due: bring up, arm, end the ramp, or send a heartbeat; True when the outputs have just come on.
@@ -96,7 +96,7 @@ class Outputs:
             A fault of the FPGA or an error of the link: to be given to `failed`.
         """
         if self.on or self.idle:
-            due_s = self._session.heartbeat_due_s
+            due_s = self._session.exchange.heartbeat_due_s
             if due_s <= now_s and (self.on or due_s < self._idle_from_s):
                 self._beat()
             return False

@@ -119,7 +119,7 @@ class Playback:
         """
         decided_ns = time.perf_counter_ns()
         session, wire_before_ns, blocked_before_ns = self._session, self._session.link.wire_ns, self._session.link.blocked_ns
-        emissions, repetitions, period_s, at_s, _ = batch
+        emissions, repetitions, period_s, at_s = batch.emissions, batch.repetitions, batch.period_s, batch.at_s
         begun_s = session.earliest_trigger_s()
         plan = self._plan(batch, begun_s, predicted, points)
         if self._prefetch.predicted is not None:
@@ -146,7 +146,8 @@ class Playback:
             if at_s is not None and refusal.result is Result.TOO_LATE:
                 self._counters.late += 1
                 self._arrived(begun_s, plan)
-                return self.prepare(batch._replace(at_s=None), started_ns, points=plan.points)  # its waveform is resident now
+                arriving = Batch(emissions, repetitions, period_s, None, batch.has_begun)
+                return self.prepare(arriving, started_ns, points=plan.points)  # its waveform is resident now
             if plan.resident is not None and refusal.result is Result.SLOT_DAMAGED:  # its slot was dropped: uploaded again
                 return self.prepare(batch, started_ns, predicted=predicted)
             self._counters.skipped.refused += len(emissions)
@@ -367,7 +368,8 @@ class Playback:
 
     def _started(self, accepted: Accepted, start_s: float, trigger_ns: int) -> None:
         """Count a start, and what it took."""
-        (emissions, count, period_s, _, _), plan = accepted.batch, accepted.plan
+        batch, plan = accepted.batch, accepted.plan
+        emissions, count, period_s = batch.emissions, batch.repetitions, batch.period_s
         ticks, resident = accepted.start_ticks, plan.resident is not None
         fpga_s = start_s + self._clock_estimate.offset_s if ticks is None else self._clock_estimate.fpga_s_of(ticks)
         self.occupancy.started(start_s, fpga_s, by_clock=ticks is not None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Final
 
 from controller.clocks import FpgaTime
 from controller.loop.commands import Outcome
@@ -18,9 +18,10 @@ from controller.waveforms.composition import Point
 from controller.waveforms.selection import Key
 
 ENDLESS: Final = 0  # repetitions: until they are replaced
+UNKNOWN: Final = FpgaTime(math.nan)
 
 
-class Turn(NamedTuple):
+class Turn:
     """One turn of the loop.
 
     Attributes
@@ -37,14 +38,17 @@ class Turn(NamedTuple):
         Which finger moved, in that report.
     """
 
-    started_ns: int
-    now_s: float
-    fpga_s: FpgaTime
-    report_ns: int
-    finger: int | None
+    __slots__ = ("finger", "fpga_s", "now_s", "report_ns", "started_ns")
+
+    def __init__(self, started_ns: int, now_s: float, fpga_s: FpgaTime, report_ns: int, finger: int | None) -> None:
+        self.started_ns: Final = started_ns
+        self.now_s: Final = now_s
+        self.fpga_s: Final = fpga_s
+        self.report_ns: Final = report_ns
+        self.finger: Final = finger
 
 
-class Batch(NamedTuple):
+class Batch:
     """Emissions that are played as one waveform.
 
     Attributes
@@ -61,14 +65,24 @@ class Batch(NamedTuple):
         until what is sent now has arrived for certain.
     """
 
-    emissions: Sequence[Emission]
-    repetitions: int = 1
-    period_s: float = 0.0
-    at_s: FpgaTime | None = None
-    has_begun: bool = False
+    __slots__ = ("at_s", "emissions", "has_begun", "period_s", "repetitions")
+
+    def __init__(
+        self,
+        emissions: Sequence[Emission],
+        repetitions: int = 1,
+        period_s: float = 0.0,
+        at_s: FpgaTime | None = None,
+        has_begun: bool = False,
+    ) -> None:
+        self.emissions: Final = emissions
+        self.repetitions: Final = repetitions
+        self.period_s: Final = period_s
+        self.at_s: Final = at_s
+        self.has_begun: Final = has_begun
 
 
-class Plan(NamedTuple):
+class Plan:
     """How a batch is played.
 
     Attributes
@@ -85,27 +99,43 @@ class Plan(NamedTuple):
         The beat cannot arrive in time any more.
     """
 
-    points: list[Point]
-    key: Key
-    resident: Key | None
-    start_s: FpgaTime
-    missed: bool
+    __slots__ = ("key", "missed", "points", "resident", "start_s")
+
+    def __init__(self, points: list[Point], key: Key, resident: Key | None, start_s: FpgaTime, missed: bool) -> None:
+        self.points: Final = points
+        self.key: Final = key
+        self.resident: Final = resident
+        self.start_s: Final = start_s
+        self.missed: Final = missed
 
 
-class Accepted(NamedTuple):
+class Accepted:
     """A batch whose play command the FPGA has accepted, and what that took."""
 
-    batch: Batch
-    plan: Plan
-    ready_s: float  # host time at which the command had arrived
-    start_s: float  # host time
-    start_ticks: int | None  # of the FPGA's clock, if it starts the batch by itself
-    decide_ns: int
-    frame_ns: int
-    wire_ns: int
+    __slots__ = ("batch", "decide_ns", "frame_ns", "plan", "ready_s", "start_s", "start_ticks", "wire_ns")
+
+    def __init__(
+        self,
+        batch: Batch,
+        plan: Plan,
+        ready_s: float,
+        start_s: float,
+        start_ticks: int | None,
+        decide_ns: int,
+        frame_ns: int,
+        wire_ns: int,
+    ) -> None:
+        self.batch: Final = batch
+        self.plan: Final = plan
+        self.ready_s: Final = ready_s  # host time at which the command had arrived
+        self.start_s: Final = start_s  # host time
+        self.start_ticks: Final = start_ticks  # of the FPGA's clock, if it starts the batch by itself
+        self.decide_ns: Final = decide_ns
+        self.frame_ns: Final = frame_ns
+        self.wire_ns: Final = wire_ns
 
 
-class Attempt(NamedTuple):
+class Attempt:
     """What became of a batch.
 
     Attributes
@@ -120,10 +150,13 @@ class Attempt(NamedTuple):
         Whether it has started, or is started by the FPGA; otherwise `Playback.trigger` starts it.
     """
 
-    outcome: Outcome
-    start_s: float = math.nan
-    fpga_s: FpgaTime = FpgaTime(math.nan)
-    started: bool = False
+    __slots__ = ("fpga_s", "outcome", "start_s", "started")
+
+    def __init__(self, outcome: Outcome, start_s: float = math.nan, fpga_s: FpgaTime = UNKNOWN, started: bool = False) -> None:
+        self.outcome: Final = outcome
+        self.start_s: Final = start_s
+        self.fpga_s: Final = fpga_s
+        self.started: Final = started
 
 
 @dataclass(frozen=True, slots=True)

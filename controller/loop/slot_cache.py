@@ -100,7 +100,7 @@ class SlotCache:
         self.held[slot] = key
         self.held.move_to_end(slot)
         self._slot_of[key] = slot
-        focus = self._single_focus(key)
+        focus = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
         if focus is not None:
             self._single_focus_of[slot] = key, *focus
 

@@ -22,8 +22,8 @@ from typing import Final
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
 from controller.scene.emission import Emission
+from controller.scene.progress import DistanceProgress, GridProgress
 from controller.scene.scene import OUTSIDE, Scene
-from controller.scene.spacings import DistanceProgress, GridProgress
 from controller.scene.trains import NO_BEAT, ActiveTrain, Train
 
 NO_CROSSING = (math.inf, 0.0)

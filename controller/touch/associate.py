@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from controller.touch.axes import Axes
 
@@ -19,7 +18,6 @@ MIN_INTERVAL_S, MAX_INTERVAL_S = 2e-3, 50e-3  # no panel reports faster; after a
 VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 
 
-@dataclass(slots=True, eq=False)
 class Contact:
     """State of one contact, or of one slot.
 
@@ -49,23 +47,39 @@ class Contact:
         Without a tracking id: velocity in m/s.
     """
 
-    identity: int
-    x: int | None = None
-    y: int | None = None
-    moved: bool = False
-    hovers: bool = False
-    palm: bool = False
-    counted: bool = False
-    refused: bool = False
-    finger: int | None = None
-    x_m: float = 0.0
-    y_m: float = 0.0
-    size: int = 0
-    size_m: float = 0.0
-    at_x_m: float = 0.0
-    at_y_m: float = 0.0
-    vx: float = 0.0
-    vy: float = 0.0
+    __slots__ = (
+        "at_x_m",
+        "at_y_m",
+        "counted",
+        "finger",
+        "hovers",
+        "identity",
+        "moved",
+        "palm",
+        "refused",
+        "size",
+        "size_m",
+        "vx",
+        "vy",
+        "x",
+        "x_m",
+        "y",
+        "y_m",
+    )
+
+    def __init__(
+        self, identity: int, *, finger: int | None = None, x_m: float = 0.0, y_m: float = 0.0, size_m: float = 0.0
+    ) -> None:
+        self.identity = identity
+        self.x: int | None = None
+        self.y: int | None = None
+        self.moved = self.hovers = self.palm = self.counted = self.refused = False
+        self.finger = finger
+        self.x_m = x_m
+        self.y_m = y_m
+        self.size = 0
+        self.size_m = size_m
+        self.at_x_m = self.at_y_m = self.vx = self.vy = 0.0
 
 
 def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:

@@ -81,15 +81,16 @@ class Decoder:
     def __init__(
         self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
-        self.protocol = protocol
         self.counts: Counts = after.counts if after else Counts()
         self.warnings: Counter[str] = after.warnings if after else Counter()
         self._axes = axes
         self._limits = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
         self._size_m = axes.size_m_per_unit
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
-        single = protocol is Protocol.SINGLE
-        self._x_code, self._y_code = (ABS_X, ABS_Y) if single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
+        self._is_a = protocol is Protocol.A
+        self._is_b = protocol is Protocol.B
+        self._is_single = protocol is Protocol.SINGLE
+        self._x_code, self._y_code = (ABS_X, ABS_Y) if self._is_single else (ABS_MT_POSITION_X, ABS_MT_POSITION_Y)
         self._slots: dict[int, Contact] = {}  # protocol A: by identity
         self._packets: list[Contact] = []  # protocol A: contacts of the report so far
         self._packets_s = 0.0  # time of the last report
@@ -141,13 +142,13 @@ class Decoder:
                 else:
                     self._axis(code, value)
                     continue
-                if current.identity == UNKNOWN and self.protocol is not Protocol.SINGLE:
+                if current.identity == UNKNOWN and not self._is_single:
                     current.identity = IMPLIED
             elif kind == EV_SYN:
                 if code == SYN_REPORT:
                     samples = self._report(time_s)
                 elif code == SYN_MT_REPORT:
-                    if self.protocol is Protocol.A and not self._dropping:
+                    if self._is_a and not self._dropping:
                         self._end_packet()
                 elif code == SYN_DROPPED and not self._dropping:
                     self._dropping = True
@@ -178,7 +179,7 @@ class Decoder:
 
     def _axis(self, code: int, value: int) -> None:
         """Any axis but the positions."""
-        if self.protocol is Protocol.SINGLE:
+        if self._is_single:
             return
         current = self._current
         if code == ABS_MT_SLOT:
@@ -190,10 +191,10 @@ class Decoder:
                 self._current = contact
         elif code == ABS_MT_TOUCH_MAJOR:
             current.size = value
-            if self.protocol is Protocol.A:
+            if self._is_a:
                 current.hovers = value == 0
         elif code == ABS_MT_TRACKING_ID:
-            if self.protocol is Protocol.B:
+            if self._is_b:
                 self._identify(current, max(value, NO_CONTACT))
             else:
                 current.identity = value
@@ -203,7 +204,7 @@ class Decoder:
             current.palm = value == MT_TOOL_PALM
 
     def _button(self, touching: bool) -> None:
-        if self.protocol is Protocol.SINGLE:
+        if self._is_single:
             self._identify(self._current, 0 if touching else NO_CONTACT)
         self._touching = touching
 
@@ -222,7 +223,7 @@ class Decoder:
         if slot > self._last_slot:
             self.warnings["slot_beyond_range"] += 1
         contact = Contact(UNKNOWN)
-        if self.protocol is not Protocol.A:
+        if not self._is_a:
             self._slots[slot] = contact
         return contact
 
@@ -254,7 +255,7 @@ class Decoder:
         if self._dropping:  # all before is void; a live panel's driver gives its state as the next report
             self._dropping = False
             return self.release(time_s)
-        if self.protocol is Protocol.A:
+        if self._is_a:
             if self._current.x is not None:
                 self._end_packet()
             if self._packet_seen or self._touching is False:

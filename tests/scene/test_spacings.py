@@ -7,8 +7,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from controller.scene.effects import EffectTable
+from controller.scene.progress import MAX_REARM_M, REARM_SHARE, REST_M
 from controller.scene.shapes import Circle, Polygon, Rectangle
-from controller.scene.spacings import MAX_REARM_M, REARM_SHARE, REST_M, Spacing, spacing_of
+from controller.scene.spacings import Spacing, spacing_of
 
 places = st.lists(st.tuples(st.integers(-4, 4), st.floats(REARM_SHARE + 0.001, 1 - REARM_SHARE - 0.001)), min_size=2, max_size=60)
 

@@ -87,6 +87,7 @@ main(["doctor", "--board", str(folder)])
 """
 
 
+@pytest.mark.interpreted
 def test_every_kind_of_panel_has_a_driver_that_takes_its_settings():
     assert set(PANELS) == set(get_args(Touch)) - {RecordingTouch}
     for settings, driver in PANELS.items():
