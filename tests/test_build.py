@@ -6,20 +6,15 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parent.parent
-EXTENSION = "controller/kernel/_kernel.abi3.so"
+from compiled_copy import KERNEL as EXTENSION
+from compiled_copy import ROOT, build_wheel, compiled_copy
 
 
 def build(folder, **environment):
-    """A wheel as pip would build it; warnings of the compiler are errors here."""
-    environment = {**os.environ, "CFLAGS": "-Werror", "SOURCE_DATE_EPOCH": "1700000000"} | environment
-    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
-    return done, next(folder.glob("*.whl"), None)
+    """A wheel; warnings of the compiler are errors here."""
+    return build_wheel(folder, **{"CFLAGS": "-Werror", "SOURCE_DATE_EPOCH": "1700000000"} | environment)
 
 
 def run(code, kernel=""):
@@ -99,18 +94,10 @@ def test_a_compiled_kernel_older_than_its_source_is_not_used(tmp_path):
     assert "_kernel.abi3.so is older than kernel.c" in run(code, kernel="compiled").stderr
 
 
-@pytest.mark.slow
+@pytest.mark.kernel  # with the tests that take minutes and that CI runs too
 def test_the_loop_compiled_by_mypyc_passes_its_tests(tmp_path):
-    """In a copy of the checkout with the compiled modules beside their sources, which Python then takes."""
-    done, wheel = build(tmp_path, CFLAGS="", HAPTIC_PANEL_MYPYC="1")
-    assert wheel, done.stdout + done.stderr
-    assert re.search(r"-(cp\d+)-\1-linux_", wheel.name), "for this version of CPython alone"
     copy = tmp_path / "checkout"
-    left_out = shutil.ignore_patterns(".*", "__pycache__", "build", "dist")
-    shutil.copytree(ROOT, copy, ignore=left_out)
-    with zipfile.ZipFile(wheel) as packed:
-        packed.extractall(copy, [name for name in packed.namelist() if name.endswith(".so")])
-    (copy / EXTENSION).touch()
+    assert re.search(r"-(cp\d+)-\1-linux_", compiled_copy(copy)), "for this version of CPython alone"
     compiled = run_in(copy, "-c", "from controller.loop import event_loop, playback; print(event_loop, playback)")
     assert compiled.stdout.count(".so") == 2, compiled.stderr
     rooms = [f"tests/{room}" for room in ("loop", "touch", "scene", "fpga", "waveforms", "bank", "simulation/test_same_bytes.py")]

@@ -68,12 +68,9 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
-    built = {register: (read(register), value) for register, value in limits(board).items()}
-    other = [
-        f"{register.name} is {found}, not {value} ({LIMITS[register]})"
-        for register, (found, value) in built.items()
-        if found != value
-    ]
+    wanted = limits(board)
+    built = {register: read(register) for register in wanted}
+    other = [f"{of.name} is {built[of]}, not {wanted[of]} ({LIMITS[of]})" for of in wanted if built[of] != wanted[of]]
     if other:
         raise IncompatibleFpga(
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"

@@ -50,7 +50,7 @@ def look_at_pi(board: Board, root: Path = Path("/")) -> list[Finding]:
     root : Path
         Of the machine's files.
     """
-    name = _read(root, "proc/device-tree/model").rstrip("\0\n ")
+    name = _name(root, "proc/device-tree/model")
     found = re.fullmatch(r"Raspberry Pi (.*)", name)
     if board.link.kind != "spi" or found is None:
         return []
@@ -77,6 +77,11 @@ def _read(root: Path, path: str) -> str:
         return ""
 
 
+def _name(root: Path, path: str) -> str:
+    """First line of a file, without what cannot be printed; empty where there is none."""
+    return "".join(filter(str.isprintable, _read(root, path).strip("\0\n ").partition("\n")[0])).strip()
+
+
 def _number(root: Path, path: str, base: int = 10) -> int | None:
     """Whole number that a file holds; None where there is none."""
     try:
@@ -91,7 +96,7 @@ def _warned(about: str, said: str) -> Finding:
 
 def _kernel(root: Path, name: str, model: _Model | None) -> Iterator[Finding]:
     """Model and kernel; on a Pi 5 whether the kernel is one whose SPI times out."""
-    release = _read(root, "proc/sys/kernel/osrelease").strip()
+    release = _name(root, "proc/sys/kernel/osrelease")
     realtime = _read(root, "sys/kernel/realtime").strip() == "1"
     numbers = re.match(r"(\d+)\.(\d+)\.(\d+)", release)
     if model is _PI_5 and numbers and tuple(map(int, numbers.groups())) < DMA_MENDED:
@@ -154,7 +159,7 @@ def _polling(root: Path, board: Board) -> Iterator[Finding]:
 def _governor(root: Path, board: Board) -> Iterator[Finding]:
     """Whether the loop's core keeps its clock."""
     core = board.realtime.cpu or 0
-    governor = _read(root, f"sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor").strip()
+    governor = _name(root, f"sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor")
     if governor == "performance":
         yield Finding("governor", True, "performance")
     elif governor:
@@ -236,7 +241,7 @@ def _i2c(root: Path, board: Board) -> Iterator[Finding]:
     """Whether a touch panel is on the controller that does not wait for a device that stretches the clock."""
     if not isinstance(board.touch, I2cTouch):
         return
-    adapter = _read(root, f"sys/class/i2c-dev/{Path(board.touch.bus).name}/name").strip()
+    adapter = _name(root, f"sys/class/i2c-dev/{Path(board.touch.bus).name}/name")
     if adapter.startswith("bcm2835"):
         said = f"{board.touch.bus} is the Pi's own controller, which damages bytes where a device stretches the clock"
         yield _warned("I2C clock", f"{said}: dtoverlay=i2c-gpio, or dtparam=i2c_arm_baudrate=50000, in config.txt")

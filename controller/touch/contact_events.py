@@ -11,6 +11,7 @@ from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
 MAX_CONTACTS: Final = 10
 MAX_TRACKING_ID: Final = 65535
 MAX_SIZE: Final = 65535
+ORDER: Final = ((2, ev.ABS_MT_TOUCH_MAJOR), (0, ev.ABS_MT_POSITION_X), (1, ev.ABS_MT_POSITION_Y))  # in which values are sent
 
 
 class Contact(NamedTuple):
@@ -66,9 +67,8 @@ class ContactEvents:
 
     def __init__(self, *, sized: bool) -> None:
         self._tracking = [-1] * MAX_CONTACTS
-        self._x = [-1] * MAX_CONTACTS
-        self._y = [-1] * MAX_CONTACTS
-        self._size = [-1 if sized else 0] * MAX_CONTACTS
+        nothing = -1, -1, -1 if sized else 0
+        self._values = [list(nothing) for _ in range(MAX_CONTACTS)]  # x, y and size that were sent last
         self._seen = [0] * MAX_CONTACTS  # number of the report that listed the contact last
         self._report = 0
         self._slot = -1
@@ -93,27 +93,20 @@ class ContactEvents:
         events: list[Event] = []
         self._report += 1
         before = self.down
-        for number, x, y, size in contacts:
+        for number, *values in contacts:
             self._seen[number] = self._report
-            begins = self._tracking[number] < 0
-            if begins:
+            if self._tracking[number] < 0:
                 self._select(number, time_s, events)
                 self._tracking[number] = self._next_id
                 events.append((ev.EV_ABS, ev.ABS_MT_TRACKING_ID, self._next_id, time_s))
                 self._next_id = self._next_id + 1 if self._next_id < MAX_TRACKING_ID else 0
                 self.down += 1
-            if size != self._size[number]:
-                self._select(number, time_s, events)
-                self._size[number] = size
-                events.append((ev.EV_ABS, ev.ABS_MT_TOUCH_MAJOR, size, time_s))
-            if x != self._x[number]:
-                self._select(number, time_s, events)
-                self._x[number] = x
-                events.append((ev.EV_ABS, ev.ABS_MT_POSITION_X, x, time_s))
-            if y != self._y[number]:
-                self._select(number, time_s, events)
-                self._y[number] = y
-                events.append((ev.EV_ABS, ev.ABS_MT_POSITION_Y, y, time_s))
+            sent = self._values[number]
+            for which, code in ORDER:
+                if values[which] != sent[which]:
+                    self._select(number, time_s, events)
+                    sent[which] = values[which]
+                    events.append((ev.EV_ABS, code, values[which], time_s))
         for number in range(MAX_CONTACTS):
             if self._tracking[number] >= 0 and self._seen[number] != self._report:
                 self._select(number, time_s, events)
