@@ -34,10 +34,10 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code (0, or 2 usage, 78 configuration, 69 device missing, 1 otherwise)."""
     arguments = sys.argv[1:] if arguments is None else arguments
-    options = parser(arguments).parse_args(arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # outside the event loop it ends a command as Ctrl-C does
-    command: Callable[[argparse.Namespace], int] = options.command
     try:
+        options = parser(arguments).parse_args(arguments)
+        command: Callable[[argparse.Namespace], int] = options.command
         return command(options)
     except ControllerError as error:
         print(line(str(error), Priority.ERROR), file=sys.stderr)
