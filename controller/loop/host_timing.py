@@ -24,7 +24,7 @@ MEAN_OF: Final = 32  # records that the mean is of, about
 
 MARGIN: Final = 1.25  # of the percentile: at most one beat of 200 is to be late
 PRIOR_S: Final = 0.16e-3  # 99th percentile before anything is measured, and the lowest
-MOST_S: Final = 6e-3  # the highest, and that of the lead beyond an upload's bits: what is handed over earlier misses fast fingers
+MAX_S: Final = 6e-3  # the highest, and that of the lead beyond an upload's bits: what is handed over earlier misses fast fingers
 HANDOVER_S: Final = MARGIN * PRIOR_S  # from the arrival expected at the earliest to the earliest time promised
 ARRIVED_S: Final = 0.1e-3  # a beat is to have arrived so long before it starts
 BEAT_LEAD_S: Final = 0.7e-3  # beyond an upload's bits: a beat is handed over this early at least
@@ -51,7 +51,7 @@ class RunningPercentile:
 
     __slots__ = ("_least_s", "_most_s", "_quick", "value_s")
 
-    def __init__(self, prior_s: float = PRIOR_S, least_s: float = PRIOR_S, most_s: float = MOST_S) -> None:
+    def __init__(self, prior_s: float = PRIOR_S, least_s: float = PRIOR_S, most_s: float = MAX_S) -> None:
         self.value_s = prior_s
         self._least_s = least_s
         self._most_s = most_s
@@ -70,7 +70,7 @@ class RunningPercentile:
             self.value_s = self._least_s if value_s < self._least_s else value_s
 
 
-class Way:
+class DeliveryTime:
     """Time from the decision to play something to the arrival of its last bit; for uploads, or for play commands alone.
 
     Parameters
@@ -117,7 +117,7 @@ class HostTiming:
 
     Attributes
     ----------
-    upload, command : Way
+    upload, command : DeliveryTime
     decided_s : float
         To be set: from the beginning of the turn to the newest decision for an emission.
     lead_s : float
@@ -127,8 +127,8 @@ class HostTiming:
     __slots__ = ("_decide_s", "_plate_s", "_uploads", "_woken", "command", "decided_s", "lead_s", "upload", "upload_bits_s")
 
     def __init__(self, upload_s: float, command_s: float, plate_s: float) -> None:
-        self.upload = Way(upload_s)
-        self.command = Way(command_s)
+        self.upload = DeliveryTime(upload_s)
+        self.command = DeliveryTime(command_s)
         self.upload_bits_s = upload_s
         self._plate_s = plate_s
         self._woken = RunningPercentile()
@@ -149,7 +149,7 @@ class HostTiming:
     def uploaded(self, duration_s: float) -> None:
         """Take the duration of an upload, from the decision on."""
         self.upload.record(duration_s)
-        self._decide_s += (min(self.decided_s, MOST_S) - self._decide_s) / MEAN_OF
+        self._decide_s += (min(self.decided_s, MAX_S) - self._decide_s) / MEAN_OF
         self._lead()
         self._uploads += 1
         if self._uploads == SAID_AFTER and self.uploads_hz < SLOWER / self._plate_s:
@@ -169,4 +169,4 @@ class HostTiming:
 
     def _lead(self) -> None:
         lead_s = self.upload.promised_s + self._woken.value_s + ARRIVED_S
-        self.lead_s = min(max(lead_s, self.upload_bits_s + BEAT_LEAD_S), self.upload_bits_s + MOST_S)
+        self.lead_s = min(max(lead_s, self.upload_bits_s + BEAT_LEAD_S), self.upload_bits_s + MAX_S)

@@ -16,7 +16,7 @@ from controller.fpga.exchange import DAMAGED, Refused
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.loop.commands import Outcome
-from controller.loop.host_timing import HostTiming, Way
+from controller.loop.host_timing import DeliveryTime, HostTiming
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 from controller.loop.prefetch import PrefetchRecord
 from controller.loop.records import ENDLESS, Accepted, Attempt, Batch, Plan, Played
@@ -283,13 +283,13 @@ class Playback:
                 resident = self._slots.find(key)
         return Plan(aimed, key, resident, start_s, missed)
 
-    def _start(self, batch: Batch, begun_s: float, way: Way) -> tuple[FpgaTime, bool]:
+    def _start(self, batch: Batch, begun_s: float, delivery: DeliveryTime) -> tuple[FpgaTime, bool]:
         """Earliest start of what begins to go out now; whether that misses a beat, which is played on arrival then."""
         at_s = batch.at_s
         if at_s is None or not batch.has_begun:
-            arrived_s = begun_s + (way.expected_s if at_s is None else way.promised_s) + self._clock_estimate.offset_s
+            arrived_s = begun_s + (delivery.expected_s if at_s is None else delivery.promised_s) + self._clock_estimate.offset_s
             return self.occupancy.earliest_start_s(arrived_s, at_s), False
-        arrived_s = begun_s + way.expected_s + self._clock_estimate.offset_s
+        arrived_s = begun_s + delivery.expected_s + self._clock_estimate.offset_s
         start_s = max(self.occupancy.free_from_s(arrived_s), at_s)
         return (arrived_s, True) if arrived_s > start_s else (start_s, False)
 

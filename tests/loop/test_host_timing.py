@@ -12,7 +12,7 @@ from controller.loop import host_timing
 from controller.loop.host_timing import (
     BEAT_LEAD_S,
     HANDOVER_S,
-    MOST_S,
+    MAX_S,
     PRIOR_S,
     QUICK_UP,
     SAID_AFTER,
@@ -43,7 +43,7 @@ def test_the_percentile_stays_within_its_bounds(durations):
     percentile = RunningPercentile()
     for duration_s in durations:
         percentile.record(duration_s)
-        assert PRIOR_S <= percentile.value_s <= MOST_S
+        assert PRIOR_S <= percentile.value_s <= MAX_S
 
 
 @given(st.lists(durations_s, max_size=100), durations_s)
@@ -52,7 +52,7 @@ def test_a_record_above_raises_the_percentile_but_not_beyond_a_factor_and_one_be
     before_s = percentile.value_s
     percentile.record(last_s)
     if last_s > before_s:
-        assert percentile.value_s == MOST_S or before_s < percentile.value_s <= before_s * QUICK_UP
+        assert percentile.value_s == MAX_S or before_s < percentile.value_s <= before_s * QUICK_UP
     else:
         assert before_s * 0.99 <= percentile.value_s <= before_s
 
@@ -85,7 +85,7 @@ def test_old_records_fade():
 def test_a_slow_host_is_known_after_some_ten_records():
     for p50_s in (0.14e-3, 0.55e-3, 1.3e-3):
         percentile = recorded(lognormal_s(p50_s, 40))
-        assert 2 * p50_s < percentile.value_s < min(9 * p50_s, 1.01 * MOST_S)
+        assert 2 * p50_s < percentile.value_s < min(9 * p50_s, 1.01 * MAX_S)
 
 
 def test_a_host_that_takes_no_time_keeps_the_shortest_lead():
@@ -108,7 +108,7 @@ def test_the_lead_covers_waking_deciding_composing_the_kernel_and_the_wire(p50_s
         timing.woken(late_s)
         timing.uploaded(BITS_S + one_s)
     need_s = BITS_S + float(np.percentile(extra_s, 98)) + late_s
-    assert min(need_s, BITS_S + MOST_S) <= timing.lead_s <= BITS_S + MOST_S
+    assert min(need_s, BITS_S + MAX_S) <= timing.lead_s <= BITS_S + MAX_S
     assert timing.upload.expected_s == pytest.approx(BITS_S + float(np.mean(extra_s)), rel=0.35)
     assert timing.upload.expected_s < timing.upload.promised_s
 
