@@ -117,6 +117,20 @@ def test_equal_weights_give_equal_shares_however_unequal_the_responses(tmp_path,
         assert amplitude(as_they_are, responses[5]) < 0.2
 
 
+def test_a_point_that_cannot_move_takes_nothing_from_the_others(tmp_path, make_bank, waves):
+    grid = Grid(5e-3, 3, 2, 5e-3, 6e-3)
+    responses = {0: waves.at(*grid.place(0)), 5: np.zeros((SAMPLES, CHANNELS))}
+    make_bank(tmp_path / "bank", grid, np.isin(np.arange(6), [0, 5]), SAMPLES, responses=responses)
+    with Bank.open(tmp_path / "bank") as bank:
+        composer = Composer(bank, IDLE_WORD)
+        alone, together = (composer.compose([(*grid.place(c), 1.0) for c in cells]).tobytes() for cells in ([0], [0, 5]))
+        assert together == alone
+        half, together = (
+            amplitude(composer.compose([(*grid.place(c), 0.5) for c in cells]), responses[0]) for cells in ([0], [5, 0])
+        )
+        assert together == pytest.approx(half, abs=0.01)
+
+
 def test_where_nothing_is_to_be_done_channels_stay_idle(tmp_path, make_bank):
     nothing = np.zeros((9, CHANNELS))
     nothing[4, 3] = 1e-9
