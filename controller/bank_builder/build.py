@@ -23,8 +23,8 @@ from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import mode_cut_hz
 
-HIGHEST_HZ = 100e3
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -80,7 +80,7 @@ def build_bank(
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
-    highest_hz: float = HIGHEST_HZ,
+    highest_hz: float | None = None,
     overwrite: bool = False,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
@@ -100,8 +100,8 @@ def build_bank(
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
         Measure the best rate of matrix multiplication for `sgemm_share`: about a second.
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
 
@@ -113,6 +113,7 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
     if wanted.shape != (grid.cells,):

@@ -27,7 +27,7 @@ from controller.physics.driver import DriverResponse
 from controller.physics.field import AROUND_S, Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import PlateModes
+from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -61,8 +61,8 @@ class PlateTwin:
     Parameters
     ----------
     board : Board
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     remembered : int
         Groups kept (0.1 MB each); the one not used for longest goes first.
 
@@ -72,13 +72,13 @@ class PlateTwin:
         Counters.
     """
 
-    def __init__(self, board: Board, highest_hz: float = 100e3, remembered: int = 256) -> None:
+    def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256) -> None:
         self.board = board
-        self.modes = PlateModes.of(board.plate, highest_hz)
+        self._highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
+        self.modes = PlateModes.of(board.plate, self._highest_hz)
         self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.modes)
         self.work = Work()
-        self._highest_hz = highest_hz
         self._remembered = remembered
         self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
         self._table: NDArray[np.float64] | None = None
