@@ -18,6 +18,7 @@ from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.interpolation_error import interpolation_error
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
@@ -52,6 +53,8 @@ class BuildReport:
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
         Edges per second of the busiest channel of all entries.
+    interpolation_error : dict
+        `InterpolationError.summary`: what fingers between cells lose.
     """
 
     path: str
@@ -65,6 +68,7 @@ class BuildReport:
     sgemm_share: float | None
     peak_memory_mb: float
     worst_edge_rate_hz: float
+    interpolation_error: dict[str, Any]
 
 
 def build_bank(
@@ -128,6 +132,7 @@ def build_bank(
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         "channel_edges": 0,  # filled in as entries are made; the header is written last
         "all_edges": 0,
+        "interpolation_error": {},
     }
     header = Header(
         creator=creator(),
@@ -169,6 +174,7 @@ def build_bank(
                 parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
                 writer.add(cell, words, *quantise(entry))
             bar.update(len(block))
+        parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -184,6 +190,7 @@ def build_bank(
         sgemm_share=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
+        interpolation_error=parameters["interpolation_error"],
     )
 
 

@@ -166,10 +166,13 @@ class Bank(Record, frozen=True):
         Distance of the bank's cells.
     snap_mm
         A single finger at most this far from a cell's centre plays that cell without interpolation.
+    coarse
+        Build the bank even if `pitch_mm` is above half a wavelength, where only fingers near cells are served; for tests.
     """
 
     pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
     snap_mm: NotNegative
+    coarse: bool = False
 
 
 class Limits(Record, frozen=True):

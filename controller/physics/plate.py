@@ -149,3 +149,9 @@ def wavelength_m(plate: Plate, frequency_hz: float) -> float:
 def bending_stiffness(plate: Plate) -> float:
     """D = E h^3 / (12 (1 - nu^2)) in N m."""
     return plate.young_modulus_pa * plate.thickness_m**3 / (12 * (1 - plate.poisson_ratio**2))
+
+
+def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
+    """Wavelength of a bending wave in the free plate at a frequency, in m."""
+    per_area = plate.density_kg_m3 * plate.thickness_m
+    return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)

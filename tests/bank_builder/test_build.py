@@ -12,6 +12,7 @@ from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
+from controller.bank_builder.interpolation_error import InterpolationError
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.errors import BankError, ConfigError
@@ -169,6 +170,8 @@ def test_responses_are_computed_in_blocks_of_whole_rows(board, tmp_path, monkeyp
 
     monkeypatch.setattr(ResponseModel, "entry_responses", noted)
     monkeypatch.setattr("controller.bank_builder.build.CELLS_PER_BLOCK", 12)
+    nothing = InterpolationError(np.zeros(0), np.zeros(0), np.zeros(0))
+    monkeypatch.setattr("controller.bank_builder.build.interpolation_error", lambda *_: nothing)
     grid = Grid.of(board.plate, PITCH_M)
     wanted = np.arange(15) % 7 != 3
     for cells in (np.ones(15, bool), wanted, np.arange(15) == 14):
