@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import json
 import resource
 import time
 from pathlib import Path
@@ -18,12 +19,13 @@ from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.interpolation_error import interpolation_error
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import mode_cut_hz
 
-HIGHEST_HZ = 100e3
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -52,6 +54,8 @@ class BuildReport:
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
         Edges per second of the busiest channel of all entries.
+    interpolation_error : dict
+        `InterpolationError.summary`: what fingers between cells lose.
     """
 
     path: str
@@ -65,6 +69,7 @@ class BuildReport:
     sgemm_share: float | None
     peak_memory_mb: float
     worst_edge_rate_hz: float
+    interpolation_error: dict[str, Any]
 
 
 def build_bank(
@@ -76,7 +81,7 @@ def build_bank(
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
-    highest_hz: float = HIGHEST_HZ,
+    highest_hz: float | None = None,
     overwrite: bool = False,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
@@ -96,8 +101,8 @@ def build_bank(
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
         Measure the best rate of matrix multiplication for `sgemm_share`: about a second.
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
 
@@ -109,6 +114,7 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
     if wanted.shape != (grid.cells,):
@@ -125,11 +131,18 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        "channel_edges": 0,  # filled in as entries are made; the header is written last
+    }
+    maker = creator()
+    inputs_sha256 = _inputs_sha256(board, maker, parameters)
+    parameters |= {  # results, filled in as entries are made; the header is written last
+        "inputs_sha256": inputs_sha256,
+        "content_sha256": "0" * 64,
+        "channel_edges": 0,
         "all_edges": 0,
+        "interpolation_error": {},
     }
     header = Header(
-        creator=creator(),
+        creator=maker,
         board_digest=board.digest(),
         grid=grid,
         bit_clock_hz=board.waveform.bit_clock_hz,
@@ -140,6 +153,7 @@ def build_bank(
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
+    content = hashlib.sha256()
     idle = np.array([board.idle_word], np.uint32)
     blocks = _blocks(numbers, grid.nx)
     with (
@@ -166,8 +180,13 @@ def build_bank(
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
                 parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
                 parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                writer.add(cell, words, *quantise(entry))
+                levels, scale_m_per_v = quantise(entry)
+                writer.add(cell, words, levels, scale_m_per_v)
+                for part in (words, levels, np.float32(scale_m_per_v)):
+                    content.update(part.data)
             bar.update(len(block))
+        parameters["content_sha256"] = content.hexdigest()
+        parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -183,7 +202,14 @@ def build_bank(
         sgemm_share=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
+        interpolation_error=parameters["interpolation_error"],
     )
+
+
+def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
+    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()
 
 
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:

@@ -156,6 +156,7 @@ def _build(
 ) -> BuildReport:
     try:
         from controller.bank_builder.build import build_bank
+        from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
     except ModuleNotFoundError as error:
         from controller.service.installation import missing_package
 
@@ -164,7 +165,11 @@ def _build(
             raise
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
     own_path = path == bank_path(board, pitch_m)
-    return build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
+    refuse_coarse(board, pitch_m)
+    report = build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
+    if warning := interpolation_warning(report.interpolation_error):
+        print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
+    return report
 
 
 def _build_table(figures: dict[str, Any]) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from controller.physics.field import OUTSIDE_M, Field, FocusMetrics
+from controller.physics.field import Field, FocusMetrics
 from controller.physics.plate_twin import PlateTwin
 from controller.scene.emission import Emission
 from controller.simulation.simulated_run import Run
@@ -66,7 +66,7 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
     with contextlib.suppress(KeyboardInterrupt):
         for done, ((tick, emissions), field) in enumerate(moments, 1):
             together = _judge_moment(run, twin, field, run.link.time_s(tick) - run.start_s, emissions)
-            better = _worth_showing(together) > _worth_showing(judged.shown)
+            better = _worth_showing(together, twin.scale.outside_m) > _worth_showing(judged.shown, twin.scale.outside_m)
             shown = (field, together) if better else (judged.field, judged.shown)
             judged.foci.extend(together)
             judged = Judged(judged.foci, *shown, len(meant) - done)
@@ -102,11 +102,11 @@ def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
     return meant
 
 
-def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
-    """Rank of an emission for the picture: number of separate fingers, then amplitude of its weakest focus."""
+def _worth_showing(foci: list[Focus], apart_m: float) -> tuple[int, float]:
+    """Rank of an emission for the picture: number of fingers `apart_m` from others, then amplitude of its weakest focus."""
     apart = [
         focus.emission.finger is not None
-        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > OUTSIDE_M for other in foci if other is not focus)
+        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > apart_m for other in foci if other is not focus)
         for focus in foci
     ]
     return sum(apart), min((abs(focus.metrics.amplitude_m) for focus in foci), default=0.0)

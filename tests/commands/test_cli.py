@@ -57,7 +57,7 @@ def small_board(tmp_path):
     """The simulated board with a coarse bank, a scene of one button and one click on it."""
     folder = tmp_path / "small"
     folder.mkdir()
-    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "pitch_mm = 10.0")
+    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "coarse = true\npitch_mm = 10.0")
     (folder / "board.toml").write_text(text.replace('name = "simulated"', 'name = "small"'))
     (folder / "scene.toml").write_text(
         '[[regions]]\nname = "button"\nshape = "circle"\nx_mm = 110.0\ny_mm = 74.0\nradius_mm = 15.0\n'
