@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import glob
 import os
 import struct
 import zlib
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Generator, Iterator
+from dataclasses import asdict, dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -32,6 +33,7 @@ from controller.waveform_design.descent import CELLS_AT_ONCE, Aim, Descent
 
 Words = NDArray[np.uint32]
 
+METHOD_CODE = ("exact.py", "field_form.py", "audible_form.py", "descent.py")
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
 FOUND_WITHIN_S = 30.0  # a scheduler on another machine
 LOST_WORKERS = 10  # that one group of cells may have had; more, and it is taken to be the cause
@@ -54,6 +56,9 @@ class Workers:
     address: str | None = None
 
 
+ALONE = Workers()
+
+
 @dataclass(frozen=True)
 class Task:
     """A group of cells, and all that determines their words.
@@ -72,6 +77,14 @@ class Task:
     maker: str
 
 
+def told(aim: Aim) -> dict[str, Any]:
+    """Aim and CRC-32 of the code that serves it: what determines the words, besides board and cell; for a bank's parameters."""
+    code = 0
+    for name in METHOD_CODE:
+        code = zlib.crc32((Path(__file__).parent.parent / "waveform_design" / name).read_bytes(), code)
+    return {**asdict(aim), "code": f"{code:08x}"}
+
+
 def compute(task: Task) -> Words:
     """Drive words of a task's cells: (cell, sample)."""
     if task.maker != creator():
@@ -83,6 +96,17 @@ def compute(task: Task) -> Words:
 @lru_cache(maxsize=1)
 def _method(board: Board, highest_hz: float, aim: Aim) -> Descent:
     return Descent(board, ResponseModel(board, highest_hz), aim)
+
+
+def kept_path(bank: Path, inputs_sha256: str) -> Path:
+    """File that keeps what is done of the bank at `bank`, by the hash of all that determines it."""
+    return bank.with_name(f".{bank.name}.{inputs_sha256[:16]}.words")
+
+
+def remove_kept(bank: Path) -> None:
+    """Remove what is kept of any build of the bank at `bank`."""
+    for file in bank.parent.glob(f".{glob.escape(bank.name)}.*.words"):
+        file.unlink(missing_ok=True)
 
 
 def optimised_words(
@@ -133,10 +157,7 @@ def optimised_words(
             else:
                 words[index] = found
         groups = _groups(missing, workers)
-        tasks = [
-            Task(board, highest_hz, aim, tuple(map(tuple, points_m[group].tolist())), creator())  # type: ignore[arg-type]
-            for group in groups
-        ]
+        tasks = [Task(board, highest_hz, aim, tuple(map(tuple, points_m[group].tolist())), creator()) for group in groups]
         bar = tqdm(
             total=len(cells),
             initial=len(cells) - len(missing),
@@ -160,31 +181,40 @@ def _groups(indices: list[int], workers: Workers) -> list[list[int]]:
     return [indices[first : first + size] for first in range(0, len(indices), max(size, 1))]
 
 
-def _computed(tasks: list[Task], workers: Workers) -> Iterator[tuple[int, Words]]:
+def _computed(tasks: list[Task], workers: Workers) -> Generator[tuple[int, Words]]:
     """Number of each task and its result, as they come."""
     if not tasks:
         return
     if workers.address is None and workers.processes == 1:
         yield from enumerate(map(compute, tasks))
         return
-    import dask  # noqa: PLC0415  # takes a second, and only these builds need it
-    from distributed import Client, LocalCluster, as_completed  # noqa: PLC0415
+    import dask
+    from distributed import CancelledError, Client, KilledWorker, LocalCluster, as_completed
 
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
         try:
             cluster: Any = workers.address or stack.enter_context(
                 LocalCluster(
-                    n_workers=workers.processes, threads_per_worker=1, memory_limit=0, dashboard_address=None, silence_logs="CRITICAL"
+                    n_workers=workers.processes,
+                    threads_per_worker=1,
+                    memory_limit=0,
+                    dashboard_address=None,
+                    silence_logs="CRITICAL",
                 )
             )
             client = stack.enter_context(Client(cluster, timeout=FOUND_WITHIN_S))
         except (OSError, ValueError) as error:
             raise BankError(f"--dask {workers.address}: no dask scheduler answers there ({error})") from error
         number_of = {future: number for number, future in enumerate(client.map(compute, tasks, pure=False))}
-        for future in as_completed(list(number_of)):
-            yield number_of[future], future.result()
-            future.release()
+        try:
+            for future in as_completed(list(number_of)):
+                yield number_of[future], future.result()
+                future.release()
+        except (KilledWorker, CancelledError, OSError) as error:
+            raise BankError(
+                f"the workers are lost ({error}); what they have done is kept: the same command goes on there"
+            ) from error
 
 
 class _Kept:
@@ -205,11 +235,14 @@ class _Kept:
     @contextlib.contextmanager
     def open(cls, path: Path, samples: int) -> Iterator[_Kept]:
         try:
-            with path.open("r+b", opener=lambda name, _flags: os.open(name, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)) as file:
+            fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            with os.fdopen(fd, "r+b") as file:
                 try:
                     fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 except BlockingIOError:
-                    raise UsageError(f"{path}: another build is at work on the same bank: wait for it, or give another --out") from None
+                    raise UsageError(
+                        f"{path}: another build is at work on the same bank: wait for it, or give another --out"
+                    ) from None
                 yield cls(file, samples)
         except OSError as error:
             raise BankError(f"{path}: cannot be written ({error.strerror})") from error

@@ -77,8 +77,8 @@ AIMS = {
     aim.name: aim
     for aim in (
         Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=60),
-        Aim("quiet", contrast=0.01, silence=3.0, calm=0.05, amplitude=0.45, steps=120),
-        Aim("balanced", contrast=0.1, silence=1.0, calm=0.05, amplitude=0.35, steps=100),
+        Aim("quiet", contrast=0.01, silence=5.0, calm=0.3, amplitude=0.45, steps=120),
+        Aim("balanced", contrast=0.1, silence=1.0, calm=0.2, amplitude=0.35, steps=100),
     )
 }
 
@@ -280,7 +280,8 @@ class Descent:
 
     def _least_edge_cost(self, cells: _Cells) -> Floats:
         """Where edges cost nothing by the aim, a hundredth of what the amplitude is worth for all of them."""
-        return cells.worth / 100 / np.maximum(self._edges(cells.plain).sum(axis=1), 1)
+        found: Floats = cells.worth / 100 / np.maximum(self._edges(cells.plain).sum(axis=1), 1)
+        return found
 
 
 def _settle(levels: Floats, slope: Floats, curvature: Floats, change: Floats) -> None:
