@@ -7,6 +7,7 @@ import hashlib
 import json
 import resource
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from controller.bank.file_format import MODELLED, REST_SAMPLES, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
 from controller.bank_builder.optimised import ALONE, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
@@ -26,6 +28,7 @@ from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
+from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
 
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
@@ -86,6 +89,7 @@ def build_bank(
     pitch_m: float | None = None,
     cells: NDArray[np.bool_] | None = None,
     *,
+    spots: Sequence[Spot] = (),
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
@@ -105,8 +109,10 @@ def build_bank(
         Of the grid; the board's own by default.
     cells : (cells of the grid,) bool array, optional
         Cells to build; all by default.
+    spots : sequence of Spot
+        What they play together is composed beforehand.
     scene : str, optional
-        What `cells` came from, noted in the build parameters.
+        What `cells` and `spots` came from, noted in the build parameters.
     progress : bool
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
@@ -145,7 +151,8 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        "optimised": aim and told(aim),
+        "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
+        "optimised": aim and told(board, aim),
     }
     maker = creator()
     inputs_sha256 = _inputs_sha256(board, maker, parameters)
@@ -157,6 +164,7 @@ def build_bank(
         "amplitude_of_plain": aim and _spread([0.0]),
         "interpolation_error": {},
     }
+    composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
     header = Header(
         creator=maker,
         board_digest=board.digest(),
@@ -165,12 +173,12 @@ def build_bank(
         samples=board.waveform.samples,
         entries=len(numbers),
         parameters=parameters,
+        compositions=len(composed),
     )
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
     content = hashlib.sha256()
-    idle = np.array([board.idle_word], np.uint32)
     blocks = _blocks(numbers, grid.nx)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
@@ -201,16 +209,16 @@ def build_bank(
                 if optimised is not None:
                     plain, words = words, optimised[index]
                     shares.append(_amplitude(entry, words, board.idle_word) / (_amplitude(entry, plain, board.idle_word) or 1.0))
-                counts = edges(np.concatenate([idle, words, idle]))
-                own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
-                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
-                parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
-                parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
                 for part in (words, levels, np.float32(scale_m_per_v)):
                     content.update(part.data)
             bar.update(len(block))
+        for key, words in composed:
+            worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"{len(key)} spots", parameters))
+            writer.add_composition(key, words)
+            content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
         if optimised is not None:
             parameters["amplitude_of_plain"] = _spread(shares)
@@ -260,14 +268,19 @@ def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 
 
-def _edge_rate_hz(board: Board, counts: NDArray[np.intp], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry, by the edges of each, (32,); refused above the board's limit."""
-    rate_hz = float(counts.max()) / board.waveform.duration_s
+def _count_edges(board: Board, words: NDArray[np.uint32], name: str, parameters: dict[str, Any]) -> float:
+    """Edges per second of the busiest channel of a waveform, refused above the board's limit; the largest numbers are noted."""
+    idle = np.array([board.idle_word], np.uint32)
+    counts = edges(np.concatenate([idle, words, idle]))
+    own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+    rate_hz = float(own_edges.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(
             f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
-            f" edges per second of channel {int(counts.argmax())} in the waveform of cell {cell}: raise it if the driver allows it"
+            f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver allows it"
         )
+    parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
+    parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
     return rate_hz
 
 

@@ -77,12 +77,12 @@ class Task:
     maker: str
 
 
-def told(aim: Aim) -> dict[str, Any]:
-    """Aim and CRC-32 of the code that serves it: what determines the words, besides board and cell; for a bank's parameters."""
+def told(board: Board, aim: Aim) -> dict[str, Any]:
+    """What determines the words besides the board's physics and the cell, for a bank's parameters: aim, limit, CRC-32 of the code."""
     code = 0
     for name in METHOD_CODE:
         code = zlib.crc32((Path(__file__).parent.parent / "waveform_design" / name).read_bytes(), code)
-    return {**asdict(aim), "code": f"{code:08x}"}
+    return {**asdict(aim), "max_edge_rate_hz": board.limits.max_edge_rate_hz, "code": f"{code:08x}"}
 
 
 def compute(task: Task) -> Words:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,7 @@ from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
 from controller.errors import BankError, ConfigError, UsageError
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import Scene, load_scene
+from controller.scene.scene import Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 
 if TYPE_CHECKING:
@@ -78,7 +79,8 @@ def bank_build(options: argparse.Namespace) -> int:
     own = bank_path(board, pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True, options=options)
+    name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
+    report = _build(board, path, pitch_m, cells, name, spots, measure=True, options=options)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
@@ -144,7 +146,7 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
-        _build(board, path, pitch_m, found.cells, scene_file.name, measure=False)
+        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, measure=False)
     return Bank.open(path, board)
 
 
@@ -169,6 +171,7 @@ def _build(
     pitch_m: float,
     cells: NDArray[np.bool_] | None,
     scene: str | None,
+    spots: Sequence[Spot],
     *,
     measure: bool,
     options: argparse.Namespace | None = None,
@@ -197,6 +200,7 @@ def _build(
             path,
             pitch_m,
             cells,
+            spots=spots,
             scene=scene,
             progress=True,
             measure_sgemm=measure,

@@ -41,7 +41,7 @@ def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
             assert bytes(before.words(cell)) != bytes(after.words(cell))
             assert np.array_equal(before.response(cell)[0], after.response(cell)[0])
     told = bank_info(path)["parameters"]
-    assert told["optimised"] == optimised.told(AIM)
+    assert told["optimised"] == optimised.told(BOARD, AIM)
     assert told["optimised"]["name"] == "contrast"
     assert bank_info(plain)["parameters"]["optimised"] is None
     assert 0.8 < told["amplitude_of_plain"]["least"] <= told["amplitude_of_plain"]["median"] < 1.3
