@@ -78,7 +78,7 @@ class Task:
 
 
 def told(board: Board, aim: Aim) -> dict[str, Any]:
-    """What determines the words besides the board's physics and the cell, for a bank's parameters: aim, limit, CRC-32 of the code."""
+    """What determines the words besides the board's physics and the cell, for a bank: aim, limit, CRC-32 of the code."""
     code = 0
     for name in METHOD_CODE:
         code = zlib.crc32((Path(__file__).parent.parent / "waveform_design" / name).read_bytes(), code)
