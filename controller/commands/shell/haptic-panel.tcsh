@@ -15,7 +15,7 @@ complete haptic-panel \
         'c/--plot=/f/' \
         'c/--out=/f/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at bank baud bits board channel device figures ghosts help idle-figures json lag link no-chirps out pause-s pid pitch-mm plot power reference replay scene seconds seed speed targets version write)/' \
+        'c/--/(amplitude-figures at bank baud bits board channel device figures ghosts help idle-figures json lag link no-chirps no-pictures no-timing out pause-s pid pitch-mm plot power quick reference replay scene seconds seed speed targets version write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -24,7 +24,7 @@ complete haptic-panel \
         'n/--plot/f/' \
         'n/--out/f/' \
         'n/--targets/(3 4 5)/' \
-        'p/1/(run doctor board gateware bank focus record calibrate-touch reload completion)/' \
+        'p/1/(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build info verify)/' \
