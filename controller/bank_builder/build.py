@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import json
 import resource
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +20,15 @@ from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.compositions import compositions
+from controller.bank_builder.interpolation_error import interpolation_error
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import mode_cut_hz
+from controller.scene.scene import Spot
 
-HIGHEST_HZ = 100e3
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -52,6 +57,8 @@ class BuildReport:
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
         Edges per second of the busiest channel of all entries.
+    interpolation_error : dict
+        `InterpolationError.summary`: what fingers between cells lose.
     """
 
     path: str
@@ -65,6 +72,7 @@ class BuildReport:
     sgemm_share: float | None
     peak_memory_mb: float
     worst_edge_rate_hz: float
+    interpolation_error: dict[str, Any]
 
 
 def build_bank(
@@ -73,10 +81,11 @@ def build_bank(
     pitch_m: float | None = None,
     cells: NDArray[np.bool_] | None = None,
     *,
+    spots: Sequence[Spot] = (),
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
-    highest_hz: float = HIGHEST_HZ,
+    highest_hz: float | None = None,
     overwrite: bool = False,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
@@ -90,14 +99,16 @@ def build_bank(
         Of the grid; the board's own by default.
     cells : (cells of the grid,) bool array, optional
         Cells to build; all by default.
+    spots : sequence of Spot
+        What they play together is composed beforehand.
     scene : str, optional
-        What `cells` came from, noted in the build parameters.
+        What `cells` and `spots` came from, noted in the build parameters.
     progress : bool
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
         Measure the best rate of matrix multiplication for `sgemm_share`: about a second.
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
 
@@ -109,6 +120,7 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
     if wanted.shape != (grid.cells,):
@@ -125,22 +137,32 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        "channel_edges": 0,  # filled in as entries are made; the header is written last
-        "all_edges": 0,
+        "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
     }
+    maker = creator()
+    inputs_sha256 = _inputs_sha256(board, maker, parameters)
+    parameters |= {  # results, filled in as entries are made; the header is written last
+        "inputs_sha256": inputs_sha256,
+        "content_sha256": "0" * 64,
+        "channel_edges": 0,
+        "all_edges": 0,
+        "interpolation_error": {},
+    }
+    composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
     header = Header(
-        creator=creator(),
+        creator=maker,
         board_digest=board.digest(),
         grid=grid,
         bit_clock_hz=board.waveform.bit_clock_hz,
         samples=board.waveform.samples,
         entries=len(numbers),
         parameters=parameters,
+        compositions=len(composed),
     )
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
-    idle = np.array([board.idle_word], np.uint32)
+    content = hashlib.sha256()
     blocks = _blocks(numbers, grid.nx)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
@@ -161,13 +183,18 @@ def build_bank(
             flops += model.entry_flops(places_m)
             for cell, entry in zip(numbers[block.start : block.stop].tolist(), entries, strict=True):
                 words = drive_words(entry[: header.samples], board.idle_word)
-                counts = edges(np.concatenate([idle, words, idle]))
-                own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
-                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
-                parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
-                parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                writer.add(cell, words, *quantise(entry))
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
+                levels, scale_m_per_v = quantise(entry)
+                writer.add(cell, words, levels, scale_m_per_v)
+                for part in (words, levels, np.float32(scale_m_per_v)):
+                    content.update(part.data)
             bar.update(len(block))
+        for key, words in composed:
+            worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"{len(key)} spots", parameters))
+            writer.add_composition(key, words)
+            content.update(words.data)
+        parameters["content_sha256"] = content.hexdigest()
+        parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -183,7 +210,14 @@ def build_bank(
         sgemm_share=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
+        interpolation_error=parameters["interpolation_error"],
     )
+
+
+def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
+    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()
 
 
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
@@ -193,14 +227,19 @@ def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 
 
-def _edge_rate_hz(board: Board, counts: NDArray[np.intp], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry, by the edges of each, (32,); refused above the board's limit."""
-    rate_hz = float(counts.max()) / board.waveform.duration_s
+def _count_edges(board: Board, words: NDArray[np.uint32], name: str, parameters: dict[str, Any]) -> float:
+    """Edges per second of the busiest channel of a waveform, refused above the board's limit; the largest numbers are noted."""
+    idle = np.array([board.idle_word], np.uint32)
+    counts = edges(np.concatenate([idle, words, idle]))
+    own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+    rate_hz = float(own_edges.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(
             f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
-            f" edges per second of channel {int(counts.argmax())} in the waveform of cell {cell}: raise it if the driver allows it"
+            f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver allows it"
         )
+    parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
+    parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
     return rate_hz
 
 

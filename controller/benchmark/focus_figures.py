@@ -21,6 +21,7 @@ from controller.physics.audible import surface_energy
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 Floats = NDArray[np.float64]
@@ -113,7 +114,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
     -------
     dict
         Min, median and max of each figure. `audible_m2_per_s` is `surface_energy` below 16 kHz, `audible_fraction_db` its
-        share of all energy up to 100 kHz.
+        share of all energy up to `mode_cut_hz`.
     """
     twin = PlateTwin(board)
     rows = []
@@ -122,7 +123,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
         words = focus(model.drive_order_responses([(x_m, y_m)], dtype=np.float64), [1.0], board.idle_word)
         judged = emit(twin, words).focus_metrics(x_m, y_m)
         audible = surface_energy(board, words, board.idle_word)
-        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=100e3)
+        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=mode_cut_hz(board.waveform))
         rows.append(
             {
                 "amplitude_um": judged.amplitude_m * 1e6,

@@ -108,7 +108,7 @@ class Driver(Record, frozen=True):
 
     supply_v: Annotated[float, Meta(gt=0, le=60)]
     resistance_ohm: Annotated[float, Meta(ge=1, le=1e6)]
-    inductance_h: Annotated[float, Meta(ge=1e-5, le=1)]
+    inductance_h: Annotated[float, Meta(ge=1e-9, le=1)]
     capacitance_f: Annotated[float, Meta(ge=1e-12, le=1e-6)]
     moment_n_per_v: Annotated[float, Meta(ge=1e-6, le=1)]
 
@@ -166,10 +166,13 @@ class Bank(Record, frozen=True):
         Distance of the bank's cells.
     snap_mm
         A single finger at most this far from a cell's centre plays that cell without interpolation.
+    coarse
+        Build the bank even if `pitch_mm` is above half a wavelength, where only fingers near cells are served; for tests.
     """
 
     pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
     snap_mm: NotNegative
+    coarse: bool = False
 
 
 class Limits(Record, frozen=True):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
 from controller.errors import BankError, ConfigError
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import Scene, load_scene
+from controller.scene.scene import Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 
 if TYPE_CHECKING:
@@ -66,7 +67,9 @@ def bank_build(options: argparse.Namespace) -> int:
     own = bank_path(board, pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True)
+    report = _build(
+        board, path, pitch_m, cells, scene_file.name if scene_file else None, scene.spots if scene else (), measure=True
+    )
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
@@ -132,7 +135,7 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
-        _build(board, path, pitch_m, found.cells, scene_file.name, measure=False)
+        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, measure=False)
     return Bank.open(path, board)
 
 
@@ -152,10 +155,18 @@ def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
 
 
 def _build(
-    board: Board, path: Path, pitch_m: float, cells: NDArray[np.bool_] | None, scene: str | None, *, measure: bool
+    board: Board,
+    path: Path,
+    pitch_m: float,
+    cells: NDArray[np.bool_] | None,
+    scene: str | None,
+    spots: Sequence[Spot],
+    *,
+    measure: bool,
 ) -> BuildReport:
     try:
         from controller.bank_builder.build import build_bank
+        from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
     except ModuleNotFoundError as error:
         from controller.service.installation import missing_package
 
@@ -164,7 +175,13 @@ def _build(
             raise
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
     own_path = path == bank_path(board, pitch_m)
-    return build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
+    refuse_coarse(board, pitch_m)
+    report = build_bank(
+        board, path, pitch_m, cells, spots=spots, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path
+    )
+    if warning := interpolation_warning(report.interpolation_error):
+        print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
+    return report
 
 
 def _build_table(figures: dict[str, Any]) -> str:

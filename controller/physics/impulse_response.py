@@ -16,7 +16,7 @@ from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_response import band_limited_response, pulse_response
-from controller.physics.plate import PlateModes
+from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.row_responses import RowResponses, flops_in_rows, in_rows
 from controller.physics.step_response import StepResponse, channel_forces
 
@@ -30,8 +30,8 @@ class ResponseModel:
     Parameters
     ----------
     board : Board
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
 
     Attributes
     ----------
@@ -45,8 +45,8 @@ class ResponseModel:
         The same, band-limited.
     """
 
-    def __init__(self, board: Board, highest_hz: float = 100e3) -> None:
-        self.plate_modes = PlateModes.of(board.plate, highest_hz)
+    def __init__(self, board: Board, highest_hz: float | None = None) -> None:
+        self.plate_modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.plate_modes)
         waveform = board.waveform

@@ -37,11 +37,13 @@ def pulse_response(step: StepResponse, bit_period_s: float, samples: int) -> Flo
     (mode, sample) array
         In m per N; sample j is (j + 1) bit periods after the start of the pulse.
     """
-    times = np.arange(1, samples + 1) * bit_period_s
-    weights = -step.residues * np.expm1(-step.poles * bit_period_s)  # two steps a bit period apart
-    modal = step.by_mode((weights[:, None] * np.exp(np.outer(step.poles, times))).real)
-    driver_weights = -step.driver_residues * np.expm1(-step.driver_poles * bit_period_s)
-    modal += (driver_weights @ np.exp(np.outer(step.driver_poles, times))).real
+    since = (
+        np.arange(samples) * bit_period_s
+    )  # sample 0 ends the pulse; only times after it, as a fast driver's past is beyond range
+    first = step.residues * np.expm1(step.poles * bit_period_s)  # two steps a bit period apart
+    modal = step.by_mode((first[:, None] * np.exp(np.outer(step.poles, since))).real)
+    driver_first = step.driver_residues * np.expm1(step.driver_poles * bit_period_s)
+    modal += (driver_first @ np.exp(np.outer(step.driver_poles, since))).real
     return modal
 
 
@@ -76,19 +78,17 @@ def band_limited_response(
     bins = np.flatnonzero(gain)
     turn = np.exp(-2j * np.pi * frequency[bins] * bit_period_s)
 
-    def spectrum(weight: NDArray[np.complex128], pole: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def spectrum(residue: NDArray[np.complex128], pole: NDArray[np.complex128]) -> NDArray[np.complex128]:
         z = np.exp(pole * bit_period_s)[:, None]
-        first = weight[:, None] * z
+        first = (residue * np.expm1(pole * bit_period_s))[:, None]
         half: NDArray[np.complex128] = 0.5 * (first / (1 - z * turn) + first.conj() / (1 - z.conj() * turn))
         return half
 
-    weights = -step.residues * np.expm1(-step.poles * bit_period_s)
-    of_poles = spectrum(weights, step.poles)
+    of_poles = spectrum(step.residues, step.poles)
     total = of_poles[: step.static.size]
     np.add.at(total, step.mode_of_pole[step.static.size :], of_poles[step.static.size :])
-    driver_weights = -step.driver_residues * np.expm1(-step.driver_poles * bit_period_s)
     for d in range(step.driver_poles.size):
-        total += spectrum(driver_weights[:, d], np.broadcast_to(step.driver_poles[d], len(total)))
+        total += spectrum(step.driver_residues[:, d], np.broadcast_to(step.driver_poles[d], len(total)))
     modal = np.empty((len(total), samples))
     for first in range(0, len(total), 256):
         block = np.zeros((len(total[first : first + 256]), frequency.size), np.complex128)

@@ -57,7 +57,7 @@ def small_board(tmp_path):
     """The simulated board with a coarse bank, a scene of one button and one click on it."""
     folder = tmp_path / "small"
     folder.mkdir()
-    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "pitch_mm = 10.0")
+    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "coarse = true\npitch_mm = 10.0")
     (folder / "board.toml").write_text(text.replace('name = "simulated"', 'name = "small"'))
     (folder / "scene.toml").write_text(
         '[[regions]]\nname = "button"\nshape = "circle"\nx_mm = 110.0\ny_mm = 74.0\nradius_mm = 15.0\n'
@@ -195,7 +195,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
     ("arguments", "code", "said"),
     [
         (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
-        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: library, plate, scene"),
+        (("run", "--scene", "nothing"), 78, "board 'simulated' has: keyboard, library, plate, scene, slider, spots"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),
         (("run", "--bank", "/nothing.bank"), 78, "/nothing.bank: cannot be read"),
