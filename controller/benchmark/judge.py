@@ -24,10 +24,10 @@ from controller.benchmark.power import resistor_loss_j
 from controller.board.board import Board
 from controller.physics.audible import AUDIBLE_HZ, REST_TAUS
 from controller.physics.driver import DriverResponse
-from controller.physics.field import OUTSIDE_M, Field
+from controller.physics.field import Field, FocusScale
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.waveform_design.prediction import NEAR_S
+from controller.waveform_design.prediction import Prediction
 
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
@@ -111,7 +111,7 @@ class Judge:
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
         heat_j = plate.stage_heat_j(words)
-        quiet = plate.model.responses([scene.quiet])[0]
+        quiet = plate.near_responses(scene.quiet)
         found = []
         for given, free, heat in zip(words, free_polarity, heat_j.tolist(), strict=True):
             volts = plate.volts(given)
@@ -126,7 +126,7 @@ class Judge:
                     "worst_loss": float(1 - share.min()),
                     "bound_loss": float(1 - (np.abs(in_band) if free else in_band).min() / reference.bound),
                     "amplitude_over_unfiltered": float((share * reference.unfiltered_share).mean()),
-                    "quiet": plate.largest_near_focus(quiet, volts) / max(mean_m, STILL_M),
+                    "quiet": float(np.abs(np.tensordot(quiet, volts, 2)).max()) / max(mean_m, STILL_M),
                     "contrast": _contrast(field, scene, amplitude),
                     "audible_m2_per_s": plate.audible(volts),
                     "crest_m": max(_crest_m(field, point) for point in scene.points),
@@ -142,6 +142,8 @@ class Plate:
     def __init__(self, board: Board) -> None:
         self.board = board
         self.model = ResponseModel(board)
+        self._scale = FocusScale.of(board)
+        self._prediction = Prediction(board, self.model)
         self._in_drive_order = np.ascontiguousarray(self.model.modal[:, ::-1])
         self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
 
@@ -161,15 +163,17 @@ class Plate:
         """Displacement of the whole plate at T."""
         modal: Floats = np.einsum("ms,ms->m", self._in_drive_order, self.model.forces @ volts.T)
         modes, step = self.model.plate_modes, self.model.step
-        none = np.zeros(0)
+        settled = np.zeros((modes.count, 2), np.complex128)
         return Field(
             modes=modes,
             step=step,
             pole_amplitudes=np.zeros(step.poles.size, np.complex128),
-            driver_amplitudes=np.zeros((modes.count, 2), np.complex128),
-            level=modal,
-            near_s=none,
+            driver_amplitudes=settled,
+            level=modal,  # all of it: no time but T is asked for
+            near_s=np.zeros(0),
             near_force=np.zeros((modes.count, 0)),
+            early_driver_amplitudes=settled,
+            scale=self._scale,
         )
 
     def reference(self, points: Sequence[tuple[float, float]]) -> Reference:
@@ -185,15 +189,9 @@ class Plate:
         unit = np.divide(in_band, sizes, out=np.zeros_like(in_band), where=sizes > 0)
         return Reference(alone, alone / most, unit, bound(unit.reshape(len(points), -1)))
 
-    def largest_near_focus(self, response: NDArray[np.floating[Any]], volts: Floats) -> float:
-        """Largest displacement in m within 25 us of T of a place with `response`, (sample, 32) in the order of time."""
-        near = round(NEAR_S / self.board.waveform.bit_period_s)
-        backwards = response[::-1]
-        largest = 0.0
-        for by in range(-near, near + 1):  # by samples later, a sample adds what one played by samples earlier adds at T
-            played, of = (volts[by:], backwards[: len(volts) - by]) if by >= 0 else (volts[:by], backwards[-by:])
-            largest = max(largest, abs(float(np.vdot(of, played))))
-        return largest
+    def near_responses(self, place: tuple[float, float]) -> NDArray[np.floating[Any]]:
+        """As `Prediction.near_responses`."""
+        return self._prediction.near_responses(place)
 
     def stage_heat_j(self, words: Sequence[Words]) -> Floats:
         """Heat of each emission in the series resistors of all driven channels, from the idle word and back to it, in J."""
@@ -287,7 +285,7 @@ def _contrast(field: Field, scene: Scene, amplitude: Floats) -> float:
     x, y, u = field.map()
     outside = np.ones(u.shape, np.bool_)
     for x_m, y_m in scene.points:
-        outside &= np.hypot(x - x_m, (y - y_m)[:, None]) > OUTSIDE_M
+        outside &= np.hypot(x - x_m, (y - y_m)[:, None]) > field.scale.outside_m
     rms = float(np.sqrt((u[outside] ** 2).mean())) if outside.any() else 0.0
     return float(np.abs(amplitude).min()) / rms if rms else 0.0
 

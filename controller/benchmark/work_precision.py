@@ -31,6 +31,7 @@ from controller.kernel import Point
 Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
 SCHEMA_VERSION = 1
+LONGEST_S = 2.0  # of timing a method for one number of fingers, beyond its first turns
 PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
 BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
 AXES = ("time", "memory", "wire", "stage energy")
@@ -117,7 +118,7 @@ def work_precision(
                     "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
                 }
                 for count in finger_counts:
-                    timed = [_full(scene) for scene in drawn if scene.family == f"{count} off grid"][: effort.timed_scenes]
+                    timed = [scene for scene in drawn if scene.family == f"{count} off grid"][: effort.timed_scenes]
                     times[count], besides = _times(laboratory, machine, methods, count, timed, effort.turns, bar)
                     baselines += besides
         finally:
@@ -195,7 +196,7 @@ def _errors(
         laboratory.prepare([place for scene in some for place in scene.expected])
         for scene in some:
             able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
-            words = [methods[index].words_of(methods[index].compose(_full(scene))) for index in able]
+            words = [methods[index].words_of(methods[index].run(_full(scene), scene.quiet)) for index in able]
             judged = judge.errors(scene, words, [methods[index].free_polarity for index in able])
             for index, errors in zip(able, judged, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
@@ -208,24 +209,25 @@ def _times(
     machine: Baselines,
     methods: Sequence[Candidate],
     fingers: int,
-    timed: Sequence[list[Point]],
+    timed: Sequence[Scene],
     turns: int,
     bar: _Bar,
 ) -> tuple[dict[int, Timing], list[Figures]]:
     """Times of methods, by their index, and of the baselines, all taking turns."""
-    laboratory.prepare([(x_m, y_m) for points in timed for x_m, y_m, _ in points])
+    laboratory.prepare([place for scene in timed for place in scene.expected])
     able = [index for index, method in enumerate(methods) if fingers <= method.most_fingers]
-    jobs: list[list[Callable[[], object]]] = [[_call(methods[index].compose, points) for points in timed] for index in able]
-    besides = machine.jobs(timed)
-    timings = interleaved([*jobs, *(job.calls for job in besides)], turns, bar.step)
+    jobs: list[list[Callable[[], object]]] = [[_call(methods[index], scene) for scene in timed] for index in able]
+    besides = machine.jobs([_full(scene) for scene in timed])
+    timings = interleaved([*jobs, *(job.calls for job in besides)], turns, LONGEST_S, bar.step)
     rows = [
         {"name": job.name, "fingers": fingers, **asdict(timing)} for job, timing in zip(besides, timings[len(able) :], strict=True)
     ]
     return dict(zip(able, timings, strict=False)), rows
 
 
-def _call(compose: Callable[[Sequence[Point]], object], points: Sequence[Point]) -> Callable[[], object]:
-    return lambda: compose(points)
+def _call(method: Candidate, scene: Scene) -> Callable[[], object]:
+    points, quiet = _full(scene), scene.quiet
+    return lambda: method.run(points, quiet)
 
 
 def _setting(method: Candidate, index: int, errors: dict[str, list[Errors]], times: dict[int, dict[int, Timing]]) -> Figures:

@@ -13,6 +13,7 @@ from controller.bank.packing import WORD
 from controller.kernel import SHORT_FRAME_BYTES, Point, load_frames_bytes
 
 Words = NDArray[np.uint32]
+Place = tuple[float, float]
 COMMAND_FRAMES = 4  # STORE, PLAY and a NOP for the answer to each
 RESIDENT_WIRE_BYTES = 2 * SHORT_FRAME_BYTES
 
@@ -39,6 +40,7 @@ class Candidate:
         Label of the point.
     compose : callable
         From points (x_m, y_m, amplitude) to what it makes, which may be overwritten by the next call. This is what is timed.
+        With `keeps_quiet`, places that shall stay still are its second argument.
     memory_bytes : int
         That must be resident or in a file for the whole plate.
     wire_bytes : int
@@ -47,15 +49,22 @@ class Candidate:
         That it can serve at once.
     free_polarity : bool
         Whether it may kick a point downwards.
+    keeps_quiet : bool
+        Whether it is told which places shall stay still.
     words_of : callable
         From what `compose` gave to a copy of its drive words.
     """
 
     curve: str
     setting: str
-    compose: Callable[[Sequence[Point]], Any]
+    compose: Callable[..., Any]
     memory_bytes: int
     wire_bytes: int
     most_fingers: int = 10
     free_polarity: bool = False
+    keeps_quiet: bool = False
     words_of: Callable[[Any], Words] = words_of_buffer
+
+    def run(self, points: Sequence[Point], quiet: Place) -> Any:
+        """Compose points; `quiet` shall stay still."""
+        return self.compose(points, [quiet]) if self.keeps_quiet else self.compose(points)

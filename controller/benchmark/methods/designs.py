@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from controller.benchmark.methods.candidate import Candidate, Words, wire_bytes
+from controller.benchmark.methods.candidate import Candidate, Place, Words, wire_bytes
 from controller.benchmark.methods.laboratory import Laboratory
 from controller.board.board import Board
 from controller.kernel import Point
 from controller.physics.impulse_response import ResponseModel
+from controller.waveform_design.exact_composition import ExactComposition
+from controller.waveform_design.nulls import ExactNulls
 from controller.waveform_design.plain import SignOfSum
 from controller.waveforms.design import DesignMethod
 
@@ -20,10 +22,13 @@ class Design:
 
     make: Callable[[Board, ResponseModel], DesignMethod]
     free_polarity: bool = False
+    keeps_quiet: bool = False
 
 
 DESIGNS = {
     "full field, float64": Design(SignOfSum),
+    "exact composition": Design(ExactComposition, free_polarity=True),
+    "exact composition, nulls": Design(ExactNulls, free_polarity=True, keeps_quiet=True),
 }
 
 
@@ -40,6 +45,7 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
             memory,
             wire_bytes(board.waveform.samples),
             free_polarity=design.free_polarity,
+            keeps_quiet=design.keeps_quiet,
         )
 
 
@@ -49,6 +55,6 @@ class Designed:
     def __init__(self, method: DesignMethod) -> None:
         self._method = method
 
-    def __call__(self, points: Sequence[Point]) -> Words:
+    def __call__(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> Words:
         """Drive words."""
-        return self._method.design(points).words
+        return self._method.design(points, quiet).words

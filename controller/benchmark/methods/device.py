@@ -37,14 +37,16 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
         composer = Composer(bank, board.idle_word)
         setting = f"{pitch_mm:g} mm"
         if kernel.COMPILED:
-            yield Candidate("device, compiled kernel", setting, composer.compose, memory, wire_bytes(samples))
-        yield Candidate("device, NumPy twin", setting, TwinComposer(bank, board.idle_word), memory, wire_bytes(samples))
+            yield Candidate("device, compiled kernel", setting, composer.compose, memory, wire_bytes(samples), free_polarity=True)
+        yield Candidate(
+            "device, NumPy twin", setting, TwinComposer(bank, board.idle_word), memory, wire_bytes(samples), free_polarity=True
+        )
         if pitch_mm == board.bank.pitch_mm:
             for share in SHARES:
                 last = round(share * samples)
                 label = f"{1e3 * last / board.waveform.bit_clock_hz:g} ms"
                 compose = composer.compose if last == samples else Shorter(composer, last)
-                yield Candidate("device, shorter emission", label, compose, memory, wire_bytes(last))
+                yield Candidate("device, shorter emission", label, compose, memory, wire_bytes(last), free_polarity=True)
             selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
             yield Candidate(
                 "resident waveform",
@@ -52,6 +54,7 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
                 Resident(selection, composer),
                 memory,
                 RESIDENT_WIRE_BYTES,
+                free_polarity=True,
                 words_of=_of_lattice,
             )
 
