@@ -16,18 +16,20 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import MODELLED, Header, creator
+from controller.bank.file_format import MODELLED, REST_SAMPLES, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
+from controller.bank_builder.optimised import ALONE, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
 from controller.scene.scene import Spot
+from controller.waveform_design.descent import Aim
 
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
@@ -59,6 +61,10 @@ class BuildReport:
         Edges per second of the busiest channel of all entries.
     interpolation_error : dict
         `InterpolationError.summary`: what fingers between cells lose.
+    optimised : dict or None
+        What entries were optimised for, and what became of their amplitude; None: they are plain.
+    optimise_seconds : float
+        By the clock.
     """
 
     path: str
@@ -73,6 +79,8 @@ class BuildReport:
     peak_memory_mb: float
     worst_edge_rate_hz: float
     interpolation_error: dict[str, Any]
+    optimised: dict[str, Any] | None
+    optimise_seconds: float
 
 
 def build_bank(
@@ -87,6 +95,8 @@ def build_bank(
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
+    aim: Aim | None = None,
+    workers: Workers = ALONE,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -111,6 +121,10 @@ def build_bank(
         Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    aim : Aim, optional
+        Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
+    workers : Workers
+        Who optimises.
 
     Raises
     ------
@@ -138,6 +152,7 @@ def build_bank(
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
+        "optimised": aim and told(board, aim),
     }
     maker = creator()
     inputs_sha256 = _inputs_sha256(board, maker, parameters)
@@ -146,6 +161,7 @@ def build_bank(
         "content_sha256": "0" * 64,
         "channel_edges": 0,
         "all_edges": 0,
+        "amplitude_of_plain": aim and _spread([0.0]),
         "interpolation_error": {},
     }
     composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
@@ -174,6 +190,13 @@ def build_bank(
         before = time.process_time()
         model = ResponseModel(board, highest_hz)
         model_seconds = time.process_time() - before
+        optimised, optimise_seconds = None, 0.0
+        if aim:
+            before = time.perf_counter()
+            kept = kept_path(path, inputs_sha256)
+            optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
+            optimise_seconds = time.perf_counter() - before
+        shares = []  # of the amplitude that the plain entry has
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
         for block in blocks:
             places_m = points_m[block.start : block.stop]
@@ -181,8 +204,11 @@ def build_bank(
             entries = model.entry_responses(places_m, out=room[: len(block)])
             response_seconds += time.process_time() - before
             flops += model.entry_flops(places_m)
-            for cell, entry in zip(numbers[block.start : block.stop].tolist(), entries, strict=True):
-                words = drive_words(entry[: header.samples], board.idle_word)
+            for index, entry in zip(block, entries, strict=True):
+                cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
+                if optimised is not None:
+                    plain, words = words, optimised[index]
+                    shares.append(_amplitude(entry, words, board.idle_word) / (_amplitude(entry, plain, board.idle_word) or 1.0))
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
@@ -194,7 +220,10 @@ def build_bank(
             writer.add_composition(key, words)
             content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
+        if optimised is not None:
+            parameters["amplitude_of_plain"] = _spread(shares)
         parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
+    remove_kept(path)
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -211,6 +240,8 @@ def build_bank(
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
         interpolation_error=parameters["interpolation_error"],
+        optimised={"aim": aim.name, "amplitude_of_plain": parameters["amplitude_of_plain"]} if aim else None,
+        optimise_seconds=optimise_seconds,
     )
 
 
@@ -218,6 +249,16 @@ def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
     """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
     told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()
+
+
+def _amplitude(entry: NDArray[np.float32], words: NDArray[np.uint32], idle_word: int) -> float:
+    """Displacement by drive words at a cell, in m per V, from its response and the rest of that outside the band."""
+    whole = entry[: len(words)] + np.repeat(entry[len(words) :], REST_SAMPLES, axis=0)[: len(words)]
+    return float(np.sum(whole * (channel_bits(words) - channel_bits(np.array([idle_word], np.uint32)).astype(np.float32))))
+
+
+def _spread(shares: list[float]) -> dict[str, float]:
+    return {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
 
 
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
