@@ -51,7 +51,7 @@ enum {
     ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, OWN_LEVEL = 1.0 / 16;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -429,7 +429,7 @@ static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double
                 double together = (double)gram[i][j] / sqrt(size[i] * size[j]);
                 if ((work->divisor[i] < 0) != (work->divisor[j] < 0)) together = -together;
                 if (!(together > 0)) continue;
-                double room = together < ONE_PLACE ? ONE_PLACE / together : 1;
+                double room = together < ONE_PLACE ? 1 + (ONE_PLACE - together) * RATIO_SLOPE : 1;
                 if (asked[j] * room < asked[i]) asked[i] = asked[j] * room, changed = 1;
                 if (asked[i] * room < asked[j]) asked[j] = asked[i] * room, changed = 1;
             }

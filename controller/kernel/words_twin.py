@@ -31,8 +31,8 @@ next to the largest share that all can have. A point that differs from it by mor
 move it.
 
 Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
-and none is asked for more than the least of them; below that it may be stronger, the less alike they are. What is too much
-after the last round is lowered together with all others.
+and none is asked for more than the least of them; soon below that each has its own. What is too much after the last
+round is lowered together with all others.
 """
 
 from __future__ import annotations
@@ -82,6 +82,7 @@ MAX_ROUNDS: Final = 5  # of measuring what the bits give; most emissions need tw
 MAX_LOWERINGS: Final = 3  # behind them
 TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
+RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each correlation below: 4 at 0.4, 3.1 mm
 OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
 TOLERANCE: Final = 0.01  # of an amplitude: well below a step
 
@@ -511,7 +512,7 @@ class _Sketch:
             for i, j, correlation in alike:
                 together = correlation * signs[i] * signs[j]
                 if together > 0:
-                    room = ONE_PLACE / together if together < ONE_PLACE else 1.0
+                    room = 1 + (ONE_PLACE - together) * RATIO_SLOPE if together < ONE_PLACE else 1.0
                     asked[i] = min(asked[i], asked[j] * room)
                     asked[j] = min(asked[j], asked[i] * room)
             if asked == before:
