@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import json
 import resource
 import time
 from pathlib import Path
@@ -130,12 +131,18 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        "channel_edges": 0,  # filled in as entries are made; the header is written last
+    }
+    maker = creator()
+    inputs_sha256 = _inputs_sha256(board, maker, parameters)
+    parameters |= {  # results, filled in as entries are made; the header is written last
+        "inputs_sha256": inputs_sha256,
+        "content_sha256": "0" * 64,
+        "channel_edges": 0,
         "all_edges": 0,
         "interpolation_error": {},
     }
     header = Header(
-        creator=creator(),
+        creator=maker,
         board_digest=board.digest(),
         grid=grid,
         bit_clock_hz=board.waveform.bit_clock_hz,
@@ -146,6 +153,7 @@ def build_bank(
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
+    content = hashlib.sha256()
     idle = np.array([board.idle_word], np.uint32)
     blocks = _blocks(numbers, grid.nx)
     with (
@@ -172,8 +180,12 @@ def build_bank(
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
                 parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
                 parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                writer.add(cell, words, *quantise(entry))
+                levels, scale_m_per_v = quantise(entry)
+                writer.add(cell, words, levels, scale_m_per_v)
+                for part in (words, levels, np.float32(scale_m_per_v)):
+                    content.update(part.data)
             bar.update(len(block))
+        parameters["content_sha256"] = content.hexdigest()
         parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
@@ -192,6 +204,12 @@ def build_bank(
         worst_edge_rate_hz=worst_edge_rate_hz,
         interpolation_error=parameters["interpolation_error"],
     )
+
+
+def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
+    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()
 
 
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:

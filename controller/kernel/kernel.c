@@ -35,12 +35,16 @@ enum {
     WEIGHT_SUM = 256,
     POINT_WEIGHT_SUM = 32767,
     STRENGTH_SHIFT = 8,
+    SKETCH_STEP = 2,
+    SKETCH_SHIFT = 4,
+    PRODUCT_BITS = 30,
+    BALANCING_ROUNDS = 2,
     THRESHOLD_BITS = 24,
     MAX_ROUNDS = 5,
     ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
@@ -70,8 +74,10 @@ struct work {
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
     int32_t *strength, *threshold; /* of each block and channel */
     int16_t *threshold_of_one;
+    int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response, as many rows as `before`, then 2, 6, 10, .. */
+    int64_t sketch_before, sketch_rows; /* rows of eight samples */
     uint32_t *words;
-    double norm[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
+    double divisor[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
 };
 
 typedef int16_t shorts __attribute__((vector_size(16)));
@@ -195,15 +201,14 @@ APART void add_two(int32_t *restrict sum, const int16_t *restrict a, const int16
 }
 
 /* Sums of eight samples from value `at` on. */
-INLINE void add_up(const struct work *work, const int16_t *weight, int64_t at, int32_t *sum) {
+INLINE void add_up(int count, int16_t *const *response, const int16_t *weight, int64_t at, int32_t *sum) {
     int row = 2;
-    if (work->count == 1)
-        weigh_one(sum, work->response[0] + at, weight[0]);
+    if (count == 1)
+        weigh_one(sum, response[0] + at, weight[0]);
     else
-        weigh_two(sum, work->response[0] + at, work->response[1] + at, weight[0], weight[1]);
-    for (; row + 1 < work->count; row += 2)
-        add_two(sum, work->response[row] + at, work->response[row + 1] + at, weight[row], weight[row + 1]);
-    if (row < work->count) add_one(sum, work->response[row] + at, weight[row]);
+        weigh_two(sum, response[0] + at, response[1] + at, weight[0], weight[1]);
+    for (; row + 1 < count; row += 2) add_two(sum, response[row] + at, response[row + 1] + at, weight[row], weight[row + 1]);
+    if (row < count) add_one(sum, response[row] + at, weight[row]);
 }
 
 /* Where sums are above their threshold: -1, else 0. */
@@ -216,6 +221,10 @@ APART void compare(int16_t *restrict above, const int32_t *restrict sum, const i
 APART void compare_one(int16_t *restrict above, const int16_t *restrict response, const int16_t *restrict threshold) {
     for (int sample = 0; sample < REST_SAMPLES; sample++)
         for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(response[CHANNELS * sample + i] > threshold[i]);
+}
+
+APART void compare_nothing(int16_t *restrict above, const int32_t *restrict sum) {
+    for (int i = 0; i < ROW; i++) above[i] = (int16_t)-(sum[i] > 0);
 }
 
 APART int32_t inner_product(const int16_t *restrict a, const int16_t *restrict b, int values) {
@@ -264,11 +273,11 @@ static double masking_threshold(double share) {
     return THRESHOLDS[SHARES_GIVEN - 1];
 }
 
-/* Whole numbers next to the weights divided by the norms, times what is returned. */
+/* Whole numbers next to the weights over the divisors, times what is returned. */
 static double whole_weights(const struct work *work, const double *weights, int16_t *whole) {
     double share[MAX_FOCI], total = 0;
     for (int i = 0; i < work->count; i++) {
-        share[i] = weights[i] / work->norm[i];
+        share[i] = weights[i] / work->divisor[i];
         total += fabs(share[i]);
     }
     double unit = total > 0 && total < INFINITY ? POINT_WEIGHT_SUM / total : 0;
@@ -286,7 +295,7 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
     for (int64_t row = 0; row < work->rest_rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
-        if (work->count > 1 || to_do & STRENGTH) add_up(work, weight, at, sum);
+        if (work->count > 1 || to_do & STRENGTH) add_up(work->count, work->response, weight, at, sum);
         if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
         if (!(to_do & (WRITE | MEASURE))) continue;
         if (work->count > 1)
@@ -301,7 +310,7 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
             total[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
         }
     }
-    for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->norm[i];
+    for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->divisor[i];
 }
 
 static void set_threshold(struct work *work, double threshold) {
@@ -357,6 +366,94 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
     }
 }
 
+/* ---- words: polarities and balance, from a sketch of the responses ---- */
+
+APART void sketch_line(int16_t *restrict to, const int16_t *restrict from) {
+    for (int i = 0; i < CHANNELS; i++) to[i] = (int16_t)(from[i] >> SKETCH_SHIFT);
+}
+
+static void take_sketch(struct work *work) {
+    int64_t samples = work->values / CHANNELS;
+    for (int i = 0; i < work->count; i++) {
+        int16_t *to = work->sketch[i], *behind = to + work->sketch_before * ROW, *end = to + work->sketch_rows * ROW;
+        for (int64_t n = 0; n < samples; n += 2 * SKETCH_STEP, to += CHANNELS) sketch_line(to, work->response[i] + n * CHANNELS);
+        memset(to, 0, (size_t)(behind - to) * sizeof *to);
+        for (int64_t n = SKETCH_STEP; n < samples; n += 2 * SKETCH_STEP, behind += CHANNELS)
+            sketch_line(behind, work->response[i] + n * CHANNELS);
+        memset(behind, 0, (size_t)(end - behind) * sizeof *behind);
+    }
+}
+
+/* Negate the divisors of points so that the energy of the sum is largest. */
+static void polarise(struct work *work) {
+    int count = work->count;
+    double product[MAX_FOCI][MAX_FOCI], largest = 0;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) {
+            int64_t sum = 0;
+            for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
+            product[i][j] = (double)sum / work->divisor[i] / work->divisor[j];
+            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+        }
+    if (largest == 0) return;
+    double unit = (double)(1 << PRODUCT_BITS) / largest;
+    int64_t whole[MAX_FOCI][MAX_FOCI], field[MAX_FOCI] = {0}, energy = 0, most;
+    for (int i = 0; i < count; i++) {
+        whole[i][i] = 0;
+        for (int j = 0; j < i; j++) whole[i][j] = whole[j][i] = (int64_t)nearest(product[i][j] * unit);
+    }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++) field[i] += whole[i][j];
+    for (int i = 0; i < count; i++) energy += field[i];
+    most = energy;
+    /* all choices, the first point positive, in the order of a Gray code: each turns one point; bit k is point k + 1 */
+    uint32_t choice = 0, best = 0;
+    for (uint32_t turn = 1; turn < 1u << (count - 1); turn++) {
+        int bit = __builtin_ctz(turn), point = bit + 1, was_negative = choice >> bit & 1;
+        choice ^= 1u << bit;
+        energy += was_negative ? 4 * field[point] : -4 * field[point];
+        for (int i = 0; i < count; i++) field[i] += was_negative ? 2 * whole[i][point] : -2 * whole[i][point];
+        if (energy > most || (energy == most && choice < best)) {
+            most = energy;
+            best = choice;
+        }
+    }
+    uint32_t negative = best << 1;
+    if (2 * __builtin_popcount(best) > count) negative = ~negative;
+    for (int i = 0; i < count; i++)
+        if (negative >> i & 1) work->divisor[i] = -work->divisor[i];
+}
+
+/* Divide the divisors by weights with which all points get about the same share of their maximum. */
+static void balance(struct work *work) {
+    int count = work->count;
+    double weights[MAX_FOCI], share[MAX_FOCI];
+    for (int i = 0; i < count; i++) weights[i] = 1;
+    for (int round = 0; round < BALANCING_ROUNDS; round++) {
+        int16_t whole[MAX_FOCI], above[ROW];
+        int32_t sum[ROW];
+        int64_t got[MAX_FOCI] = {0};
+        double mean = 0;
+        whole_weights(work, weights, whole);
+        for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
+            add_up(count, work->sketch, whole, at, sum);
+            compare_nothing(above, sum);
+            for (int i = 0; i < count; i++) got[i] -= inner_product(work->sketch[i] + at, above, ROW);
+        }
+        for (int i = 0; i < count; i++) {
+            share[i] = (double)got[i] / work->divisor[i];
+            mean += share[i];
+        }
+        mean /= count;
+        for (int i = 0; i < count; i++) {
+            double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
+            if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
+            weights[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
+        }
+    }
+    for (int i = 0; i < count; i++) work->divisor[i] /= weights[i];
+}
+
 /* Compose; what is asked for and patches of `work->count` points. */
 static void compose_points(struct work *work, const struct patch *patches, const double *asked) {
     static const double ones[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -369,15 +466,19 @@ static void compose_points(struct work *work, const struct patch *patches, const
     }
     for (int i = 0; i < work->count; i++) {
         int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
-        work->norm[i] = norm ? (double)norm : 1;
+        work->divisor[i] = norm ? (double)norm : INFINITY;
         memset(work->response[i] + work->values, 0, (size_t)(work->rest_rows * ROW - work->values) * sizeof(int16_t));
         if (!full) interpolate(work->idle_word, patches + i, work->values, work->rest_rows * CHANNELS, work->rest[i]);
     }
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
     memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
-    whole_weights(work, ones, weight);
-    if (full) {
+    if (work->count > 1) {
+        take_sketch(work);
+        polarise(work);
+        balance(work);
+    }
+    if (whole_weights(work, ones, weight) == 0 || full) {
         pass(work, weight, WRITE);
         return;
     }
@@ -482,8 +583,8 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
 }
 
 static Py_ssize_t room_needed(int64_t samples) {
-    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES;
-    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES));
+    int64_t rows = (samples + REST_SAMPLES - 1) / REST_SAMPLES, of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP);
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + rows) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches);
 }
 
 static void lay_out(struct work *work, const struct plan *plan, int count, uint8_t *room, void *words) {
@@ -500,6 +601,10 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
         work->rest[i] = work->response[i] + work->rest_rows * ROW;
         room += work->rest_rows * (ROW + CHANNELS) * (int64_t)sizeof(int16_t);
     }
+    int64_t before = (plan->samples + 2 * SKETCH_STEP - 1) / (2 * SKETCH_STEP), all = (plan->samples + SKETCH_STEP - 1) / SKETCH_STEP;
+    work->sketch_before = (before + REST_SAMPLES - 1) / REST_SAMPLES;
+    work->sketch_rows = work->sketch_before + (all - before + REST_SAMPLES - 1) / REST_SAMPLES;
+    for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
     work->strength = (int32_t *)room;
     work->threshold = work->strength + work->blocks * CHANNELS;
     work->threshold_of_one = (int16_t *)(work->threshold + work->blocks * CHANNELS);

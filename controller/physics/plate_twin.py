@@ -25,7 +25,7 @@ from controller.board.panel import CHANNELS
 from controller.fpga.capture import Capture
 from controller.physics.driver import DriverResponse
 from controller.physics.field import Field, FocusScale
-from controller.physics.focusing import focus
+from controller.physics.focusing import balanced_weights, focus
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.step_response import StepResponse, channel_forces
@@ -153,8 +153,8 @@ class PlateTwin:
     def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
         """Amplitude in m of each of `points_m` when all are composed exactly at full amplitude: (point,).
 
-        As `reference_amplitude`, with the sign of the sum of all points' responses, each divided by the sum of its
-        absolute values.
+        As `reference_amplitude`, with the sign of the sum of all points' responses with `balanced_weights`; the absolute
+        values of the displacements, since the polarities of points are free.
         """
         if points_m not in self._exact:
             if self._responses is None:
@@ -162,12 +162,10 @@ class PlateTwin:
             places = np.array(points_m)
             in_band = self._responses.drive_order_responses(places, dtype=np.float64)
             whole = self._responses.responses(places)[:, ::-1]
-            sizes = np.abs(in_band).sum(axis=(1, 2))
-            weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # at the plate's edge nothing can move
-            self._exact[points_m] = self._amplitudes_of(in_band, weights, whole)
+            self._exact[points_m] = np.abs(self._amplitudes_of(in_band, balanced_weights(in_band), whole))
             for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
                 alone = slice(index, index + 1)
-                self._exact.setdefault((point,), self._amplitudes_of(in_band[alone], np.ones(1), whole[alone]))
+                self._exact.setdefault((point,), np.abs(self._amplitudes_of(in_band[alone], np.ones(1), whole[alone])))
         return self._exact[points_m]
 
     def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:

@@ -24,7 +24,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Focus:
-    """One focus of one emission, evaluated where its finger was at T."""
+    """One focus of one emission, evaluated where its finger was at T; amplitudes are those of a kick to either side."""
 
     time_s: float  # T, in the recording's time
     emission: Emission
@@ -84,8 +84,9 @@ def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissi
         metrics = field.focus_metrics(x_m, y_m, places)
         crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
         reference_m = twin.reference_amplitude(x_m, y_m)
-        relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
-        exact_share = metrics.amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
+        amplitude_m = abs(metrics.amplitude_m)
+        relative = amplitude_m / reference_m if reference_m else float("nan")
+        exact_share = amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
         distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
         together.append(Focus(time_s, emission, x_m, y_m, relative, exact_share, metrics, distance_m))
     return together
@@ -108,7 +109,7 @@ def _worth_showing(foci: list[Focus], apart_m: float) -> tuple[int, float]:
         and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > apart_m for other in foci if other is not focus)
         for focus in foci
     ]
-    return sum(apart), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
+    return sum(apart), min((abs(focus.metrics.amplitude_m) for focus in foci), default=0.0)
 
 
 def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from controller.bank.packing import channel_bits
 from controller.board.board import Board
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.modal_response import pulse_response
 
 NEAR_S = 25e-6  # a quiet place is judged this long before and after T
 
@@ -22,13 +24,20 @@ class Prediction:
     board : Board
     model : ResponseModel
         Of this board or another, whose plate then is the one that plays.
+
+    Attributes
+    ----------
+    near_samples : int
+        Samples before T, and as many after it, at which a quiet place is judged.
     """
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
         self._model = model
         self._supply_v = board.driver.supply_v
         self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
-        self._near_samples = round(NEAR_S / board.waveform.bit_period_s)
+        self._bit_period_s = board.waveform.bit_period_s
+        self._modal: NDArray[np.float64] | None = None  # of each mode, longer than an emission
+        self.near_samples = math.ceil(NEAR_S / self._bit_period_s)
 
     def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
         """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
@@ -38,16 +47,27 @@ class Prediction:
     def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
         """Displacement of each of `points_m`, (point, 2), at every sample within 25 us of T: (point, time) in m.
 
-        The channels return to the idle word at T. What the first samples still do `NEAR_S` after their response's end is left out.
+        The channels return to the idle word at T.
         """
-        volts, near = self._volts(words), self._near_samples
-        whole = self._whole(points_m).reshape(-1, *volts.shape)
-        late = range(-near, near + 1)
-        found = np.empty((len(whole), len(late)))
-        for index, by in enumerate(late):  # by samples later, a sample adds what one played by samples earlier adds at T
-            played, response = (volts[by:], whole[:, : len(volts) - by]) if by >= 0 else (volts[:by], whole[:, -by:])
-            found[:, index] = np.tensordot(response, played, 2)
+        volts = self._volts(words)
+        places_m = np.asarray(points_m, np.float64).reshape(-1, 2)
+        found = np.empty((len(places_m), 2 * self.near_samples + 1))
+        for index, place_m in enumerate(places_m):
+            found[index] = np.tensordot(self.near_responses(place_m), volts, 2)
         return found
+
+    def near_responses(self, place_m: ArrayLike) -> NDArray[np.floating[Any]]:
+        """Responses of one place in drive order, as they are met at each sample within 25 us of T: (time, sample, 32) in m per V.
+
+        After T what the first words still do is in it; before T the last words have not been played yet.
+        """
+        samples, near = self._model.samples, self.near_samples
+        if self._modal is None:
+            self._modal = pulse_response(self._model.step, self._bit_period_s, samples + near).T
+        response = (self._modal * self._model.plate_modes.mode_shapes(place_m)) @ self._model.forces
+        drive_order = np.zeros((samples + 2 * near, response.shape[1]))
+        drive_order[: len(response)] = response[::-1]
+        return np.array([drive_order[near - late : near - late + samples] for late in range(-near, near + 1)])
 
     def _whole(self, points_m: ArrayLike) -> NDArray[np.floating[Any]]:
         responses = self._model.responses(points_m)[:, ::-1]

@@ -1,3 +1,4 @@
+import hashlib
 import json
 import subprocess
 import sys
@@ -126,6 +127,27 @@ def test_the_whole_plate_at_5_mm_is_built_in_600_mb(tmp_path):
     needed = 2 * samples * 32 * (report["modes"] * rows + x_orders * 1148)
     assert report["sgemm_share"] == pytest.approx(needed / (report["sgemm_gflops"] * 1e9 * report["response_seconds"]))
     assert report["sgemm_share"] < 1
+
+
+def test_the_header_has_a_hash_of_what_a_bank_was_built_from_and_of_what_it_holds(board, built, tmp_path):
+    told = bank_info(built[1])["parameters"]
+    content = hashlib.sha256()
+    with Bank.open(built[1], board) as bank:
+        for cell in np.flatnonzero(bank.cells).tolist():
+            levels, scale_m_per_v = bank.response(cell)
+            content.update(bytes(bank.words(cell)))
+            start = bank.sections["response"].offset + cell * bank.sections["response"].stride
+            content.update(bank.read(start, bank.sections["response"].row_bytes))
+            assert np.frombuffer(bank.read(start, levels.nbytes), np.int8).tobytes() == levels.tobytes()
+            content.update(np.float32(scale_m_per_v).tobytes())
+    assert told["content_sha256"] == content.hexdigest()
+    again = tmp_path / "again"
+    build_bank(board, again, PITCH_M, measure_sgemm=False)
+    assert again.read_bytes() == built[1].read_bytes()
+    build_bank(board, again, PITCH_M, np.arange(15) == 3, measure_sgemm=False)
+    other = bank_info(again)["parameters"]
+    assert other["inputs_sha256"] != told["inputs_sha256"]
+    assert other["content_sha256"] != told["content_sha256"]
 
 
 def test_a_waveform_that_switches_more_often_than_the_board_allows_is_refused(board, tmp_path):
