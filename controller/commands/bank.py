@@ -41,6 +41,12 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
     )
     build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
+    build.add_argument(
+        "--memory-mb",
+        type=float,
+        metavar="M",
+        help="memory that the build may take, in MB (default: 1500); refused if it needs more",
+    )
     build.set_defaults(command=bank_build)
     for name, action, text in (
         ("info", bank_describe, "describe what a bank holds and what it was computed from"),
@@ -66,7 +72,7 @@ def bank_build(options: argparse.Namespace) -> int:
     own = bank_path(board, pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True)
+    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True, memory_mb=options.memory_mb)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
@@ -152,7 +158,14 @@ def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
 
 
 def _build(
-    board: Board, path: Path, pitch_m: float, cells: NDArray[np.bool_] | None, scene: str | None, *, measure: bool
+    board: Board,
+    path: Path,
+    pitch_m: float,
+    cells: NDArray[np.bool_] | None,
+    scene: str | None,
+    *,
+    measure: bool,
+    memory_mb: float | None = None,
 ) -> BuildReport:
     try:
         from controller.bank_builder.build import build_bank
@@ -166,7 +179,9 @@ def _build(
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
     own_path = path == bank_path(board, pitch_m)
     refuse_coarse(board, pitch_m)
-    report = build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
+    report = build_bank(
+        board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path, memory_mb=memory_mb
+    )
     if warning := interpolation_warning(report.interpolation_error):
         print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
     return report

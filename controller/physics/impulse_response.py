@@ -132,6 +132,10 @@ class ResponseModel:
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 8 samples; what
         the last row has beyond the last sample is zero.
         """
+        return self._responses(points_m, self.entry_kernel(dtype), out)
+
+    def entry_kernel(self, dtype: DTypeLike = np.float32) -> NDArray[np.floating[Any]]:
+        """What `entry_responses` multiplies with, (sample and row, mode), computed with the first call."""
         kind = np.dtype(dtype)
         key = ("entry", kind.str)
         if key not in self._kernels:
@@ -144,7 +148,7 @@ class ResponseModel:
                 kernel[: self.samples, some] = in_band[:, ::-1].T
                 kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
             self._kernels[key] = kernel
-        return self._responses(points_m, self._kernels[key], out)
+        return self._kernels[key]
 
     def entry_flops(self, points_m: NDArray[np.float64]) -> float:
         """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""

@@ -27,7 +27,6 @@ EDGE_HZ = 8e3
 SETTLED = 14  # decay times after which the rest of a response is below 1e-6
 FILTER_PERIODS = 50  # of the width of its edges, after which the rest of the filter's own response is below 1e-6
 LONGEST = 1 << 15  # samples of a transform; responses that ring for longer are split
-ON_POLE = 1e-12
 WORKING_BYTES = 64e6
 
 
@@ -97,26 +96,30 @@ def band_limited_response(
         at[rings] = np.where(pole[rings].imag < 0, gain_at.conj(), gain_at)
         return at
 
-    def spectrum(residue: Complex, pole: Complex) -> Complex:
-        """Of the poles' responses, without what is `passed` of them."""
-        z = np.exp(pole * bit_period_s)[:, None]
-        first = (residue * np.expm1(pole * bit_period_s))[:, None]
-        if whole:
-            half: Complex = 0.5 * (first / (1 - z * turn) + first.conj() / (1 - z.conj() * turn)) * gain[bins]
-            return half
-        at = passed(pole)[:, None]
-        total = np.zeros((len(pole), len(bins)), np.complex128)
-        for start, root, level in ((first, z, at), (first.conj(), z.conj(), at.conj())):
+    def series(pole: Complex) -> tuple[Complex, Complex]:
+        """Spectrum of each pole's exponential and of its conjugate, filtered, without what is `passed`: (pole, bin) both."""
+        z, level = np.exp(pole * bit_period_s)[:, None], passed(pole)[:, None]
+        found = []
+        for root, at in ((z, level), (z.conj(), level.conj())):
             below = 1 - root * turn
-            on_it = abs(below) < ON_POLE
+            on_it = below == 0  # a bin on a pole without damping
             below[on_it] = 1
-            total += 0.5 * start * np.where(on_it, slope, (gain - level) / below)
-        return total
+            of_poles = (gain[bins] - at) / below
+            if on_it.any():
+                of_poles[on_it] = np.broadcast_to(slope, on_it.shape)[on_it]
+            found.append(of_poles)
+        return found[0], found[1]
 
-    total = step.by_mode(spectrum(step.residues, step.poles))
+    first = (0.5 * step.residues * np.expm1(step.poles * bit_period_s))[:, None]
+    positive, negative = series(step.poles)
+    positive *= first
+    negative *= first.conj()
+    positive += negative
+    total = step.by_mode(positive)
     count = len(total)
-    for d in range(step.driver_poles.size):
-        total += spectrum(step.driver_residues[:, d], np.broadcast_to(step.driver_poles[d], count))
+    driver_first = 0.5 * step.driver_residues * np.expm1(step.driver_poles * bit_period_s)  # all modes share the drivers' poles
+    positive, negative = series(step.driver_poles)
+    total += driver_first @ positive + driver_first.conj() @ negative
     block = np.zeros((count, frequency.size), np.complex128)
     block[:, bins] = total
     modal: Floats = np.fft.irfft(block, length, axis=1)[:, :samples].astype(np.float64, copy=False)

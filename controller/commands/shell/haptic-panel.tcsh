@@ -15,7 +15,7 @@ complete haptic-panel \
         'c/--plot=/f/' \
         'c/--out=/f/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at bank baud bits board channel device figures ghosts help idle-figures json lag link no-chirps out pause-s pid pitch-mm plot power reference replay scene seconds seed speed targets version write)/' \
+        'c/--/(amplitude-figures at bank baud bits board channel device figures ghosts help idle-figures json lag link memory-mb no-chirps out pause-s pid pitch-mm plot power reference replay scene seconds seed speed targets version write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
