@@ -22,6 +22,8 @@ class Spots:
     spots : sequence of Spot
     start_s : FpgaTime
         When their beat begins.
+    repeats : bool
+        Whether the FPGA may repeat them.
 
     Attributes
     ----------
@@ -29,8 +31,8 @@ class Spots:
         Period in which the FPGA can repeat all of them as one waveform; None if it cannot.
     """
 
-    def __init__(self, spots: Sequence[Spot], start_s: FpgaTime) -> None:
-        self.common_period_s = common_period_s(spots)
+    def __init__(self, spots: Sequence[Spot], start_s: FpgaTime, repeats: bool = True) -> None:
+        self.common_period_s = common_period_s(spots) if repeats else None
         self._start_s = start_s
         self._beats = dict.fromkeys(spots, 0)
 

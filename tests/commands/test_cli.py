@@ -195,7 +195,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
     ("arguments", "code", "said"),
     [
         (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
-        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: library, plate, scene"),
+        (("run", "--scene", "nothing"), 78, "board 'simulated' has: keyboard, library, plate, scene, slider, spots"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),
         (("run", "--bank", "/nothing.bank"), 78, "/nothing.bank: cannot be read"),
