@@ -10,8 +10,10 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Sequence
+from math import floor
 from typing import Final
 
+from controller.bank.grid import TO_WHOLE
 from controller.bank.reader import Bank
 from controller.errors import BankError
 from controller.fpga.frames import ReadyFrames, Waveform
@@ -79,7 +81,7 @@ class Selection:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
                     return cell
-            return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
+            return ((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step),)
         return lattice_key(points)
 
     def waveform(self, key: Key) -> Waveform:
@@ -146,6 +148,7 @@ def lattice_key(points: Sequence[Point]) -> tuple[LatticePoint, ...]:
     """Points (x_m, y_m, amplitude) on the lattice, in ascending order."""
     lattice = []
     for x_m, y_m, amplitude in points:
-        lattice.append((round(x_m / LATTICE_M), round(y_m / LATTICE_M), 0 if amplitude == 1 else amplitude_step(amplitude)))
+        step = 0 if amplitude == 1 else amplitude_step(amplitude)
+        lattice.append((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step))
     lattice.sort()
     return tuple(lattice)
