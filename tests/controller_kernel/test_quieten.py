@@ -3,11 +3,12 @@
 import importlib
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller import kernel
-from controller.kernel import quiet_twin
+from controller.kernel import quiet_twin, words_twin
 from tests.controller_kernel.test_compose import buffers, needs_compiled, on_cells, places
 
 try:
