@@ -83,6 +83,7 @@ def build_bank(
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
+    choice: dict[str, Any] | None = None,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -105,6 +106,8 @@ def build_bank(
         Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    choice : dict, optional
+        What `choice.choose` told; its `composes` says whether responses are written.
 
     Raises
     ------
@@ -131,6 +134,7 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
+        **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
     }
     maker = creator()
     inputs_sha256 = _inputs_sha256(board, maker, parameters)

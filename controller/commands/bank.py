@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, fit, verify_bank, wrong_pitch
+from controller.bank.inspection import Fit, asked_of, bank_info, choice_of, fit, verify_bank, wrong_pitch
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
@@ -62,11 +62,16 @@ def bank_build(options: argparse.Namespace) -> int:
     scene = load_scene(scene_file, board) if scene_file else None
     if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
-    pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
-    own = bank_path(board, pitch_m)
+    choice = None
+    if board.compose.method == "auto" and options.pitch_mm is None:
+        scene_file = scene_file or find_scene(board)
+        scene = scene or load_scene(scene_file, board)
+        choice = _choose(board, scene, scene_file)
+    pitch_m = _pitch_m(board, choice) if options.pitch_mm is None else options.pitch_mm * 1e-3
+    own = bank_path(board, None if choice else pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, measure=True)
+    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, choice, measure=True)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
@@ -127,12 +132,18 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
             bank.close()
             raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
         return bank
-    pitch_m = board.bank.pitch_mm * 1e-3
-    found = fit(path, board, _cells(board, pitch_m, scene))
+    choice, found = None, None
+    if board.compose.method == "auto":
+        there = choice_of(path)
+        choice = there if there and there["asked"] == asked_of(board, scene_file) else _choose(board, scene, scene_file)
+        if there and any(there[name] != choice[name] for name in ("pitch_mm", "snap_mm", "composes")):
+            found = Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", _cells(board, _pitch_m(board, choice), scene))
+    pitch_m = _pitch_m(board, choice)
+    found = found or fit(path, board, _cells(board, pitch_m, scene))
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
-        _build(board, path, pitch_m, found.cells, scene_file.name, measure=False)
+        _build(board, path, pitch_m, found.cells, scene_file.name, choice, measure=False)
     return Bank.open(path, board)
 
 
@@ -147,12 +158,35 @@ def _bank_file(options: argparse.Namespace) -> Path:
     return path
 
 
+def _choose(board: Board, scene: Scene, scene_file: Path) -> dict[str, Any]:
+    """What `compose.method = "auto"` chooses for a scene."""
+    from threadpoolctl import threadpool_limits
+
+    from controller.bank_builder.choice import choose
+
+    with threadpool_limits(1, "blas"):
+        choice = choose(board, scene, scene_file, MET_AHEAD_M)
+    print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
+    return choice
+
+
+def _pitch_m(board: Board, choice: dict[str, Any] | None) -> float:
+    return float(choice["pitch_mm"] if choice else board.bank.pitch_mm) * 1e-3
+
+
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
     return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
 
 
 def _build(
-    board: Board, path: Path, pitch_m: float, cells: NDArray[np.bool_] | None, scene: str | None, *, measure: bool
+    board: Board,
+    path: Path,
+    pitch_m: float,
+    cells: NDArray[np.bool_] | None,
+    scene: str | None,
+    choice: dict[str, Any] | None = None,
+    *,
+    measure: bool,
 ) -> BuildReport:
     try:
         from controller.bank_builder.build import build_bank
@@ -164,9 +198,11 @@ def _build(
         if missing is None:
             raise
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
-    own_path = path == bank_path(board, pitch_m)
+    own_path = path == bank_path(board, None if choice else pitch_m)
     refuse_coarse(board, pitch_m)
-    report = build_bank(board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path)
+    report = build_bank(
+        board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path, choice=choice
+    )
     if warning := interpolation_warning(report.interpolation_error):
         print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
     return report

@@ -10,7 +10,7 @@ from pathlib import Path
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.errors import BankError
-from controller.scene.coverage import cells_needed
+from controller.scene.coverage import cells_needed, plays_cells_alone
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
 
@@ -54,8 +54,12 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
         If the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
+    if not (bank.composes or plays_cells_alone(scene)):
+        raise BankError(
+            f"{bank.path}: holds no responses, from which {called} needs waveforms composed; rebuild it: {bank.rebuild}"
+        )
     bank.check_frames(cells)
-    if responses:
+    if responses and bank.composes:
         for cell in cells:
             bank.response(cell)
     return len(cells)
