@@ -47,6 +47,7 @@ def bank_info(path: Path) -> dict[str, Any]:
             },
             "cells": header.entries,
             "cells_of_grid": grid.cells,
+            "compositions": header.compositions,
             "samples": header.samples,
             "bit_clock_hz": header.bit_clock_hz,
             "parameters": header.parameters,
@@ -74,27 +75,33 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
         for section in bank.sections.values():
             _check_padding(bank, end, section.offset)
             end = section.offset + section.size
-            if section.name in {"drive", "response"}:
-                _check_entries(bank, section, progress or (lambda _done, _all: None))
+            if section.name in {"drive", "response", "composed"}:
+                _check_rows(bank, section, progress or (lambda _done, _all: None))
         _check_padding(bank, end, bank.file_bytes)
         if progress:
             progress(bank.file_bytes, bank.file_bytes)
         return {"path": str(path), "bytes": bank.file_bytes, "cells": bank.header.entries, "good": True}
 
 
-def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
+def _check_rows(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
     """Check every row of a section against its CRC-32, and that the padding between rows is zero."""
-    crc_of_row, column = {"drive": (_crc_of_words(bank.samples), 0), "response": (zlib.crc32, 1)}[section.name]
-    cell_of = np.flatnonzero(bank.cells)
-    for entry, checksums in enumerate(bank.checksums[: section.rows]):
-        start = section.offset + entry * section.stride
+    if not section.rows:
+        return
+    if section.name == "composed":
+        names, crcs = [f"composition {row}" for row in range(section.rows)], [crc for _, crc in bank.compositions.values()]
+    else:
+        names = [f"{section.name} of entry {entry} (cell {cell})" for entry, cell in enumerate(np.flatnonzero(bank.cells))]
+        crcs = [crc_of[section.name == "response"] for crc_of in bank.checksums]
+    crc_of_row = zlib.crc32 if section.name == "response" else _crc_of_words(bank.samples)
+    for number, (name, crc) in enumerate(zip(names, crcs, strict=True)):
+        start = section.offset + number * section.stride
         row = bank.read(start, section.row_bytes)
         try:
-            wrong = "" if crc_of_row(row) == checksums[column] else "wrong CRC-32"
+            wrong = "" if crc_of_row(row) == crc else "wrong CRC-32"
         except ValueError as error:
             wrong = str(error)
         if wrong:
-            raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]}): {wrong}")
+            raise _damage(bank, start, len(row), f"{name}: {wrong}")
         _check_padding(bank, start + section.row_bytes, start + section.stride)
         progress(start + section.stride, bank.file_bytes)
 

@@ -7,24 +7,30 @@ import hashlib
 import json
 import resource
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import MODELLED, Header, creator
+from controller.bank.file_format import MODELLED, REST_SAMPLES, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
+from controller.bank_builder.optimised import ALONE, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
+from controller.scene.scene import Spot
+from controller.waveform_design.descent import Aim
 
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
@@ -56,6 +62,10 @@ class BuildReport:
         Edges per second of the busiest channel of all entries.
     interpolation_error : dict
         `InterpolationError.summary`: what fingers between cells lose.
+    optimised : dict or None
+        What entries were optimised for, and what became of their amplitude; None: they are plain.
+    optimise_seconds : float
+        By the clock.
     """
 
     path: str
@@ -70,6 +80,8 @@ class BuildReport:
     peak_memory_mb: float
     worst_edge_rate_hz: float
     interpolation_error: dict[str, Any]
+    optimised: dict[str, Any] | None
+    optimise_seconds: float
 
 
 def build_bank(
@@ -78,12 +90,15 @@ def build_bank(
     pitch_m: float | None = None,
     cells: NDArray[np.bool_] | None = None,
     *,
+    spots: Sequence[Spot] = (),
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
     choice: dict[str, Any] | None = None,
+    aim: Aim | None = None,
+    workers: Workers = ALONE,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -96,8 +111,10 @@ def build_bank(
         Of the grid; the board's own by default.
     cells : (cells of the grid,) bool array, optional
         Cells to build; all by default.
+    spots : sequence of Spot
+        What they play together is composed beforehand.
     scene : str, optional
-        What `cells` came from, noted in the build parameters.
+        What `cells` and `spots` came from, noted in the build parameters.
     progress : bool
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
@@ -108,6 +125,10 @@ def build_bank(
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
     choice : dict, optional
         What `choice.choose` told; its `composes` says whether responses are written.
+    aim : Aim, optional
+        Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
+    workers : Workers
+        Who optimises.
 
     Raises
     ------
@@ -117,6 +138,8 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    if choice is not None:
+        board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=choice["snap_mm"]))
     highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
@@ -135,6 +158,8 @@ def build_bank(
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
+        "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
+        "optimised": aim and told(board, aim),
     }
     maker = creator()
     inputs_sha256 = _inputs_sha256(board, maker, parameters)
@@ -143,8 +168,10 @@ def build_bank(
         "content_sha256": "0" * 64,
         "channel_edges": 0,
         "all_edges": 0,
+        "amplitude_of_plain": aim and _spread([0.0]),
         "interpolation_error": {},
     }
+    composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
     header = Header(
         creator=maker,
         board_digest=board.digest(),
@@ -153,12 +180,12 @@ def build_bank(
         samples=board.waveform.samples,
         entries=len(numbers),
         parameters=parameters,
+        compositions=len(composed),
     )
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
     content = hashlib.sha256()
-    idle = np.array([board.idle_word], np.uint32)
     blocks = _blocks(numbers, grid.nx)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
@@ -170,6 +197,13 @@ def build_bank(
         before = time.process_time()
         model = ResponseModel(board, highest_hz)
         model_seconds = time.process_time() - before
+        optimised, optimise_seconds = None, 0.0
+        if aim:
+            before = time.perf_counter()
+            kept = kept_path(path, inputs_sha256)
+            optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
+            optimise_seconds = time.perf_counter() - before
+        shares = []  # of the amplitude that the plain entry has
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
         for block in blocks:
             places_m = points_m[block.start : block.stop]
@@ -177,20 +211,26 @@ def build_bank(
             entries = model.entry_responses(places_m, out=room[: len(block)])
             response_seconds += time.process_time() - before
             flops += model.entry_flops(places_m)
-            for cell, entry in zip(numbers[block.start : block.stop].tolist(), entries, strict=True):
-                words = drive_words(entry[: header.samples], board.idle_word)
-                counts = edges(np.concatenate([idle, words, idle]))
-                own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
-                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
-                parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
-                parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
+            for index, entry in zip(block, entries, strict=True):
+                cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
+                if optimised is not None:
+                    plain, words = words, optimised[index]
+                    shares.append(_amplitude(entry, words, board.idle_word) / (_amplitude(entry, plain, board.idle_word) or 1.0))
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
                 for part in (words, levels, np.float32(scale_m_per_v)):
                     content.update(part.data)
             bar.update(len(block))
+        for key, words in composed:
+            worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"{len(key)} spots", parameters))
+            writer.add_composition(key, words)
+            content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
+        if optimised is not None:
+            parameters["amplitude_of_plain"] = _spread(shares)
         parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
+    remove_kept(path)
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -207,6 +247,8 @@ def build_bank(
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
         interpolation_error=parameters["interpolation_error"],
+        optimised={"aim": aim.name, "amplitude_of_plain": parameters["amplitude_of_plain"]} if aim else None,
+        optimise_seconds=optimise_seconds,
     )
 
 
@@ -216,6 +258,16 @@ def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
     return hashlib.sha256(told.encode()).hexdigest()
 
 
+def _amplitude(entry: NDArray[np.float32], words: NDArray[np.uint32], idle_word: int) -> float:
+    """Displacement by drive words at a cell, in m per V, from its response and the rest of that outside the band."""
+    whole = entry[: len(words)] + np.repeat(entry[len(words) :], REST_SAMPLES, axis=0)[: len(words)]
+    return float(np.sum(whole * (channel_bits(words) - channel_bits(np.array([idle_word], np.uint32)).astype(np.float32))))
+
+
+def _spread(shares: list[float]) -> dict[str, float]:
+    return {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+
+
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
     """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows."""
     at_once = max(CELLS_PER_BLOCK // cells_per_row, 1) * cells_per_row
@@ -223,14 +275,19 @@ def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 
 
-def _edge_rate_hz(board: Board, counts: NDArray[np.intp], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry, by the edges of each, (32,); refused above the board's limit."""
-    rate_hz = float(counts.max()) / board.waveform.duration_s
+def _count_edges(board: Board, words: NDArray[np.uint32], name: str, parameters: dict[str, Any]) -> float:
+    """Edges per second of the busiest channel of a waveform, refused above the board's limit; the largest numbers are noted."""
+    idle = np.array([board.idle_word], np.uint32)
+    counts = edges(np.concatenate([idle, words, idle]))
+    own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+    rate_hz = float(own_edges.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(
             f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
-            f" edges per second of channel {int(counts.argmax())} in the waveform of cell {cell}: raise it if the driver allows it"
+            f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver allows it"
         )
+    parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
+    parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
     return rate_hz
 
 

@@ -1,8 +1,8 @@
 """Which pitch and snap distance a bank gets, and whether it holds responses: the smallest bank that keeps two bounds for a scene.
 
 Candidates are settings that a device has: cells at some pitch that are played as they are, or responses interpolated between
-them, with cells played within a snap distance. Each has an error, measured on the plate's model at places of the scene; a time, from
-the table of the benchmark; and bytes. Those that no other beats in all three are the front, and the choice is on it.
+them, with cells played within a snap distance. Each has an error, measured on the plate's model at places of the scene; a time,
+from the table of the benchmark; and bytes. Those that no other beats in all three are the front, and the choice is on it.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from controller.bank.inspection import asked_of
 from controller.bank_builder.interpolation_error import DIGITS, InterpolationError, interpolation_error
 from controller.board.board import Board
 from controller.errors import ConfigError
+from controller.loop.spots import needs_responses
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import bending_wavelength_m, mode_cut_hz
-from controller.scene.coverage import cells_needed, plays_cells_alone
+from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene
 
 PITCHES_MM = (0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0)
@@ -78,7 +79,8 @@ def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
     """
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
     model = ResponseModel(board, mode_cut_hz(board.waveform))
-    alone = plays_cells_alone(scene) and board.application_socket is None
+    alone = not needs_responses(scene) and board.application_socket is None
+    ready = alone and len(scene.spots) > 1 and not any(region.felt for region in scene.regions)  # all composed beforehand
     judged: list[tuple[Grid, np.ndarray[Any, np.dtype[np.bool_]], InterpolationError]] = []
     for pitch_m in (pitch_mm * 1e-3 for pitch_mm in PITCHES_MM):
         if FINEST * wavelength_m <= pitch_m <= wavelength_m / 2:
@@ -97,7 +99,7 @@ def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
     for grid, cells, error in judged:
         pitch_mm, between = grid.pitch_m * 1e3, float(error.interpolated.max(initial=0.0))
         if alone:
-            worst = round(of_cells(grid.pitch_m * 0.5**0.5), DIGITS)
+            worst = 0.0 if ready else round(of_cells(grid.pitch_m * 0.5**0.5), DIGITS)
             found.append(Setting(pitch_mm, BEYOND * pitch_mm, False, worst, CELL_US, CELL_US, _bytes(board, grid, cells, False)))
         for snap_mm in (snap_mm for snap_mm in SNAPS_MM if snap_mm <= pitch_mm / 2):
             snapped = np.pi * (snap_mm / pitch_mm) ** 2
@@ -140,7 +142,7 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float) -> dic
     best = min(kept, key=lambda one: (one.bytes, one.lone_us))
     how = f"responses every {best.pitch_mm:g} mm, cells within {best.snap_mm:g} mm of a lone finger"
     if not best.composes:
-        how = f"cells every {best.pitch_mm:g} mm without responses, since every emission is one focus at full amplitude"
+        how = f"cells every {best.pitch_mm:g} mm without responses: the scene asks for nothing between them"
     return asdict(best) | {
         "asked": asked_of(board, scene_file),
         "scene": scene_file.name,

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,9 +17,9 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
-from controller.errors import BankError, ConfigError
+from controller.errors import BankError, ConfigError, UsageError
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import Scene, load_scene
+from controller.scene.scene import Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 
 if TYPE_CHECKING:
@@ -41,6 +43,13 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
     )
     build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
+    build.add_argument(
+        "--optimise",
+        choices=("contrast", "quiet", "balanced"),
+        help="optimise every entry: more contrast, less sound, or both; about half a second of a core a cell (default: neither)",
+    )
+    build.add_argument("--workers", type=int, metavar="N", help="processes that optimise (default: one for each core)")
+    build.add_argument("--dask", metavar="ADDRESS", help="optimise on the workers of this dask scheduler, tcp://HOST:PORT")
     build.set_defaults(command=bank_build)
     for name, action, text in (
         ("info", bank_describe, "describe what a bank holds and what it was computed from"),
@@ -62,6 +71,10 @@ def bank_build(options: argparse.Namespace) -> int:
     scene = load_scene(scene_file, board) if scene_file else None
     if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    if options.optimise is None and (options.workers is not None or options.dask is not None):
+        raise UsageError("--workers and --dask are of use with --optimise: a plain bank takes seconds")
+    if options.workers is not None and (options.workers < 1 or options.dask is not None):
+        raise UsageError("--workers: 1 or more processes of this computer, and not with --dask")
     choice = None
     if board.compose.method == "auto" and options.pitch_mm is None:
         scene_file = scene_file or find_scene(board)
@@ -71,7 +84,8 @@ def bank_build(options: argparse.Namespace) -> int:
     own = bank_path(board, None if choice else pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
-    report = _build(board, path, pitch_m, cells, scene_file.name if scene_file else None, choice, measure=True)
+    name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
+    report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
@@ -143,7 +157,7 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
-        _build(board, path, pitch_m, found.cells, scene_file.name, choice, measure=False)
+        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
     return Bank.open(path, board)
 
 
@@ -184,13 +198,18 @@ def _build(
     pitch_m: float,
     cells: NDArray[np.bool_] | None,
     scene: str | None,
+    spots: Sequence[Spot],
     choice: dict[str, Any] | None = None,
     *,
     measure: bool,
+    options: argparse.Namespace | None = None,
 ) -> BuildReport:
+    """Build a bank; `options`: of `bank build`, where it says how."""
     try:
         from controller.bank_builder.build import build_bank
         from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
+        from controller.bank_builder.optimised import ALONE, Workers
+        from controller.waveform_design.descent import AIMS
     except ModuleNotFoundError as error:
         from controller.service.installation import missing_package
 
@@ -200,9 +219,28 @@ def _build(
         raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
     own_path = path == bank_path(board, None if choice else pitch_m)
     refuse_coarse(board, pitch_m)
-    report = build_bank(
-        board, path, pitch_m, cells, scene=scene, progress=True, measure_sgemm=measure, overwrite=own_path, choice=choice
-    )
+    aim, workers = None, ALONE
+    if options and options.optimise:
+        aim, workers = AIMS[options.optimise], Workers(options.workers or len(os.sched_getaffinity(0)), options.dask)
+    try:
+        report = build_bank(
+            board,
+            path,
+            pitch_m,
+            cells,
+            spots=spots,
+            scene=scene,
+            progress=True,
+            measure_sgemm=measure,
+            overwrite=own_path,
+            aim=aim,
+            workers=workers,
+            choice=choice,
+        )
+    except KeyboardInterrupt:
+        if aim:
+            print("haptic-panel: what is optimised is kept: the same command goes on from there", file=sys.stderr)
+        raise
     if warning := interpolation_warning(report.interpolation_error):
         print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
     return report

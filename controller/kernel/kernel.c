@@ -10,6 +10,12 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#if defined __aarch64__ && defined __linux__
+#include <sys/auxv.h>
+#define MACHINE_HAS_CRC (getauxval(AT_HWCAP) >> 7 & 1) /* HWCAP_CRC32: every Raspberry Pi of 64 bits */
+#else
+#define MACHINE_HAS_CRC 0
+#endif
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "words and levels are read as they lie in the bank: little-endian"
@@ -686,8 +692,16 @@ static uint32_t crc_table[8][256]; /* [n]: a byte, then n zero bytes */
 static uint32_t chunk_table[4][256]; /* [n]: byte n of a state, then as many zero bytes as a chunk has */
 static uint32_t number_change[256]; /* of a full frame's CRC, by number ^ number */
 
+static int machine_has_crc; /* an instruction for what is a table's work elsewhere */
+
 /* States are CRCs without the inversions before and after: linear in the bytes. */
 INLINE uint32_t crc_eight(uint32_t state, uint64_t bytes) {
+#ifdef __aarch64__
+    if (machine_has_crc) {
+        __asm__(".arch_extension crc\n\tcrc32x %w0, %w0, %x1" : "+r"(state) : "r"(bytes));
+        return state;
+    }
+#endif
     bytes ^= state;
     return crc_table[7][bytes & 255] ^ crc_table[6][bytes >> 8 & 255] ^ crc_table[5][bytes >> 16 & 255] ^ crc_table[4][bytes >> 24 & 255] ^
            crc_table[3][bytes >> 32 & 255] ^ crc_table[2][bytes >> 40 & 255] ^ crc_table[1][bytes >> 48 & 255] ^ crc_table[0][bytes >> 56];
@@ -730,6 +744,7 @@ static uint32_t change_of(uint8_t numbers, Py_ssize_t frame_bytes) {
 }
 
 static void fill_tables(void) {
+    machine_has_crc = MACHINE_HAS_CRC;
     for (uint32_t byte = 0; byte < 256; byte++) {
         uint32_t state = byte;
         for (int bit = 0; bit < 8; bit++) state = state >> 1 ^ (0xEDB88320u & -(state & 1));

@@ -13,6 +13,7 @@ from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import DAMAGED, Refused
+from controller.fpga.frames import ReadyFrames
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.loop.commands import Outcome
@@ -339,8 +340,9 @@ class Playback:
     def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
         waveform = self._selection.waveform(key)
-        if isinstance(key, int):
+        if isinstance(waveform, ReadyFrames):
             self._counters.skipped.compositions += 1
+            self._counters.composed_beforehand += not isinstance(key, int)
         slot = self._take()
         stop = self.occupancy.repetition is not None
         try:

@@ -145,7 +145,7 @@ class Field:
     def map(self, step_m: float | None = None) -> tuple[Floats, Floats, Floats]:
         """Displacement at T over the plate: x (nx,), y (ny,), u (ny, nx), all in m; at most `step_m` (of the scale) apart."""
         step_m = self.scale.map_step_m if step_m is None else step_m
-        x, y = _centres(self.modes.length_m, step_m), _centres(self.modes.width_m, step_m)
+        x, y = map_axis(self.modes.length_m, step_m), map_axis(self.modes.width_m, step_m)
         return x, y, self.modes.y_sines(y) @ (self._matrix.T @ self.modes.x_sines(x).T)
 
     def around(self, point_m: Point) -> Floats:
@@ -252,7 +252,8 @@ def _tables(step: StepResponse, scale: FocusScale) -> tuple[Complex, Complex]:
     return np.exp(np.outer(times_s, step.poles)), np.exp(np.outer(times_s - times_s[0], step.driver_poles))
 
 
-def _centres(extent_m: float, step_m: float) -> Floats:
+def map_axis(extent_m: float, step_m: float) -> Floats:
+    """Coordinates of a map's points along an axis of `extent_m`, (n,) in m: centres of equal cells of at most `step_m`."""
     count = int(np.ceil(extent_m / step_m - 1e-9))
     return np.linspace(0.5, count - 0.5, count) * (extent_m / count)
 

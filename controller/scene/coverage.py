@@ -46,21 +46,6 @@ def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, ma
     return needed
 
 
-def plays_cells_alone(scene: Scene) -> bool:
-    """Whether each emission of a scene is one focus at full amplitude, which the entry of the nearest cell can serve.
-
-    What a command may ask for is another matter.
-    """
-    for region in scene.regions:
-        trains = (*region.press, *region.release, *region.enter, *region.leave)
-        if region.felt and not region.alternate:
-            return False
-        if any(train.amplitude != 1 or train.envelope for train in trains) or any(step.amplitude != 1 for step in region.spacings):
-            return False
-    together = [spot for spot in scene.spots if not spot.alternate]
-    return len(together) <= 1 and all(spot.amplitude == 1 for spot in scene.spots)
-
-
 def _influence(at: NDArray[np.float64], half_m: float, pitch_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Along one axis, lower and upper end of the points that need each cell, both (cell,): a pitch to either side.
 

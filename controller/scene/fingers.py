@@ -21,7 +21,7 @@ from typing import Final
 
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
-from controller.scene.emission import Emission
+from controller.scene.emission import Emission, new_emission
 from controller.scene.progress import DistanceProgress, GridProgress
 from controller.scene.scene import OUTSIDE, Scene
 from controller.scene.trains import NO_BEAT, ActiveTrain, Train
@@ -118,7 +118,8 @@ class ActiveEffects:
             if not amplitude:
                 return ()
             inside = scene.regions[index]
-            return (Emission(time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate),)
+            at = time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate
+            return (new_emission(at),)
         self._enter(index)
         emission = None
         if left != OUTSIDE:
@@ -241,7 +242,8 @@ class ActiveEffects:
         period_s, ticket = train.train.period_s, train.ticket
         train.ticket = 0
         time_s = train.first_s + beat * period_s
-        return Emission(time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, beat, period_s, alternate)
+        at = time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, beat, period_s, alternate
+        return new_emission(at)
 
     def _add(self, train: ActiveTrain) -> None:
         self._trains.append(train)

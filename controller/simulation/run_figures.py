@@ -53,6 +53,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "late": counters.late,
         "due": counters.due,
         "foci": counters.foci,
+        "composed_beforehand": counters.composed_beforehand,
         "prefetched": counters.prefetched,
         "prefetch_wasted": counters.prefetch_wasted,
         "near": counters.near,

@@ -38,7 +38,7 @@ from controller.touch.event_codes import (
     Protocol,
 )
 from controller.touch.event_reader import Event
-from controller.touch.source import Counts, TouchSample
+from controller.touch.source import Counts, TouchSample, touch_sample
 
 MAX_PLAYED: Final = 10
 MAX_SLOTS: Final = 256
@@ -326,7 +326,7 @@ class Decoder:
         contact.y_m = y_m
         contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
         contact.moved = False
-        samples.append(TouchSample(finger, x_m, y_m, time_s, True, size_m))
+        samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))
 
     def _down(self, contact: Contact) -> bool:
         return (contact.identity >= 0 or contact.identity == IMPLIED) and not contact.hovers and self._touching is not False

@@ -444,14 +444,14 @@ static int decode(const struct event *events, int count, double time_s, struct s
 }
 
 /* One read: a report's events, or none; how long it took. */
-int64_t twin_read(const struct event *events, int count, double start_s, double now_s)
+int64_t twin_read(const struct event *events, int count, double now_s)
 {
     int64_t began_ns = now_ns();
     struct sample samples[2 * FINGERS];
     int n = 0, told = 0;
     if (count) {
         const struct event *last = events + count - 1;
-        double time_s = fmin(start_s + last->second + last->microsecond * 1e-6, now_s);
+        double time_s = fmin(last->second + last->microsecond * 1e-6, now_s);
         n = decode(events, count - 1, time_s, samples, &told);
     }
     tracker_read(samples, n, told, now_s);
