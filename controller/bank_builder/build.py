@@ -28,10 +28,12 @@ from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import cell_bytes, entries_bytes, require
 from controller.physics.plate import mode_cut_hz
 from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
 
+INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -97,6 +99,7 @@ def build_bank(
     highest_hz: float | None = None,
     overwrite: bool = False,
     choice: dict[str, Any] | None = None,
+    memory_mb: float | None = None,
     aim: Aim | None = None,
     workers: Workers = ALONE,
 ) -> BuildReport:
@@ -125,6 +128,8 @@ def build_bank(
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
     choice : dict, optional
         What `choice.choose` told; its `composes` says whether responses are written.
+    memory_mb : float, optional
+        Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
     aim : Aim, optional
         Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
     workers : Workers
@@ -133,7 +138,8 @@ def build_bank(
     Raises
     ------
     ConfigError
-        If the pitch leaves no cell, `cells` is empty, or an entry would switch a channel more often than the board allows.
+        If the pitch leaves no cell, `cells` is empty, an entry would switch a channel more often than the board allows, or
+        the build does not fit into `memory_mb`.
     BankError
         If the folder or disk does not take the file; an old bank is untouched.
     """
@@ -182,11 +188,15 @@ def build_bank(
         parameters=parameters,
         compositions=len(composed),
     )
+    model = ResponseModel(board, highest_hz)
+    least_bytes = entries_bytes(model.plate_modes, header.samples, grid.nx) + INDEX_BYTES * grid.cells
+    spare_bytes = require(least_bytes, memory_mb, f"a bank of {board.name!r} with {model.modes} modes and {grid.nx} cells a row")
+    most = min(CELLS_PER_BLOCK, grid.nx + int(spare_bytes / cell_bytes(header.samples)))
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
     content = hashlib.sha256()
-    blocks = _blocks(numbers, grid.nx)
+    blocks = _blocks(numbers, grid.nx, most)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(
@@ -195,7 +205,7 @@ def build_bank(
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         before = time.process_time()
-        model = ResponseModel(board, highest_hz)
+        model.entry_kernel()
         model_seconds = time.process_time() - before
         optimised, optimise_seconds = None, 0.0
         if aim:
@@ -268,9 +278,9 @@ def _spread(shares: list[float]) -> dict[str, float]:
     return {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
 
 
-def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
-    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows."""
-    at_once = max(CELLS_PER_BLOCK // cells_per_row, 1) * cells_per_row
+def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[range]:
+    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows: at most so many cells, but one row."""
+    at_once = max(most // cells_per_row, 1) * cells_per_row
     firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,6 +45,12 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
     build.add_argument(
+        "--memory-mb",
+        type=float,
+        metavar="M",
+        help="memory that the build may take, in MB (default: 1500); refused if it needs more",
+    )
+    build.add_argument(
         "--optimise",
         choices=("contrast", "quiet", "balanced"),
         help="optimise every entry: more contrast, less sound, or both; about half a second of a core a cell (default: neither)",
@@ -51,6 +58,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     build.add_argument("--workers", type=int, metavar="N", help="processes that optimise (default: one for each core)")
     build.add_argument("--dask", metavar="ADDRESS", help="optimise on the workers of this dask scheduler, tcp://HOST:PORT")
     build.set_defaults(command=bank_build)
+    choices = actions.add_parser("choices", parents=[common], help="what pitch and memory cost a scene, and what auto would choose")
+    choices.add_argument("--scene", metavar="S", help="the scene (default: the board's own)")
+    choices.set_defaults(command=bank_choices)
     for name, action, text in (
         ("info", bank_describe, "describe what a bank holds and what it was computed from"),
         ("verify", bank_verify, "check every bit of a bank"),
@@ -80,6 +90,7 @@ def bank_build(options: argparse.Namespace) -> int:
         scene_file = scene_file or find_scene(board)
         scene = scene or load_scene(scene_file, board)
         choice = _choose(board, scene, scene_file)
+        print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
     pitch_m = _pitch_m(board, choice) if options.pitch_mm is None else options.pitch_mm * 1e-3
     own = bank_path(board, None if choice else pitch_m)
     path = Path(options.out) if options.out else own
@@ -90,6 +101,25 @@ def bank_build(options: argparse.Namespace) -> int:
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
     return 0
+
+
+def bank_choices(options: argparse.Namespace) -> int:
+    """Show the settings of a bank on the front of error, time and bytes for a scene, and which of them `auto` chooses."""
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene)
+    show(options, _choose(board, load_scene(scene_file, board), scene_file), _choices_table)
+    return 0
+
+
+def _choices_table(choice: dict[str, Any]) -> str:
+    lines = [f"{'pitch (mm)':>10}  {'cells within (mm)':>17}  {'loses at most':>13}  {'lone finger (us)':>16}  {'MB':>6}"]
+    for pitch_mm, snap_mm, error, lone_us, size in choice["front"]:
+        chosen = (pitch_mm, snap_mm) == (choice["pitch_mm"], choice["snap_mm"] if choice["composes"] else None)
+        played = "no responses" if snap_mm is None else f"{snap_mm:g}"
+        lines.append(
+            f"{pitch_mm:>10g}  {played:>17}  {100 * error:>11.1f} %  {lone_us:>16.2f}  {size / 1e6:>6.1f}{'  <- auto' * chosen}"
+        )
+    return "\n".join([*lines, choice["why"]])
 
 
 def bank_describe(options: argparse.Namespace) -> int:
@@ -174,14 +204,26 @@ def _bank_file(options: argparse.Namespace) -> Path:
 
 def _choose(board: Board, scene: Scene, scene_file: Path) -> dict[str, Any]:
     """What `compose.method = "auto"` chooses for a scene."""
-    from threadpoolctl import threadpool_limits
+    with _builder_installed(bank_path(board)):
+        from threadpoolctl import threadpool_limits
 
-    from controller.bank_builder.choice import choose
-
+        from controller.bank_builder.choice import choose
     with threadpool_limits(1, "blas"):
-        choice = choose(board, scene, scene_file, MET_AHEAD_M)
-    print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
-    return choice
+        return choose(board, scene, scene_file, MET_AHEAD_M)
+
+
+@contextlib.contextmanager
+def _builder_installed(path: Path) -> Iterator[None]:
+    """Around imports of what builds banks; BankError where it is not installed, as on a device."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        from controller.service.installation import missing_package
+
+        missing = missing_package(error.name)
+        if missing is None:
+            raise
+        raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
 
 
 def _pitch_m(board: Board, choice: dict[str, Any] | None) -> float:
@@ -205,18 +247,11 @@ def _build(
     options: argparse.Namespace | None = None,
 ) -> BuildReport:
     """Build a bank; `options`: of `bank build`, where it says how."""
-    try:
+    with _builder_installed(path):
         from controller.bank_builder.build import build_bank
         from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
         from controller.bank_builder.optimised import ALONE, Workers
         from controller.waveform_design.descent import AIMS
-    except ModuleNotFoundError as error:
-        from controller.service.installation import missing_package
-
-        missing = missing_package(error.name)
-        if missing is None:
-            raise
-        raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
     own_path = path == bank_path(board, None if choice else pitch_m)
     refuse_coarse(board, pitch_m)
     aim, workers = None, ALONE
@@ -236,6 +271,7 @@ def _build(
             aim=aim,
             workers=workers,
             choice=choice,
+            memory_mb=options.memory_mb if options else None,
         )
     except KeyboardInterrupt:
         if aim:

@@ -47,12 +47,14 @@ enum {
     BALANCING_ROUNDS = 2,
     THRESHOLD_BITS = 24,
     MAX_ROUNDS = 5,
+    MAX_LOWERINGS = 3,
     ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
 struct plan {
@@ -83,7 +85,7 @@ struct work {
     int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response, as many rows as `before`, then 2, 6, 10, .. */
     int64_t sketch_before, sketch_rows; /* rows of eight samples */
     uint32_t *words;
-    double divisor[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
+    double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
 };
 
 typedef int16_t shorts __attribute__((vector_size(16)));
@@ -279,11 +281,11 @@ static double masking_threshold(double share) {
     return THRESHOLDS[SHARES_GIVEN - 1];
 }
 
-/* Whole numbers next to the weights over the divisors, times what is returned. */
+/* Whole numbers next to the weights, each times its balance, over the divisors, times what is returned. */
 static double whole_weights(const struct work *work, const double *weights, int16_t *whole) {
     double share[MAX_FOCI], total = 0;
     for (int i = 0; i < work->count; i++) {
-        share[i] = weights[i] / work->divisor[i];
+        share[i] = work->balance[i] * weights[i] / work->divisor[i];
         total += fabs(share[i]);
     }
     double unit = total > 0 && total < INFINITY ? POINT_WEIGHT_SUM / total : 0;
@@ -297,7 +299,7 @@ enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
     int16_t above[ROW], count[CHANNELS];
-    int64_t total[MAX_FOCI] = {0};
+    int64_t in_band[MAX_FOCI] = {0}, outside[MAX_FOCI] = {0};
     for (int64_t row = 0; row < work->rest_rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
@@ -312,11 +314,14 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
         if (!(to_do & MEASURE)) continue;
         add_samples(count, above, samples);
         for (int i = 0; i < work->count; i++) {
-            total[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
-            total[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
+            in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
+            outside[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
         }
     }
-    for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->divisor[i];
+    for (int i = 0; i < work->count; i++) {
+        work->in_band[i] = (double)in_band[i] / work->divisor[i];
+        work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
+    }
 }
 
 static void set_threshold(struct work *work, double threshold) {
@@ -339,7 +344,7 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
     memcpy(residual_before, asked, sizeof residual_before);
-    for (int turn = 0; turn < MAX_ROUNDS; turn++) {
+    for (int turn = 0; turn < MAX_ROUNDS + MAX_LOWERINGS; turn++) {
         double norm = sqrt(product(now, now, count));
         if (norm == 0) norm = first_norm;
         if (turn && count > 1) {
@@ -347,13 +352,28 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
             unit = whole_weights(work, scaled, weight);
         }
         set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
-        int last = turn == MAX_ROUNDS - 1, reached = 1;
+        int last = turn == MAX_ROUNDS + MAX_LOWERINGS - 1, reached = 1;
         pass(work, weight, last ? WRITE : WRITE | MEASURE);
         if (last) return;
         for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
         if (reached) return;
         if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
         if (!(gain > 0)) return;
+        if (turn >= MAX_ROUNDS - 1) {
+            double most = 0, least = INFINITY;
+            for (int i = 0; i < count; i++) {
+                double share = work->wanted[i] > 0 ? work->measured[i] / work->wanted[i] : 0;
+                if (share > most) most = share;
+                if (work->measured[i] < least) least = work->measured[i];
+            }
+            if (least < 0)
+                memcpy(now, asked, sizeof now);
+            else if (most > TOO_MUCH)
+                for (int i = 0; i < count; i++) now[i] /= most;
+            else
+                return;
+            continue;
+        }
         double change[MAX_FOCI], mixing = 0;
         for (int i = 0; i < count; i++) {
             residual[i] = (work->wanted[i] - work->measured[i]) / gain;
@@ -390,16 +410,43 @@ static void take_sketch(struct work *work) {
     }
 }
 
-/* Negate the divisors of points so that the energy of the sum is largest. */
-static void polarise(struct work *work) {
-    int count = work->count;
+static int64_t sketched_product(const struct work *work, int i, int j) {
+    int64_t sum = 0;
+    for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
+    return sum;
+}
+
+/* Ask for no more than points so near to each other can have. */
+static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double *asked) {
+    int changed = 1;
+    double size[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) size[i] = (double)sketched_product(work, i, i);
+    for (int turn = 0; changed && turn < work->count; turn++) {
+        changed = 0;
+        for (int i = 0; i < work->count; i++)
+            for (int j = 0; j < i; j++) {
+                if (!(size[i] > 0 && size[j] > 0)) continue;
+                double together = (double)gram[i][j] / sqrt(size[i] * size[j]);
+                if ((work->divisor[i] < 0) != (work->divisor[j] < 0)) together = -together;
+                if (!(together > 0)) continue;
+                double room = together < ONE_PLACE ? ONE_PLACE / together : 1;
+                if (asked[j] * room < asked[i]) asked[i] = asked[j] * room, changed = 1;
+                if (asked[i] * room < asked[j]) asked[j] = asked[i] * room, changed = 1;
+            }
+    }
+}
+
+/* Negate the divisors of points so that the energy of the sum is largest; ask for what can be had. */
+static void polarise(struct work *work, double *asked) {
+    int count = work->count, unlike = 0;
+    int64_t gram[MAX_FOCI][MAX_FOCI];
     double product[MAX_FOCI][MAX_FOCI], largest = 0;
     for (int i = 0; i < count; i++)
         for (int j = 0; j < i; j++) {
-            int64_t sum = 0;
-            for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
-            product[i][j] = (double)sum / work->divisor[i] / work->divisor[j];
+            gram[i][j] = sketched_product(work, i, j);
+            product[i][j] = (double)gram[i][j] / work->divisor[i] / work->divisor[j];
             if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+            unlike = unlike || asked[i] != asked[j];
         }
     if (largest == 0) return;
     double unit = (double)(1 << PRODUCT_BITS) / largest;
@@ -428,19 +475,21 @@ static void polarise(struct work *work) {
     if (2 * __builtin_popcount(best) > count) negative = ~negative;
     for (int i = 0; i < count; i++)
         if (negative >> i & 1) work->divisor[i] = -work->divisor[i];
+    if (unlike) ask_alike(work, gram, asked);
 }
 
-/* Divide the divisors by weights with which all points get about the same share of their maximum. */
+/* Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had. */
 static void balance(struct work *work) {
     int count = work->count;
-    double weights[MAX_FOCI], share[MAX_FOCI];
-    for (int i = 0; i < count; i++) weights[i] = 1;
+    double share[MAX_FOCI], moving = 0;
+    for (int i = 0; i < count; i++) moving += work->balance[i] = isfinite(work->divisor[i]);
+    if (moving == 0) moving = 1;
     for (int round = 0; round < BALANCING_ROUNDS; round++) {
         int16_t whole[MAX_FOCI], above[ROW];
         int32_t sum[ROW];
         int64_t got[MAX_FOCI] = {0};
         double mean = 0;
-        whole_weights(work, weights, whole);
+        whole_weights(work, ONES, whole);
         for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
             add_up(count, work->sketch, whole, at, sum);
             compare_nothing(above, sum);
@@ -450,19 +499,29 @@ static void balance(struct work *work) {
             share[i] = (double)got[i] / work->divisor[i];
             mean += share[i];
         }
-        mean /= count;
+        mean /= moving;
         for (int i = 0; i < count; i++) {
             double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
             if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
-            weights[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
+            work->balance[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
         }
     }
-    for (int i = 0; i < count; i++) work->divisor[i] /= weights[i];
+}
+
+/* Displacements at less than full amplitude, from those at full amplitude, which were measured. */
+static void set_wanted(struct work *work, const double *asked) {
+    double level = product(work->balance, work->in_band, work->count) / product(work->balance, ONES, work->count);
+    double nearly = level * OWN_LEVEL;
+    for (int i = 0; i < work->count; i++) {
+        double own = work->in_band[i] - level;
+        if (own > nearly) own = nearly;
+        if (own < -nearly) own = -nearly;
+        work->wanted[i] = asked[i] * (work->measured[i] - own);
+    }
 }
 
 /* Compose; what is asked for and patches of `work->count` points. */
-static void compose_points(struct work *work, const struct patch *patches, const double *asked) {
-    static const double ones[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static void compose_points(struct work *work, const struct patch *patches, double *asked) {
     int full = 1;
     int16_t weight[MAX_FOCI], weight_asked[MAX_FOCI];
     for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
@@ -479,19 +538,20 @@ static void compose_points(struct work *work, const struct patch *patches, const
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
     memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
+    work->balance[0] = 1;
     if (work->count > 1) {
         take_sketch(work);
-        polarise(work);
+        polarise(work, asked);
         balance(work);
     }
-    if (whole_weights(work, ones, weight) == 0 || full) {
+    if (whole_weights(work, ONES, weight) == 0 || full) {
         pass(work, weight, WRITE);
         return;
     }
     double unit = whole_weights(work, asked, weight_asked);
     int alike = !memcmp(weight, weight_asked, (size_t)work->count * sizeof *weight);
     pass(work, weight, alike ? MEASURE | STRENGTH : MEASURE);
-    for (int i = 0; i < work->count; i++) work->wanted[i] = asked[i] * work->measured[i];
+    set_wanted(work, asked);
     if (!alike) pass(work, weight_asked, STRENGTH);
     solve(work, asked, weight_asked, unit);
 }

@@ -105,6 +105,7 @@ def test_a_worker_of_another_version_is_refused():
         compute(task)
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_not_there_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(optimised, "FOUND_WITHIN_S", 0.05)
     with pytest.raises(BankError, match=r"--dask tcp://127\.0\.0\.1:1: no dask scheduler answers"):

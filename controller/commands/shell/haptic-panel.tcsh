@@ -16,7 +16,7 @@ complete haptic-panel \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at bank baud bits board channel dask device figures ghosts help idle-figures json lag link no-chirps optimise out pause-s pid pitch-mm plot power reference replay scene seconds seed speed targets version workers write)/' \
+        'c/--/(amplitude-figures at bank baud bits board channel dask device figures ghosts help idle-figures json lag link memory-mb no-chirps no-pictures no-timing optimise out pause-s pid pitch-mm plot power quick reference replay scene seconds seed speed targets version workers write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -26,10 +26,10 @@ complete haptic-panel \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--targets/(3 4 5)/' \
-        'p/1/(run doctor board gateware bank focus record calibrate-touch reload completion)/' \
+        'p/1/(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
-        'n/bank/(build info verify)/' \
+        'n/bank/(build choices info verify)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
