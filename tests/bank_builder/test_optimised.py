@@ -44,6 +44,7 @@ def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
     assert told["optimised"] == optimised.told(BOARD, AIM)
     assert told["optimised"]["name"] == "contrast"
     assert bank_info(plain)["parameters"]["optimised"] is None
+    assert told["amplitude_of_plain"]["cells"] == 5
     assert 0.8 < told["amplitude_of_plain"]["least"] <= told["amplitude_of_plain"]["median"] < 1.3
     assert report.optimised == {"aim": "contrast", "amplitude_of_plain": told["amplitude_of_plain"]}
     assert 0 < report.optimise_seconds < report.seconds
