@@ -24,6 +24,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "gateware": "bring up an FPGA",
     "bank": "build, describe and verify banks of precomputed waveforms",
     "focus": "focus on given points of the plate model, and measure the focus",
+    "benchmark": "compare methods of finding drive words: time, memory, bytes and energy against error",
     "record": "store the events of a touch panel",
     "calibrate-touch": "map the touch panel's axes to the plate",
     "reload": "have the service read its scene again, and report the result (for ExecReload=)",

@@ -148,7 +148,7 @@ class Skipped:
     outside_region: int = 0  # touch samples outside of all regions
     between_emissions: int = 0  # touch samples in a region that made no emission due
     uploads: int = 0  # emissions whose waveform was resident
-    compositions: int = 0  # uploads of a bank entry as it is, for one finger on a cell
+    compositions: int = 0  # uploads from the bank as they are: a cell, for one finger on it, or points composed beforehand
     merged: int = 0  # emissions replaced by a newer one of the same owner before the plate was free
     bad_entries: int = 0  # emissions whose bank entry is damaged or absent
     refused: int = 0  # emissions that the FPGA did not accept
@@ -179,6 +179,7 @@ class Counters:
     late: int = 0  # beats that reached the FPGA too late for their time, and were played at once
     prefetched: int = 0  # waveforms uploaded for a predicted emission of a moving finger
     prefetch_wasted: int = 0  # of these, those that were not played so far
+    composed_beforehand: int = 0  # of `uploads`: waveforms of several points that the bank has ready
     near: int = 0  # of `resident`: played with the waveform of a place near by
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again

@@ -21,18 +21,32 @@ WAVE_SAMPLES = 200
 def make_bank(board: Board) -> MakeBank:
     """Write a bank of random responses, or of those given, with nothing outside the band; returns the responses by cell."""
 
-    def make(path: Path, grid: Grid | None = None, cells=None, samples=9, seed=0, responses=None, rests=None, digest=None, **told):
+    def make(
+        path: Path,
+        grid: Grid | None = None,
+        cells=None,
+        samples=9,
+        seed=0,
+        responses=None,
+        rests=None,
+        digest=None,
+        compositions=None,
+        **told,
+    ):
         grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
         cells = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
         if responses is None:
             random = np.random.default_rng(seed)
             responses = {int(c): 1e-9 * random.standard_normal((samples, CHANNELS)) for c in np.flatnonzero(cells)}
         told = {"board": "simulated", "channel_edges": samples + 1, "all_edges": CHANNELS} | told
-        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told)
+        composed = compositions or {}
+        header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told, len(composed))
         with BankWriter(path, header, cells) as writer:
             for cell, response in responses.items():
                 rest = np.zeros((header.rest_rows, CHANNELS)) if rests is None else rests[cell]
                 writer.add(cell, drive_words(response, IDLE_WORD), *quantise(np.concatenate([response, rest])))
+            for points, words in composed.items():
+                writer.add_composition(points, words)
         return responses
 
     return make

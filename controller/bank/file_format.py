@@ -1,6 +1,6 @@
 """The format of a bank file in `struct`, as README.md specifies it.
 
-A header of one or more pages, then five sections, each starting at a page; all other bytes are
+A header of one or more pages, then seven sections, each starting at a page; all other bytes are
 zero. Tables are covered by a CRC-32 in the header, entries by one each.
 """
 
@@ -21,7 +21,7 @@ from controller.errors import BankError
 from controller.kernel import load_frames_bytes
 
 MAGIC = b"HPNLBANK"
-VERSION = 3
+VERSION = 4
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
@@ -30,7 +30,7 @@ MAX_HEADER = 1 << 20
 MODELLED = "modelled"  # build parameter `responses`: they come from a model, not from measurements
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
-# nx, ny, samples, channels, entries, parameters bytes, sections, zero
+# nx, ny, samples, channels, entries, parameters bytes, sections, compositions
 FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
 MODEL_CODE = (
     "physics/plate.py",
@@ -43,6 +43,10 @@ MODEL_CODE = (
     "bank/grid.py",
 )
 SECTION = struct.Struct("<16sQQIIII")  # name, offset, bytes, rows, bytes of a row, stride, CRC-32
+SECTIONS = 7
+COMPOSITIONS_MAX = 1024
+FOCI = 10  # of a composition, at most
+COMPOSITION = struct.Struct(f"<II{3 * FOCI}i")  # CRC-32 of the words, foci, x, y and amplitude step of each; zeros
 CRC = struct.Struct("<I")  # the last four bytes of the header: of all before them
 
 
@@ -81,6 +85,8 @@ class Header:
         Cells that were built.
     parameters : dict
         Build parameters, for JSON.
+    compositions : int
+        Waveforms of several points that were composed beforehand.
     """
 
     creator: str
@@ -90,11 +96,29 @@ class Header:
     samples: int
     entries: int
     parameters: dict[str, Any] = field(default_factory=dict)
+    compositions: int = 0
 
     @property
     def header_bytes(self) -> int:
         """Bytes of the header: whole pages."""
-        return round_up(FIXED.size + 5 * SECTION.size + len(self._json()) + CRC.size, PAGE)
+        return round_up(FIXED.size + SECTIONS * SECTION.size + len(self._json()) + CRC.size, PAGE)
+
+    @property
+    def composes(self) -> bool:
+        """Whether there are responses, from which other places, less amplitude and several points at once are composed."""
+        return self.parameters.get("composes") is not False
+
+    @property
+    def choice(self) -> dict[str, Any] | None:
+        """What was chosen with the bank, and what for (`bank_builder/choice.py`); None if nothing was."""
+        choice = self.parameters.get("choice")
+        if not isinstance(choice, dict) or not isinstance(choice.get("asked"), dict):
+            return None
+        whole = (
+            all(type(choice.get(name)) in {int, float} for name in ("pitch_mm", "snap_mm"))
+            and choice.get("composes") is self.composes
+        )
+        return choice if whole else None
 
     @property
     def rest_rows(self) -> int:
@@ -102,7 +126,7 @@ class Header:
         return -(-self.samples // REST_SAMPLES)
 
     def sections(self) -> tuple[Section, ...]:
-        """Section table without CRCs: offsets follow from the numbers of cells, entries and samples."""
+        """Section table without CRCs: offsets follow from the numbers of cells, entries, samples and compositions."""
         drive_bytes, response_bytes = load_frames_bytes(4 * self.samples), CHANNELS * (self.samples + self.rest_rows)
         offset = self.header_bytes
         placed = []
@@ -111,7 +135,9 @@ class Header:
             ("checksums", self.entries, 8, 8),
             ("scale", self.entries, 4, 4),
             ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
-            ("response", self.entries, response_bytes, round_up(response_bytes, LINE)),
+            ("response", self.entries if self.composes else 0, response_bytes, round_up(response_bytes, LINE)),
+            ("points", self.compositions, COMPOSITION.size, COMPOSITION.size),
+            ("composed", self.compositions, drive_bytes, round_up(drive_bytes, PAGE)),
         ):
             placed.append(Section(name, offset, rows, row_bytes, stride))
             offset = round_up(offset + placed[-1].size, PAGE)
@@ -140,7 +166,7 @@ class Header:
         body = FIXED.pack(
             *(MAGIC, VERSION, self.header_bytes, self.file_bytes, maker, self.board_digest),
             *(grid.pitch_m, grid.x0_m, grid.y0_m, self.bit_clock_hz, grid.nx, grid.ny),
-            *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), 0),
+            *(self.samples, CHANNELS, self.entries, len(parameters), len(sections), self.compositions),
         )
         for s in sections:
             body += SECTION.pack(s.name.encode(), s.offset, s.size, s.rows, s.row_bytes, s.stride, s.crc)
@@ -222,19 +248,19 @@ def parse(data: bytes, file_bytes: int) -> tuple[Header, dict[str, Section]]:
         raise BankError("is damaged: CRC-32 of the header is wrong")
     fixed = FIXED.unpack_from(body)
     told_bytes, maker, digest, pitch_m, x0_m, y0_m, bit_clock_hz, nx, ny, samples, channels, entries = fixed[3:15]
-    parameters_bytes, section_count, zero = fixed[15:]
+    parameters_bytes, section_count, compositions = fixed[15:]
     if file_bytes != told_bytes:
         raise BankError(f"{'is truncated' if file_bytes < told_bytes else 'has grown'}: {file_bytes} bytes instead of {told_bytes}")
     at = FIXED.size + section_count * SECTION.size
-    if channels != CHANNELS or section_count != 5 or zero or not 1 <= samples <= SAMPLES_MAX or at + parameters_bytes > len(body):
+    counts_fit = section_count == SECTIONS and compositions <= COMPOSITIONS_MAX and 1 <= samples <= SAMPLES_MAX
+    if channels != CHANNELS or not counts_fit or at + parameters_bytes > len(body):
         raise BankError("has a header that this version of the format does not allow")
     if not all(map(math.isfinite, (pitch_m, x0_m, y0_m, bit_clock_hz))) or pitch_m <= 0 or bit_clock_hz <= 0 or entries > nx * ny:
         raise BankError("has a grid or bit clock that cannot be")
     try:
         parameters = json.loads(body[at : at + parameters_bytes])
-        header = Header(
-            maker.rstrip(b"\0").decode(), digest, Grid(pitch_m, nx, ny, x0_m, y0_m), bit_clock_hz, samples, entries, parameters
-        )
+        grid = Grid(pitch_m, nx, ny, x0_m, y0_m)
+        header = Header(maker.rstrip(b"\0").decode(), digest, grid, bit_clock_hz, samples, entries, parameters, compositions)
     except ValueError as error:
         raise BankError(f"has unreadable build parameters or creator ({error})") from None
     if not isinstance(parameters, dict):

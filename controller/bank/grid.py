@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from math import floor, sqrt
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from controller.board.panel import Plate
 from controller.errors import ConfigError
+
+TO_WHOLE: Final = 1.5 * 2**52  # added and taken away it leaves the nearest whole number, as `round` does, in two additions
 
 Four = tuple[int, int, int, int]
 FourWeights = tuple[float, float, float, float]
@@ -65,10 +69,11 @@ class Grid:
         pitch_m, nx = self.pitch_m, self.nx
         x_m -= self.x0_m
         y_m -= self.y0_m
-        ix, iy = round(x_m / pitch_m), round(y_m / pitch_m)
+        ix, iy = floor(x_m / pitch_m + TO_WHOLE - TO_WHOLE), floor(y_m / pitch_m + TO_WHOLE - TO_WHOLE)
         ix = 0 if ix < 0 else ix if ix < nx else nx - 1
         iy = 0 if iy < 0 else iy if iy < self.ny else self.ny - 1
-        return iy * nx + ix, math.hypot(x_m - ix * pitch_m, y_m - iy * pitch_m)
+        off_x_m, off_y_m = x_m - ix * pitch_m, y_m - iy * pitch_m
+        return iy * nx + ix, sqrt(off_x_m * off_x_m + off_y_m * off_y_m)
 
     def corners(self, x_m: float, y_m: float) -> tuple[Four, FourWeights]:
         """Four cells around the point (x_m, y_m) and their bilinear weights, which sum to one.

@@ -46,6 +46,7 @@ def bank_info(path: Path) -> dict[str, Any]:
             },
             "cells": header.entries,
             "cells_of_grid": grid.cells,
+            "compositions": header.compositions,
             "samples": header.samples,
             "bit_clock_hz": header.bit_clock_hz,
             "parameters": header.parameters,
@@ -73,27 +74,33 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
         for section in bank.sections.values():
             _check_padding(bank, end, section.offset)
             end = section.offset + section.size
-            if section.name in {"drive", "response"}:
-                _check_entries(bank, section, progress or (lambda _done, _all: None))
+            if section.name in {"drive", "response", "composed"}:
+                _check_rows(bank, section, progress or (lambda _done, _all: None))
         _check_padding(bank, end, bank.file_bytes)
         if progress:
             progress(bank.file_bytes, bank.file_bytes)
         return {"path": str(path), "bytes": bank.file_bytes, "cells": bank.header.entries, "good": True}
 
 
-def _check_entries(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
+def _check_rows(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
     """Check every row of a section against its CRC-32, and that the padding between rows is zero."""
-    crc_of_row, column = {"drive": (_crc_of_words(bank.samples), 0), "response": (zlib.crc32, 1)}[section.name]
-    cell_of = np.flatnonzero(bank.cells)
-    for entry, checksums in enumerate(bank.checksums):
-        start = section.offset + entry * section.stride
+    if not section.rows:
+        return
+    if section.name == "composed":
+        names, crcs = [f"composition {row}" for row in range(section.rows)], [crc for _, crc in bank.compositions.values()]
+    else:
+        names = [f"{section.name} of entry {entry} (cell {cell})" for entry, cell in enumerate(np.flatnonzero(bank.cells))]
+        crcs = [crc_of[section.name == "response"] for crc_of in bank.checksums]
+    crc_of_row = zlib.crc32 if section.name == "response" else _crc_of_words(bank.samples)
+    for number, (name, crc) in enumerate(zip(names, crcs, strict=True)):
+        start = section.offset + number * section.stride
         row = bank.read(start, section.row_bytes)
         try:
-            wrong = "" if crc_of_row(row) == checksums[column] else "wrong CRC-32"
+            wrong = "" if crc_of_row(row) == crc else "wrong CRC-32"
         except ValueError as error:
             wrong = str(error)
         if wrong:
-            raise _damage(bank, start, len(row), f"{section.name} of entry {entry} (cell {cell_of[entry]}): {wrong}")
+            raise _damage(bank, start, len(row), f"{name}: {wrong}")
         _check_padding(bank, start + section.row_bytes, start + section.stride)
         progress(start + section.stride, bank.file_bytes)
 
@@ -164,8 +171,34 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
 
 
+def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
+    """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
+    return bounds_of(board) | {"scene_crc32": zlib.crc32(scene_file.read_bytes())}
+
+
+def bounds_of(board: Board) -> dict[str, Any]:
+    """The bounds of a board whose bank is chosen."""
+    return {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
+
+
+def choice_of(path: Path) -> dict[str, Any] | None:
+    """What was chosen with the bank at `path`; None if there is no such bank, or nothing was."""
+    try:
+        with Bank.open(path) as bank:
+            return bank.header.choice
+    except BankError:
+        return None
+
+
 def wrong_pitch(bank: Bank, board: Board) -> str:
-    """How the grid of a bank differs from that of a board; empty: it does not."""
+    """How the grid of a bank differs from that of a board, or the bounds it was chosen for from the board's; empty: they do not."""
+    if board.compose.method == "auto":
+        choice = bank.header.choice
+        if choice and bounds_of(board).items() <= choice["asked"].items():
+            return ""
+        return f"it was not chosen for {', '.join(f'compose.{name} = {value:g}' for name, value in bounds_of(board).items())}"
+    if not bank.composes:
+        return "it holds no responses, as compose.method = auto chose"
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):
         return ""
     return f"its cells are {bank.grid.pitch_m * 1e3:g} mm apart, bank.pitch_mm of the board is {board.bank.pitch_mm:g}"

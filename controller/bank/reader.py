@@ -15,7 +15,7 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import Header, Section, begins_as_bank, header_length, parse
+from controller.bank.file_format import COMPOSITION, FOCI, Header, Section, begins_as_bank, header_length, parse
 from controller.bank.packing import CHANNELS
 from controller.board.board import Board
 from controller.board.paths import build_line
@@ -23,7 +23,9 @@ from controller.errors import BankError
 from controller.kernel import unpack_loads
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
-Tables = tuple[list[int], list[list[int]], list[float]]  # entry of each cell; CRC-32s and scale of each entry
+LatticePoints = tuple[tuple[int, int, int], ...]  # x, y and amplitude of each point in steps (waveforms/selection.py)
+Composed = dict[LatticePoints, tuple[int, int]]  # row and CRC-32 of the words of each composition
+Tables = tuple[list[int], list[list[int]], list[float], Composed]  # entry of each cell; CRC-32s and scale of each entry
 
 
 @dataclass(slots=True)
@@ -41,6 +43,11 @@ class Bank:
     """An open bank; the file may be replaced by a new one while it is open.
 
     Use `Bank.open`. Memoryviews and arrays handed out stay valid as long as they are held.
+
+    Attributes
+    ----------
+    compositions : dict
+        By its points the row and the CRC-32 of each waveform that was composed beforehand. One that is found damaged is taken out.
     """
 
     def __init__(self, path: Path, fd: int, header: Header, sections: dict[str, Section], tables: Tables, rebuild: str) -> None:
@@ -49,6 +56,7 @@ class Bank:
         self.sections = sections
         self.grid = header.grid
         self.samples = header.samples
+        self.composes = header.composes
         opened = os.fstat(fd)
         self.file_bytes = opened.st_size
         self._written_ns = opened.st_mtime_ns
@@ -56,7 +64,9 @@ class Bank:
         self.rebuild = rebuild
         self._fd = fd
         self.close = weakref.finalize(self, os.close, fd)
-        self._entry_of, self._crc_of, self._scale_of = tables
+        self._entry_of, self._crc_of, self._scale_of, self.compositions = tables
+        self._composed: memoryview | None = None
+        self._composed_good: set[LatticePoints] = set()
         self._drive: memoryview | None = None
         self._response = memoryview(b"")
         self._drive_good = bytearray(header.entries)
@@ -121,6 +131,11 @@ class Bank:
         """Which cells have an entry, (grid.cells,)."""
         return np.array(self._entry_of) >= 0
 
+    def snap_m(self, board: Board) -> float:
+        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
+        choice = self.header.choice if board.compose.method == "auto" else None
+        return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
+
     @property
     def worst_edges(self) -> tuple[int, int]:
         """Most edges in an entry, with those from and to the idle word: of one channel, and of all channels together.
@@ -164,6 +179,41 @@ class Bank:
             self._unpack(self._checked_words, view, entry, cell)
             self._drive_good[entry] = 1
         return view, self._crc_of[entry][0]
+
+    def composed(self, points: LatticePoints) -> tuple[memoryview, int]:
+        """A waveform of `compositions`, as `frames` gives those of cells.
+
+        Raises
+        ------
+        BankError
+            If it is damaged; it is not in `compositions` any more.
+        """
+        self.counters.lookups += 1
+        row, crc = self.compositions[points]
+        if self._composed is None:
+            self._composed = self._map("composed")
+        section = self.sections["composed"]
+        view = self._composed[row * section.stride : row * section.stride + section.row_bytes]
+        if points not in self._composed_good:
+            self.counters.drive_checked += 1
+            if not self._holds(view, crc):
+                del self.compositions[points]
+                self.counters.bad += 1
+                raise BankError(f"{self.path}: composition {row} is damaged; rebuild it: {self.rebuild}")
+            self._composed_good.add(points)
+        return view, crc
+
+    def recheck_composed(self, points: LatticePoints) -> None:
+        """Check a composition again, if there is one of these points, after the FPGA has refused it or one of its frames.
+
+        Raises
+        ------
+        BankError
+            As `composed`.
+        """
+        if points in self.compositions:
+            self._composed_good.discard(points)
+            self.composed(points)
 
     def check_frames(self, cells: Iterable[int]) -> None:
         """Check the frames of cells that have an entry, so that their first use need not.
@@ -216,12 +266,15 @@ class Bank:
 
     def _unpack(self, words: bytearray, frames: memoryview, entry: int, cell: int) -> None:
         """Take the words out of an entry's frames, each byte of which is checked."""
-        try:
-            sound = unpack_loads(words, frames) == self._crc_of[entry][0]
-        except ValueError:
-            sound = False
-        if not sound:
+        if not self._holds(frames, self._crc_of[entry][0], words):
             raise self._bad("drive", entry, cell)
+
+    def _holds(self, frames: memoryview, crc: int, words: bytearray | None = None) -> bool:
+        """Whether frames are whole, and carry words with this CRC-32; the words are taken out."""
+        try:
+            return unpack_loads(self._checked_words if words is None else words, frames) == crc
+        except ValueError:
+            return False
 
     def require_unchanged(self) -> None:
         """Refuse a file that was written to since it was opened, since responses are checked only when they are first used.
@@ -308,6 +361,10 @@ class Bank:
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
+        if not self.composes:
+            raise BankError(
+                f"{self.path}: holds no responses, so only its cells are played, one at a time; rebuild it: {self.rebuild}"
+            )
         if not self._response_good[entry]:
             self._read_ahead(cell)
             start = entry * self._response_stride
@@ -353,9 +410,9 @@ class Bank:
 
 
 def _tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
-    """Read the three small sections whole; as lists, whose elements are read five times faster than an array's."""
+    """Read the small sections whole; as lists, whose elements are read five times faster than an array's."""
     data = {}
-    for name in ("index", "checksums", "scale"):
+    for name in ("index", "checksums", "scale", "points"):
         data[name] = os.pread(fd, sections[name].size, sections[name].offset)
         if zlib.crc32(data[name]) != sections[name].crc:
             raise BankError(f"is damaged: CRC-32 of section {name!r} is wrong")
@@ -363,7 +420,19 @@ def _tables(fd: int, header: Header, sections: dict[str, Section]) -> Tables:
     if not np.array_equal(index[index != -1], np.arange(header.entries)):
         raise BankError("has an index that does not name every entry once, in the order of the cells")
     checksums = np.frombuffer(data["checksums"], "<u4").reshape(-1, 2)
-    return index.tolist(), checksums.tolist(), np.frombuffer(data["scale"], "<f4").tolist()
+    return index.tolist(), checksums.tolist(), np.frombuffer(data["scale"], "<f4").tolist(), _compositions(data["points"])
+
+
+def _compositions(data: bytes) -> Composed:
+    """Rows and CRC-32s of the compositions, by their points."""
+    found: Composed = {}
+    for row, (crc, count, *steps) in enumerate(COMPOSITION.iter_unpack(data)):
+        if not 1 <= count <= FOCI or any(steps[3 * count :]):
+            raise BankError(f"has a composition of {count} points")
+        found[tuple((steps[at], steps[at + 1], steps[at + 2]) for at in range(0, 3 * count, 3))] = row, crc
+    if COMPOSITION.size * len(found) != len(data):
+        raise BankError("has two compositions of the same points")
+    return found
 
 
 def map_bytes(fd: int, offset: int, size: int, granularity: int = mmap.ALLOCATIONGRANULARITY) -> memoryview:

@@ -15,14 +15,14 @@ import glob
 import os
 import secrets
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import MAGIC, Header, Section, begins_as_bank
+from controller.bank.file_format import COMPOSITION, FOCI, MAGIC, Header, Section, begins_as_bank
 from controller.bank.packing import CHANNELS, WORD
 from controller.errors import BankError
 from controller.kernel import pack_loads
@@ -38,7 +38,7 @@ class BankWriter:
     path : Path
         Where the bank is to be; its folder must exist.
     header : Header
-        `header.entries` is the number of cells in `cells`.
+        `header.entries` is the number of cells in `cells`, `header.compositions` that of calls of `add_composition`.
     cells : (grid.cells,) bool array
         Which cells have an entry. Entries lie in the order of their cells.
     overwrite : bool
@@ -62,6 +62,7 @@ class BankWriter:
         self._checksums = np.zeros((header.entries, 2), "<u4")
         self._scale = np.zeros(header.entries, "<f4")
         self._written = np.zeros(header.entries, bool)
+        self._points: list[bytes] = []  # of the compositions
         self._fd = -1
 
     def __enter__(self) -> BankWriter:
@@ -97,7 +98,8 @@ class BankWriter:
         words : (samples,) uint32 array
             Drive words.
         response : (samples + rest_rows, 32) int8 array
-            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`.
+            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`. Not written where the header says
+            that there are none.
         scale_m_per_v : float
             m per V of one step.
         """
@@ -113,13 +115,34 @@ class BankWriter:
         levels = np.ascontiguousarray(response).data.cast("B")
         frames = bytearray(self._sections["drive"].row_bytes)
         crc = pack_loads(frames, 0, np.ascontiguousarray(words).data.cast("B"))
-        self._checksums[entry] = crc, zlib.crc32(levels)
+        kept = (("drive", memoryview(frames)), ("response", levels))[: 1 + self._header.composes]
+        self._checksums[entry] = crc, zlib.crc32(levels) if self._header.composes else 0
         with self._disk_errors():
-            for name, row in (("drive", memoryview(frames)), ("response", levels)):
+            for name, row in kept:
                 section = self._sections[name]
                 _write(self._fd, row, section.offset + entry * section.stride)
         self._scale[entry] = scale_m_per_v
         self._written[entry] = True
+
+    def add_composition(self, points: Sequence[tuple[int, int, int]], words: NDArray[np.uint32]) -> None:
+        """Write a waveform of several points.
+
+        Parameters
+        ----------
+        points : sequence of (int, int, int)
+            1 to 10: x and y in lattice steps, steps of amplitude (`waveforms/selection.py`), in ascending order.
+        words : (samples,) uint32 array
+        """
+        number = len(self._points)
+        if number >= self._header.compositions or not 1 <= len(points) <= FOCI or words.shape != (self._header.samples,):
+            raise ValueError(f"composition {number} of {self._header.compositions}: {len(points)} points, {words.shape} words")
+        section = self._sections["composed"]
+        frames = bytearray(section.row_bytes)
+        crc = pack_loads(frames, 0, np.ascontiguousarray(words, WORD).data.cast("B"))
+        flat = [step for point in points for step in point]
+        self._points.append(COMPOSITION.pack(crc, len(points), *flat, *([0] * (3 * FOCI - len(flat)))))
+        with self._disk_errors():
+            _write(self._fd, memoryview(frames), section.offset + number * section.stride)
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         try:
@@ -131,6 +154,8 @@ class BankWriter:
     def _commit(self) -> None:
         if not self._written.all():
             raise BankError(f"{self.path}: {np.count_nonzero(~self._written)} of {self._written.size} entries were never written")
+        if len(self._points) != self._header.compositions:
+            raise BankError(f"{self.path}: {self._header.compositions - len(self._points)} compositions were never written")
         if self._header.header_bytes != self._sections["index"].offset:
             raise ValueError("the build parameters have grown beyond the header's pages")
         with self._disk_errors():
@@ -142,10 +167,11 @@ class BankWriter:
 
     def _finished(self, section: Section) -> Section:
         """Write a table and note its CRC-32; entries have theirs in `checksums`."""
-        tables = {"index": self._index, "checksums": self._checksums, "scale": self._scale}
+        tables = {"index": self._index.tobytes(), "checksums": self._checksums.tobytes(), "scale": self._scale.tobytes()}
+        tables["points"] = b"".join(self._points)
         if section.name not in tables:
             return section
-        payload = tables[section.name].tobytes()
+        payload = tables[section.name]
         _write(self._fd, memoryview(payload), section.offset)
         return dataclasses.replace(section, crc=zlib.crc32(payload))
 

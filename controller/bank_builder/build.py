@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import json
 import resource
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
@@ -18,12 +21,22 @@ from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
+from controller.bank_builder.compositions import compositions
+from controller.bank_builder.interpolation_error import interpolation_error
+from controller.bank_builder.optimised import ALONE, Words, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import cell_bytes, entries_bytes, require
+from controller.physics.plate import mode_cut_hz
+from controller.scene.scene import Spot
+from controller.waveform_design.descent import Aim
+from controller.waveform_design.plain import SignOfSum
+from controller.waveform_design.prediction import Prediction
 
-HIGHEST_HZ = 100e3
+INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+CELLS_JUDGED = 32  # at most, of an optimised bank: 10 ms each
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -52,6 +65,12 @@ class BuildReport:
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
         Edges per second of the busiest channel of all entries.
+    interpolation_error : dict
+        `InterpolationError.summary`: what fingers between cells lose.
+    optimised : dict or None
+        What entries were optimised for, and what became of their amplitude; None: they are plain.
+    optimise_seconds : float
+        By the clock.
     """
 
     path: str
@@ -65,6 +84,9 @@ class BuildReport:
     sgemm_share: float | None
     peak_memory_mb: float
     worst_edge_rate_hz: float
+    interpolation_error: dict[str, Any]
+    optimised: dict[str, Any] | None
+    optimise_seconds: float
 
 
 def build_bank(
@@ -73,11 +95,16 @@ def build_bank(
     pitch_m: float | None = None,
     cells: NDArray[np.bool_] | None = None,
     *,
+    spots: Sequence[Spot] = (),
     scene: str | None = None,
     progress: bool = False,
     measure_sgemm: bool = True,
-    highest_hz: float = HIGHEST_HZ,
+    highest_hz: float | None = None,
     overwrite: bool = False,
+    choice: dict[str, Any] | None = None,
+    memory_mb: float | None = None,
+    aim: Aim | None = None,
+    workers: Workers = ALONE,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -90,25 +117,39 @@ def build_bank(
         Of the grid; the board's own by default.
     cells : (cells of the grid,) bool array, optional
         Cells to build; all by default.
+    spots : sequence of Spot
+        What they play together is composed beforehand.
     scene : str, optional
-        What `cells` came from, noted in the build parameters.
+        What `cells` and `spots` came from, noted in the build parameters.
     progress : bool
         Show a bar on stderr if that is a terminal.
     measure_sgemm : bool
         Measure the best rate of matrix multiplication for `sgemm_share`: about a second.
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    choice : dict, optional
+        What `choice.choose` told; its `composes` says whether responses are written.
+    memory_mb : float, optional
+        Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
+    aim : Aim, optional
+        Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
+    workers : Workers
+        Who optimises.
 
     Raises
     ------
     ConfigError
-        If the pitch leaves no cell, `cells` is empty, or an entry would switch a channel more often than the board allows.
+        If the pitch leaves no cell, `cells` is empty, an entry would switch a channel more often than the board allows, or
+        the build does not fit into `memory_mb`.
     BankError
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    if choice is not None:
+        board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=choice["snap_mm"]))
+    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
     if wanted.shape != (grid.cells,):
@@ -125,23 +166,40 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
-        "channel_edges": 0,  # filled in as entries are made; the header is written last
-        "all_edges": 0,
+        **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
+        "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
+        "optimised": aim and told(board, aim),
     }
+    maker = creator()
+    inputs_sha256 = _inputs_sha256(board, maker, parameters)
+    parameters |= {  # results, filled in as entries are made; the header is written last
+        "inputs_sha256": inputs_sha256,
+        "content_sha256": "0" * 64,
+        "channel_edges": 0,
+        "all_edges": 0,
+        "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
+        "interpolation_error": {},
+    }
+    composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
     header = Header(
-        creator=creator(),
+        creator=maker,
         board_digest=board.digest(),
         grid=grid,
         bit_clock_hz=board.waveform.bit_clock_hz,
         samples=board.waveform.samples,
         entries=len(numbers),
         parameters=parameters,
+        compositions=len(composed),
     )
+    model = ResponseModel(board, highest_hz)
+    least_bytes = entries_bytes(model.plate_modes, header.samples, grid.nx) + INDEX_BYTES * grid.cells
+    spare_bytes = require(least_bytes, memory_mb, f"a bank of {board.name!r} with {model.modes} modes and {grid.nx} cells a row")
+    most = min(CELLS_PER_BLOCK, grid.nx + int(spare_bytes / cell_bytes(header.samples)))
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
-    idle = np.array([board.idle_word], np.uint32)
-    blocks = _blocks(numbers, grid.nx)
+    content = hashlib.sha256()
+    blocks = _blocks(numbers, grid.nx, most)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(
@@ -150,8 +208,14 @@ def build_bank(
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         before = time.process_time()
-        model = ResponseModel(board, highest_hz)
+        model.entry_kernel()
         model_seconds = time.process_time() - before
+        optimised, optimise_seconds = None, 0.0
+        if aim:
+            before = time.perf_counter()
+            kept = kept_path(path, inputs_sha256)
+            optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
+            optimise_seconds = time.perf_counter() - before
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
         for block in blocks:
             places_m = points_m[block.start : block.stop]
@@ -159,15 +223,25 @@ def build_bank(
             entries = model.entry_responses(places_m, out=room[: len(block)])
             response_seconds += time.process_time() - before
             flops += model.entry_flops(places_m)
-            for cell, entry in zip(numbers[block.start : block.stop].tolist(), entries, strict=True):
-                words = drive_words(entry[: header.samples], board.idle_word)
-                counts = edges(np.concatenate([idle, words, idle]))
-                own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
-                worst_edge_rate_hz = max(worst_edge_rate_hz, _edge_rate_hz(board, own_edges, cell))
-                parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
-                parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
-                writer.add(cell, words, *quantise(entry))
+            for index, entry in zip(block, entries, strict=True):
+                cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
+                if optimised is not None:
+                    words = optimised[index]
+                worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
+                levels, scale_m_per_v = quantise(entry)
+                writer.add(cell, words, levels, scale_m_per_v)
+                for part in (words, levels, np.float32(scale_m_per_v)):
+                    content.update(part.data)
             bar.update(len(block))
+        for key, words in composed:
+            worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"{len(key)} spots", parameters))
+            writer.add_composition(key, words)
+            content.update(words.data)
+        parameters["content_sha256"] = content.hexdigest()
+        if optimised is not None:
+            parameters["amplitude_of_plain"] = _amplitude_of_plain(board, model, points_m, optimised)
+        parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
+    remove_kept(path)
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
         rate = best_sgemm_rate() if measure_sgemm else None
@@ -183,24 +257,52 @@ def build_bank(
         sgemm_share=rate and flops / (rate * response_seconds),
         peak_memory_mb=peak_memory_mb(),
         worst_edge_rate_hz=worst_edge_rate_hz,
+        interpolation_error=parameters["interpolation_error"],
+        optimised={"aim": aim.name, "amplitude_of_plain": parameters["amplitude_of_plain"]} if aim else None,
+        optimise_seconds=optimise_seconds,
     )
 
 
-def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
-    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows."""
-    at_once = max(CELLS_PER_BLOCK // cells_per_row, 1) * cells_per_row
+def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
+    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()
+
+
+def _amplitude_of_plain(board: Board, model: ResponseModel, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
+    """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
+    some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_JUDGED).round().astype(int))
+    plain, prediction = SignOfSum(board, model), Prediction(board, model)
+    shares = [
+        float(
+            prediction.at_focus(words[index], points_m[index])[0] / (plain.design([(*points_m[index], 1.0)]).displacement_m[0] or 1)
+        )
+        for index in some.tolist()
+    ]
+    found = {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+    return {"cells": len(some), **found}
+
+
+def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[range]:
+    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows: at most so many cells, but one row."""
+    at_once = max(most // cells_per_row, 1) * cells_per_row
     firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 
 
-def _edge_rate_hz(board: Board, counts: NDArray[np.intp], cell: int) -> float:
-    """Edges per second of the busiest channel of an entry, by the edges of each, (32,); refused above the board's limit."""
-    rate_hz = float(counts.max()) / board.waveform.duration_s
+def _count_edges(board: Board, words: NDArray[np.uint32], name: str, parameters: dict[str, Any]) -> float:
+    """Edges per second of the busiest channel of a waveform, refused above the board's limit; the largest numbers are noted."""
+    idle = np.array([board.idle_word], np.uint32)
+    counts = edges(np.concatenate([idle, words, idle]))
+    own_edges = counts - channel_bits(words[[0, -1]] ^ idle).sum(axis=0)  # without those from and to the idle word
+    rate_hz = float(own_edges.max()) / board.waveform.duration_s
     if rate_hz > board.limits.max_edge_rate_hz:
         raise ConfigError(
             f"board {board.name!r}: limits.max_edge_rate_hz = {board.limits.max_edge_rate_hz:g} is less than the {rate_hz:g}"
-            f" edges per second of channel {int(counts.argmax())} in the waveform of cell {cell}: raise it if the driver allows it"
+            f" edges per second of channel {int(own_edges.argmax())} in the waveform of {name}: raise it if the driver allows it"
         )
+    parameters["channel_edges"] = max(parameters["channel_edges"], int(counts.max()))
+    parameters["all_edges"] = max(parameters["all_edges"], int(counts.sum()))
     return rate_hz
 
 

@@ -21,6 +21,8 @@ from controller.physics.audible import surface_energy
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import focus_bytes, require
+from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 Floats = NDArray[np.float64]
@@ -113,7 +115,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
     -------
     dict
         Min, median and max of each figure. `audible_m2_per_s` is `surface_energy` below 16 kHz, `audible_fraction_db` its
-        share of all energy up to 100 kHz.
+        share of all energy up to `mode_cut_hz`.
     """
     twin = PlateTwin(board)
     rows = []
@@ -122,7 +124,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
         words = focus(model.drive_order_responses([(x_m, y_m)], dtype=np.float64), [1.0], board.idle_word)
         judged = emit(twin, words).focus_metrics(x_m, y_m)
         audible = surface_energy(board, words, board.idle_word)
-        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=100e3)
+        inaudible = surface_energy(board, words, board.idle_word, low_hz=16e3, high_hz=mode_cut_hz(board.waveform))
         rows.append(
             {
                 "amplitude_um": judged.amplitude_m * 1e6,
@@ -185,7 +187,7 @@ def spread(values: Sequence[float]) -> dict[str, float]:
     return {"min": float(np.min(values)), "median": float(np.median(values)), "max": float(np.max(values))}
 
 
-def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Field, list[Figures]]:
+def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
     """Focus on several points at once, without a bank.
 
     Parameters
@@ -193,6 +195,8 @@ def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Fie
     board : Board
     points_m : sequence of (x_m, y_m)
         Places of the foci.
+    memory_mb : float, optional
+        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
 
     Returns
     -------
@@ -200,10 +204,17 @@ def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Fie
         The plate at T.
     rows : list of dict
         Figures of each focus, in the order of `points_m`.
+
+    Raises
+    ------
+    ConfigError
+        If it does not fit into `memory_mb`.
     """
     twin = PlateTwin(board)
+    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s))
+    require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
     places = np.array(points_m)
-    words = focus(ResponseModel(board).drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
+    words = focus(twin.responses.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
     field = emit(twin, words)
     rows = []
     for x_m, y_m in points_m:

@@ -17,13 +17,14 @@ from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, in_system_folder
-from controller.board.panel import CHANNELS, Actuator, Bank, Driver, Limits, Plate, Waveform
+from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
 from controller.board.records import Record, load_toml
 from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
 
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
+TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
 
@@ -39,13 +40,15 @@ class Board(Record, frozen=True):
     plate
         The plate.
     actuators
-        The piezo patches; each channel at most once, each patch on the plate.
+        The piezo patches; each channel at most once, each patch on the plate and none on another.
     driver
         The driver stages.
     waveform
         The waveform of one emission.
     bank
         The bank of precomputed waveforms.
+    compose
+        Left out: as `bank` says.
     touch
         The touch panel.
     link
@@ -79,6 +82,7 @@ class Board(Record, frozen=True):
     realtime: Realtime = Realtime()
     application_socket: ApplicationSocket | None = None
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
+    compose: Compose = Compose()
     folder: Path = msgspec.field(default_factory=Path)
 
     def __post_init__(self) -> None:
@@ -94,6 +98,13 @@ class Board(Record, frozen=True):
             for axis, value, extent in (("x_mm", a.x_mm, self.plate.length_mm), ("y_mm", a.y_mm, self.plate.width_mm)):
                 if not half <= value <= extent - half:
                     raise ValueError(f"actuators[{index}].{axis} = {value} puts the patch off the plate (0 to {extent} mm)")
+            for other, b in enumerate(self.actuators[:index]):
+                apart_mm = max(abs(a.x_mm - b.x_mm), abs(a.y_mm - b.y_mm))
+                if apart_mm < (a.size_mm + b.size_mm) / 2 - TOUCHING_MM:
+                    raise ValueError(
+                        f"actuators[{index}] lies on actuators[{other}]: their centres are {apart_mm:g} mm apart along x or y,"
+                        f" less than half of their sizes together, {(a.size_mm + b.size_mm) / 2:g} mm"
+                    )
 
     @property
     def called(self) -> str:

@@ -129,7 +129,7 @@ def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
     if judged.field is None:
         print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)
         return
-    foci = sorted(judged.shown, key=lambda focus: -focus.metrics.amplitude_m)
+    foci = sorted(judged.shown, key=lambda focus: -abs(focus.metrics.amplitude_m))
     fingers = sum(focus.emission.finger is not None for focus in foci)
     title = f"{recording}, t = {foci[0].time_s:.3f} s: {fingers} finger{'s' * (fingers != 1)} at once"
     plot_focus(path, board, judged.field, [(focus.x_m, focus.y_m) for focus in foci], title)

@@ -162,6 +162,35 @@ def power_table(figures: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def benchmark_table(figures: dict[str, Any]) -> str:
+    """Pareto fronts of time for each number of fingers, and the baselines."""
+    told = figures["environment"]
+    lines = [
+        f"board {figures['board']}, seed {figures['seed']}: {figures['modes']} modes, {figures['modes_in_band']} in the band; "
+        f"{told['processor']}, {', '.join(told['blas'])}, kernel {told['kernel']}, commit {told['commit']}",
+        *figures["left_out"],
+    ]
+    for fingers in dict.fromkeys(row["fingers"] for row in figures["baselines"]):
+        family = f"{fingers} off grid"
+        lines += [
+            "",
+            f"{f'{fingers} fingers, front of time':<34}{'setting':<18}{'median':>9}{'p99 µs':>9}{'MB':>8}{'lost':>9}{'worst':>9}",
+        ]
+        for index in figures["fronts"][f"time, {family}"]:
+            setting = figures["settings"][index]
+            time_us, lost = setting["time_us"][str(fingers)], setting["families"][family]["bound_loss"]
+            values = (time_us["median_us"], time_us["p99_us"])
+            lines.append(
+                f"{setting['curve']:<34}{setting['setting']:<18}"
+                + "".join(f"{_number(value):>9}" for value in values)
+                + f"{setting['memory_bytes'] * 1e-6:>8.1f}{lost['median']:>9.4f}{lost['worst']:>9.4f}"
+            )
+        for row in figures["baselines"]:
+            if row["fingers"] == fingers:
+                lines.append(f"{row['name']:<52}{_number(row['median_us']):>9}{_number(row['p99_us']):>9}")
+    return "\n".join(lines)
+
+
 def _scaled(spread: dict[str, float], factor: float) -> dict[str, float]:
     return {kind: value * factor for kind, value in spread.items()}
 

@@ -1,8 +1,15 @@
-"""The GPIO lines between host and FPGA: trigger and run permit (outputs), configured (input)."""
+"""The GPIO lines between host and FPGA: trigger and run permit (outputs), configured (input).
+
+libgpiod requests the lines and drives the permit. The trigger, once for every emission, is driven by the kernel's own call (Linux,
+include/uapi/linux/gpio.h) with arguments made once: a third of the instructions.
+"""
 
 from __future__ import annotations
 
+import fcntl
+import struct
 from collections.abc import Callable
+from typing import Final
 
 import gpiod
 from gpiod.line import Direction, Value
@@ -12,6 +19,8 @@ from controller.board.gpio_chip import request_lines
 from controller.errors import LinkError
 
 CONSUMER = "haptic-panel"
+SET_VALUES: Final = 0xC010B40F  # GPIO_V2_LINE_SET_VALUES_IOCTL
+LINE_VALUES: Final = struct.Struct("=QQ")  # struct gpio_v2_line_values: values, and which lines they are for; bits as requested
 
 
 class GpioLines:
@@ -40,6 +49,9 @@ class GpioLines:
         if self._configured:
             lines[self._configured] = gpiod.LineSettings(direction=Direction.INPUT)
         self._request = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
+        self._fd: int = self._request.fd
+        bit = 1 << self._request.lines.index(self._trigger)
+        self._high, self._low = bytearray(LINE_VALUES.pack(bit, bit)), bytearray(LINE_VALUES.pack(0, bit))
 
     def pulse(self) -> float:
         """Pulse the trigger line: two system calls, much longer than the 4 clocks that the gateware needs.
@@ -55,9 +67,9 @@ class GpioLines:
             If the line fails.
         """
         try:
-            self._request.set_value(self._trigger, Value.ACTIVE)
+            fcntl.ioctl(self._fd, SET_VALUES, self._high)  # a bytearray: anything else is first tried as one, and copied twice
             edge_s = self._now_s()
-            self._request.set_value(self._trigger, Value.INACTIVE)
+            fcntl.ioctl(self._fd, SET_VALUES, self._low)
         except OSError as error:
             raise _failure("trigger", self._trigger, error) from error
         return edge_s
@@ -98,6 +110,7 @@ class GpioLines:
         except LinkError:
             pass  # a chip that was removed drives nothing: the permit is pulled down
         finally:
+            self._fd = -1  # the number may be another file's soon
             self._request.release()
 
 

@@ -11,8 +11,13 @@ then adds the response itself to the displacement.
 
 Several points
 --------------
-`S = sum(q r)`, with a weight of 15 bits for each point: 32 bits. A response is divided by the sum of its absolute values, which
-is what the point would get alone: equal amplitudes then give every point the same share of its own maximum.
+`S = sum(q r)`, with a weight of 15 bits and a polarity for each point: 32 bits. A response is divided by the sum of its absolute
+values, which is what the point would get alone; one of zeros has no part in the sum.
+
+A kick is felt either way, so polarities are free. Those are taken for which the energy of the sum is largest (`s' G s`, G: inner
+products of the responses), so that responses that are opposite add up; of those and their opposites the one with fewer negative
+points. Then weights are balanced: twice, each is divided by what its point gets, so that all points get the same share of their
+own maximum, next to the largest that all can have. Inner products and shares are those of every fourth and every second sample.
 
 Less than full amplitude
 ------------------------
@@ -20,13 +25,21 @@ An amplitude is a share of what the same point would get if all points were comp
 sets the ratio of the amplitudes; their common level is set by leaving bits at idle where `S` is weak against the mean of its
 absolute value in the same block of samples and the same channel. Both are found by measuring: the displacement at a point is
 linear in the bits, an inner product of them with the point's response, in the band and outside it.
+
+Full amplitude is the level that all points have together: the mean of their shares in the band, weighed as they are, which is
+next to the largest share that all can have. A point that differs from it by more than a sixteenth has its own, since its neighbours
+move it.
+
+Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
+and none is asked for more than the least of them; below that it may be stronger, the less alike they are. What is too much
+after the last round is lowered together with all others.
 """
 
 from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -41,6 +54,7 @@ Numbers = NDArray[Any]
 CHANNELS: Final = 32
 REST_SAMPLES: Final = 8  # samples to a row of the rest outside the band
 MAX_FOCI: Final = 10
+LEAST_AMPLITUDE: Final = 1 / 1024  # less is no displacement either, and quotients of it would leave the range of floats
 MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
 MAX_BLOCK_SAMPLES: Final = 256
 LARGEST: Final = (1 << 31) - 1
@@ -48,6 +62,11 @@ WEIGHT_SUM: Final = 256  # of the cells around a point: four roundings may add 2
 POINT_WEIGHT_SUM: Final = 32767  # of the points
 STRENGTH_SHIFT: Final = 8  # bits that absolute values of sums lose before they are added up
 THRESHOLD_BITS: Final = 24  # behind the point of a threshold
+SKETCH_STEP: Final = 2  # of all samples, one of so many is in the sketch from which polarities and weights are found
+SKETCH_SHIFT: Final = 4  # bits that responses lose there, so that 256 products add up to less than 2^31
+PRODUCT_BITS: Final = 30  # of the largest inner product of two responses
+BALANCING_ROUNDS: Final = 2
+MAX_CORRECTION: Final = 2.0  # of a weight in a round
 THRESHOLD_SHIFT: Final = np.array(THRESHOLD_BITS - STRENGTH_SHIFT, np.int64)
 
 # What a composition needs to know of bank and board: samples, bytes from one response to the next, cells along x and y,
@@ -61,10 +80,16 @@ SCALE: Final = struct.Struct("=f")
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
 MAX_ROUNDS: Final = 5  # of measuring what the bits give; most emissions need two or three
+MAX_LOWERINGS: Final = 3  # behind them
+TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
+ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
+OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
 TOLERANCE: Final = 0.01  # of an amplitude: well below a step
 
 ZERO: Final = np.array(0, np.int32)
 ZERO_SHORT: Final = np.array(0, np.int16)
+NOTHING: Final = np.array(0.0)
+SKETCH_UNIT: Final = np.array(1 / (1 << SKETCH_SHIFT))
 LARGEST_LONG: Final = np.array(LARGEST, np.int64)
 PACKING: Final = np.array(0x0102_0408_1020_4080, "<u8")  # moves the lowest bits of eight bytes to the highest byte
 
@@ -80,7 +105,9 @@ def room_bytes(samples: int) -> int:
     if not 1 <= samples <= MAX_SAMPLES:
         raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
     # 32 bits for each value of the points' responses, of their sum, and five more in what follows
-    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + _rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES))
+    # and 64 bits for each of their sketches, of the sum of these and two more
+    of_sketches = (MAX_FOCI + 2) * (samples + 2 * SKETCH_STEP)
+    return 4 * CHANNELS * ((MAX_FOCI + 2) * (samples + _rest_rows(samples)) + 5 * (samples + MAX_BLOCK_SAMPLES) + of_sketches)
 
 
 def compose(
@@ -112,7 +139,8 @@ def compose(
     response : buffer
         The responses: levels of 8 bits, then those of the rest outside the band, a mean over 8 samples each.
     points : sequence of (x_m, y_m, amplitude)
-        1 to `MAX_FOCI`; above 0 to 1. Points beyond the outermost cells take the nearest place among the cells.
+        1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the outermost cells take the
+        nearest place among the cells.
 
     Returns
     -------
@@ -145,7 +173,7 @@ def compose(
             return cell
         patches.append(patch)
     work = _work(room, bank)
-    work.compose(bank, patches, [amplitude for _, _, amplitude in points])
+    work.compose(bank, patches, [max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points])
     work.pack(filled)
     return -1
 
@@ -241,6 +269,7 @@ class _Work:
             taken += size
             return array
 
+        self._sketch = _Sketch(samples, take)  # first, for its alignment
         responses = take("i4", MAX_FOCI, values + rows * CHANNELS)
         self._responses, self._in_band, self._outside = list(responses), list(responses[:, :values]), list(responses[:, values:])
         self._sum = take("i4", values)
@@ -284,12 +313,25 @@ class _Work:
                 np.greater(self._short[: self._bits.size], ZERO_SHORT, out=self._bits)
                 return
             np.copyto(self._responses[row], self._short)
-        norms = [self._norm(row) for row in range(count)]
-        self._add([1.0] * count, norms)
+        divisors, balance = [float(self._norm(row)) or math.inf for row in range(count)], [1.0]
+        if count > 1:
+            self._sketch.take(self._in_band[:count])
+            asked, divisors = self._sketch.polarised(asked, divisors)
+            balance = self._sketch.balanced(divisors)
+        unit = self._add(balance, divisors)
         np.greater(self._sum, ZERO, out=self._bits)
-        if not full:
-            wanted = [share * most for share, most in zip(asked, self._measured(norms), strict=True)]
-            self._solve(asked, wanted, norms)
+        if unit and not full:
+            self._solve(asked, self._wanted(asked, divisors, balance), divisors, balance)
+
+    def _wanted(self, asked: list[float], divisors: list[float], balance: list[float]) -> list[float]:
+        """Displacements at less than full amplitude, from those at full amplitude, which the bits give."""
+        measured, in_band = self._measured(divisors)
+        level = _product(balance, in_band) / _product(balance, [1.0] * len(balance))
+        nearly = level * OWN_LEVEL
+        return [
+            share * (got - max(-nearly, min(nearly, most - level)))
+            for share, got, most in zip(asked, measured, in_band, strict=True)
+        ]
 
     def _interpolate(self, levels: Numbers, stride: int, patch: Patch) -> None:
         """Response of a point, negated in channels that idle high."""
@@ -304,36 +346,34 @@ class _Work:
         np.multiply(short, self._flip, out=short)
 
     def _norm(self, row: int) -> int:
-        """Sum of the absolute values of a response in the band; 1 for a response of zeros."""
+        """Sum of the absolute values of a response in the band."""
         np.abs(self._in_band[row], out=self._product)
-        return _total(self._product_halves) or 1
+        return _total(self._product_halves)
 
-    def _add(self, weights: list[float], norms: list[int]) -> float:
-        """Sum of the responses, each divided by its norm, in whole multiples next to the weights times what is returned."""
-        shares, total = [], 0.0
-        for weight, norm in zip(weights, norms, strict=True):
-            shares.append(weight / norm)
-            total += abs(weight / norm)
-        unit = POINT_WEIGHT_SUM / total if 0 < total < math.inf else 0.0
-        for row, share in enumerate(shares):
-            self._point_weight[...] = round(share * unit) if unit else 0
+    def _add(self, weights: list[float], divisors: list[float]) -> float:
+        """Sum of the responses, each divided by its divisor, in whole multiples next to the weights times what is returned."""
+        whole, unit = _whole_weights(weights, divisors)
+        for row, weight in enumerate(whole):
+            self._point_weight[...] = weight
             to = self._product if row else self._sum
             np.multiply(self._in_band[row], self._point_weight, out=to)
             if row:
                 np.add(self._sum, self._product, out=self._sum)
         return unit
 
-    def _measured(self, norms: list[int]) -> list[float]:
-        """Displacement that the bits give at each point, divided by the norm of its response: in the band and outside it."""
+    def _measured(self, divisors: list[float]) -> tuple[list[float], list[float]]:
+        """Displacement that the bits give at each point, divided by its divisor: all of it, and what is in the band."""
         np.copyto(self._bit_values, self._bits)
         self._bits_of_no_sample[:] = 0
         np.matmul(self._rest_ones, self._bits_by_rest_row, out=self._rest_bits)
-        found = []
-        for row, norm in enumerate(norms):
+        found, in_band = [], []
+        for row, divisor in enumerate(divisors):
             np.multiply(self._in_band[row], self._bit_values, out=self._product)
             np.multiply(self._outside[row], self._flat_rest_bits, out=self._rest_product)
-            found.append((_total(self._product_halves) + _total(self._rest_product_halves)) / norm)
-        return found
+            inside = _total(self._product_halves)
+            in_band.append(inside / divisor)
+            found.append((inside + _total(self._rest_product_halves)) / divisor)
+        return found, in_band
 
     def _measure_strength(self) -> None:
         """Sum of the absolute values of each block and channel of the sum of responses."""
@@ -354,7 +394,7 @@ class _Work:
         np.copyto(self._threshold_by_run, self._run_by_block)
         np.greater(self._sum, self._threshold, out=self._bits)
 
-    def _solve(self, asked: list[float], wanted: list[float], norms: list[int]) -> None:
+    def _solve(self, asked: list[float], wanted: list[float], divisors: list[float], balance: list[float]) -> None:
         """Set the bits that give the wanted displacement at each point.
 
         The ratio of the weights sets the ratio of the displacements; the Euclidean norm of the weights sets how much is
@@ -368,28 +408,41 @@ class _Work:
             Amplitude of each point: the first weights.
         wanted : list of float
             Displacement of each point, as `_measured` gives it.
-        norms : list of int
-            Of the points' responses.
+        divisors : list of float
+            Of the points' responses: the sums of their absolute values, with the points' polarities.
+        balance : list of float
+            Weights at full amplitude.
         """
         count = len(asked)
-        first_unit = unit = self._add(asked, norms)
+        first_unit = unit = self._add(_products(balance, asked), divisors)
         first_norm = math.sqrt(_product(asked, asked))
         self._measure_strength()
         weights = weights_before = residuals_before = asked
         gain = 0.0
-        for turn in range(MAX_ROUNDS):
+        last = MAX_ROUNDS + MAX_LOWERINGS - 1
+        for turn in range(last + 1):
             norm = math.sqrt(_product(weights, weights)) or first_norm
             if turn and count > 1:  # the sum of a single point stays as it is
-                unit = self._add([weight * first_norm / norm for weight in weights], norms)
+                scaled = [weight * first_norm / norm for weight in weights]
+                unit = self._add(_products(balance, scaled), divisors)
             self._mask(masking_threshold(norm / math.sqrt(count)) * (unit / first_unit))
-            if turn == MAX_ROUNDS - 1:
+            if turn == last:
                 return
-            measured = self._measured(norms)
+            measured, _ = self._measured(divisors)
             if all(abs(want - got) <= TOLERANCE * want for want, got in zip(wanted, measured, strict=True)):
                 return
             gain = gain or _product(measured, weights) / (norm * norm)
             if not gain > 0:
                 return
+            if turn >= MAX_ROUNDS - 1:
+                most = max(got / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+                if min(measured) < 0:
+                    weights = asked
+                elif most > TOO_MUCH:
+                    weights = [weight / most for weight in weights]
+                else:
+                    return
+                continue
             residuals = [(want - got) / gain for want, got in zip(wanted, measured, strict=True)]
             mixing = 0.0
             if turn:
@@ -401,6 +454,122 @@ class _Work:
                 new, old = weights[index] + residuals[index], weights_before[index] + residuals_before[index]
                 further.append(new + mixing * (old - new) if turn else new)
             weights_before, residuals_before, weights = weights, residuals, further
+
+
+class _Sketch:
+    """Every second sample of the points' responses: whole numbers in float64, whose sums are exact in any order.
+
+    Samples 0, 4, 8, .. lie before samples 2, 6, 10, ..; inner products of responses are those of the former.
+    """
+
+    def __init__(self, samples: int, take: Callable[..., Numbers]) -> None:
+        values, before = CHANNELS * -(-samples // SKETCH_STEP), CHANNELS * -(-samples // (2 * SKETCH_STEP))
+        self._rows, self._sum, self._bit_values = take("f8", MAX_FOCI, values), take("f8", values), take("f8", values)
+        self._bits = np.empty(values, np.bool_)
+        self._samples, self._parts = samples, []
+        for row in self._rows:
+            self._parts.append((row[:before].reshape(-1, CHANNELS), row[before:].reshape(-1, CHANNELS)))
+        self._tables: dict[int, _SketchTables] = {}
+
+    def take(self, responses: list[Numbers]) -> None:
+        """Sketch the responses, (sample x channel,) each."""
+        for row, (before, behind), response in zip(self._rows, self._parts, responses, strict=False):
+            by_sample = response.reshape(self._samples, CHANNELS)
+            np.copyto(before, by_sample[:: 2 * SKETCH_STEP])
+            np.copyto(behind, by_sample[SKETCH_STEP :: 2 * SKETCH_STEP])
+            np.multiply(row, SKETCH_UNIT, out=row)
+            np.floor(row, out=row)
+
+    def _tables_for(self, count: int) -> _SketchTables:
+        if count not in self._tables:
+            self._tables[count] = _SketchTables(self._rows[:count], self._parts[0][0].size)
+        return self._tables[count]
+
+    def polarised(self, asked: list[float], norms: list[float]) -> tuple[list[float], list[float]]:
+        """What can be asked for, and the norms, with the signs of the points for which the energy of the sum is largest."""
+        count, tables, products, largest = len(norms), self._tables_for(len(norms)), [], 0.0
+        np.matmul(tables.before, tables.before_transposed, out=tables.gram)
+        for i in range(count):
+            for j in range(i):
+                product = float(tables.gram[i, j]) / norms[i] / norms[j]
+                products.append((i, j, product))
+                largest = max(largest, abs(product))
+        if largest == 0:
+            return asked, norms
+        alike = [] if min(asked) == max(asked) else tables.correlations()
+        unit = (1 << PRODUCT_BITS) / largest
+        tables.gram.fill(0)
+        for i, j, product in products:
+            tables.gram[i, j] = tables.gram[j, i] = round(product * unit)
+        np.matmul(tables.signs, tables.gram, out=tables.fields)
+        np.multiply(tables.fields, tables.signs, out=tables.fields)
+        np.matmul(tables.fields, tables.ones, out=tables.energies)
+        best = int(np.argmax(tables.energies))
+        turned = 1 if 2 * best.bit_count() > count else 0
+        signs = [1 - 2 * (best << 1 >> i & 1 ^ turned) for i in range(count)]
+        asked = list(asked)
+        for _ in range(count if alike else 0):
+            before = list(asked)
+            for i, j, correlation in alike:
+                together = correlation * signs[i] * signs[j]
+                if together > 0:
+                    room = ONE_PLACE / together if together < ONE_PLACE else 1.0
+                    asked[i] = min(asked[i], asked[j] * room)
+                    asked[j] = min(asked[j], asked[i] * room)
+            if asked == before:
+                break
+        return asked, [norm * sign for norm, sign in zip(norms, signs, strict=True)]
+
+    def balanced(self, norms: list[float]) -> list[float]:
+        """Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had."""
+        count, tables = len(norms), self._tables_for(len(norms))
+        weights = [1.0 if math.isfinite(norm) else 0.0 for norm in norms]
+        moving = _product(weights, weights) or 1.0
+        for _ in range(BALANCING_ROUNDS):
+            for index, whole in enumerate(_whole_weights(weights, norms)[0]):
+                tables.weights[index] = whole
+            np.matmul(tables.weights, tables.rows, out=self._sum)
+            np.greater(self._sum, NOTHING, out=self._bits)
+            np.copyto(self._bit_values, self._bits)
+            np.matmul(tables.rows, self._bit_values, out=tables.got)
+            shares = [float(got) / norm for got, norm in zip(tables.got, norms, strict=True)]
+            mean = _product(shares, [1.0] * count) / moving
+            for index, share in enumerate(shares):
+                correction = mean / share if share > 0 else MAX_CORRECTION
+                weights[index] *= min(max(correction, 1 / MAX_CORRECTION), MAX_CORRECTION)
+        return weights
+
+
+class _SketchTables:
+    """Arrays of a sketch for a number of points."""
+
+    def __init__(self, rows: Numbers, before: int) -> None:
+        count = len(rows)
+        self.rows, self.before, self.before_transposed = rows, rows[:, :before], rows[:, :before].T
+        self.gram, self.weights, self.got, self.ones = np.empty((count, count)), np.empty(count), np.empty(count), np.ones(count)
+        choices = np.arange(1 << (count - 1))  # the first point is positive
+        self.signs = 1.0 - 2 * (choices[:, None] << 1 >> np.arange(count) & 1)
+        self.fields, self.energies = np.empty(self.signs.shape), np.empty(len(choices))
+
+    def correlations(self) -> list[tuple[int, int, float]]:
+        """Of the responses of each two points."""
+        found, count = [], len(self.gram)
+        sizes = [float(self.gram[i, i]) for i in range(count)]
+        for i in range(count):
+            for j in range(i):
+                if sizes[i] > 0 and sizes[j] > 0:
+                    found.append((i, j, float(self.gram[i, j]) / math.sqrt(sizes[i] * sizes[j])))
+        return found
+
+
+def _whole_weights(weights: list[float], divisors: list[float]) -> tuple[list[int], float]:
+    """Whole numbers next to the weights over the divisors, times what is returned with them."""
+    shares, total = [], 0.0
+    for weight, divisor in zip(weights, divisors, strict=True):
+        shares.append(weight / divisor)
+        total += abs(weight / divisor)
+    unit = POINT_WEIGHT_SUM / total if 0 < total < math.inf else 0.0
+    return [round(share * unit) if unit else 0 for share in shares], unit
 
 
 def masking_threshold(share: float) -> float:
@@ -440,6 +609,10 @@ def _product(left: list[float], right: list[float]) -> float:
     for one, other in zip(left, right, strict=True):
         total += one * other
     return total
+
+
+def _products(left: list[float], right: list[float]) -> list[float]:
+    return [one * other for one, other in zip(left, right, strict=True)]
 
 
 def _rest_rows(samples: int) -> int:

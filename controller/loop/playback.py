@@ -13,6 +13,7 @@ from controller.clocks import FpgaTime
 from controller.errors import BankError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import DAMAGED, Refused
+from controller.fpga.frames import ReadyFrames
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
 from controller.loop.commands import Outcome
@@ -20,11 +21,12 @@ from controller.loop.host_timing import DeliveryTime, HostTiming
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
 from controller.loop.prefetch import PrefetchRecord
 from controller.loop.records import ENDLESS, Accepted, Attempt, Batch, Plan, Played
+from controller.loop.skips import ALL, Skips
 from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
-from controller.waveforms.selection import Key, Selection
+from controller.waveforms.selection import REUSE_RADIUS_M, Key, Selection
 
 Locate = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host, (x_m, y_m); None if it is not down."""
@@ -53,6 +55,8 @@ class Playback:
         Counts emissions, latencies and skipped work.
     played : callable, optional
         Called with every start.
+    skips : Skips
+        What of the work may be left out.
 
     Attributes
     ----------
@@ -76,7 +80,9 @@ class Playback:
         timing: HostTiming,
         counters: Counters,
         played: Callable[[Played], None] | None = None,
+        skips: Skips = ALL,
     ) -> None:
+        self._skips = skips
         self.occupancy = occupancy
         self.accepted: Accepted | None = None
         self.repeating = False
@@ -87,7 +93,7 @@ class Playback:
         self._locate = locate
         self._counters = counters
         self._played = played
-        self._slots = SlotCache(slots, selection.single_focus)
+        self._slots = self._new_slots(slots)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
 
@@ -200,6 +206,8 @@ class Playback:
             As the session says.
         """
         key = self._selection.key(((x_m, y_m, amplitude),))
+        if not (self._skips.ahead and self._skips.resident):
+            return False
         likely = self._prefetch.predict(finger, key, self._selection, fingers)
         if not likely or not steady or self._slots.slots == 1 or self._slots.find(key) is not None:
             return False
@@ -224,7 +232,7 @@ class Playback:
     def change_bank(self, selection: Selection) -> None:
         """Play from another bank: nothing that is resident serves any more."""
         self._selection = selection
-        self._slots = SlotCache(self._slots.slots, selection.single_focus)
+        self._slots = self._new_slots(self._slots.slots)
         self._prefetch.unplayed.clear()
 
     def stop(self) -> None:
@@ -332,8 +340,9 @@ class Playback:
     def _upload(self, key: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Put a waveform into the slot that was played longest ago, and have it accepted for playing."""
         waveform = self._selection.waveform(key)
-        if isinstance(key, int):
+        if isinstance(waveform, ReadyFrames):
             self._counters.skipped.compositions += 1
+            self._counters.composed_beforehand += not isinstance(key, int)
         slot = self._take()
         stop = self.occupancy.repetition is not None
         try:
@@ -353,6 +362,10 @@ class Playback:
         """Ask the bank about an upload that the FPGA found damaged, frame by frame or as a whole: it may come from the file."""
         if refusal.result in DAMAGED or refusal.result is Result.SLOT_DAMAGED:
             self._selection.recheck(key)
+
+    def _new_slots(self, slots: int) -> SlotCache:
+        near_m = REUSE_RADIUS_M if self._skips.near else -1.0
+        return SlotCache(slots, self._selection.single_focus, near_m, self._skips.resident)
 
     def _take(self) -> int:
         """A slot to upload to: not that of the newest play, which sounds, waits or is repeated, while there is another."""

@@ -14,12 +14,15 @@ from controller.clocks import FPGA_NEVER, NEVER, FpgaTime
 from controller.errors import ConfigError
 from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
+from controller.loop.skips import ALL, Skips
 from controller.loop.spots import Spots
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
-from controller.scene.scene import OUTSIDE, Scene
+from controller.scene.region_lookup import OUTSIDE
+from controller.scene.scene import Scene
 from controller.touch.source import TouchSample
+from controller.waveforms.composition import MAX_FOCI
 
 MAX_WAITING_COMMANDS: Final = 32  # if more wait, the oldest is skipped
 PREFETCH_DISTANCE_M: Final = 0.75e-3  # an emission this near is predicted, even if it takes more than one report to get there
@@ -48,6 +51,8 @@ class Scheduler:
         Emissions that a finger gets before it is confirmed.
     outcomes : callable
         Called with what became of each command.
+    skips : Skips
+        What of the work may be left out.
 
     Attributes
     ----------
@@ -58,9 +63,19 @@ class Scheduler:
         Emissions to be played, the newest of each owner, in the order in which the owners began to wait.
     """
 
-    def __init__(self, scene: Scene, counters: Counters, confirmed: Confirmed, max_unconfirmed: int, outcomes: Outcomes) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        counters: Counters,
+        confirmed: Confirmed,
+        max_unconfirmed: int,
+        outcomes: Outcomes,
+        skips: Skips = ALL,
+    ) -> None:
         self.scene = scene
-        self.spots = Spots(scene.spots, FpgaTime(0.0))
+        self._skips = skips
+        self._max_foci = MAX_FOCI if skips.together else 1
+        self.spots = Spots(scene.spots, FpgaTime(0.0), skips.repeated)
         self._counters = counters
         self._confirmed = confirmed
         self._max_unconfirmed = max_unconfirmed
@@ -156,7 +171,7 @@ class Scheduler:
             When the beat of the spots goes on, after the one that is played now.
         """
         self.spots.restart(next_s)
-        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER)[0])
+        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER, self._max_foci)[0])
         self._counters.due += len(played) - len(emissions)
         return played
 
@@ -193,7 +208,7 @@ class Scheduler:
             due = tuple(self.due.values())
             if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S:
                 due = tuple(sorted(due, key=_has_no_beat))
-            first, rest = select_batch(due, duration_s)
+            first, rest = select_batch(due, duration_s, self._max_foci)
             chosen = list(first)
             self.due = {emission.owner: emission for emission in rest}
         return chosen
@@ -330,7 +345,7 @@ class Scheduler:
         self.scene = scene
         for active in self._active.values():
             active.change_scene(scene)
-        self.spots = Spots(scene.spots, now_s)
+        self.spots = Spots(scene.spots, now_s, self._skips.repeated)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         self._counters.due += len(emissions)

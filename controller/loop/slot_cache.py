@@ -25,7 +25,9 @@ class SlotCache:
     single_focus : callable
         x_m, y_m and amplitude step of a key with one focus; None for a key with several.
     near_m : float
-        A resident waveform for a place at most this far away is used as well, if its amplitude is the same.
+        A resident waveform for a place at most this far away is used as well, if its amplitude is the same; negative: none is.
+    reuses : bool
+        False: what a slot holds is never found, so that everything is uploaded each time (`loop.skips`).
 
     Attributes
     ----------
@@ -34,8 +36,11 @@ class SlotCache:
         Every slot, the next one to be taken first, with the key of its waveform; None: it holds none.
     """
 
-    def __init__(self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = REUSE_RADIUS_M) -> None:
+    def __init__(
+        self, slots: int, single_focus: Callable[[Key], SingleFocus | None], near_m: float = REUSE_RADIUS_M, reuses: bool = True
+    ) -> None:
         self.slots = slots
+        self._reuses = reuses
         self._single_focus = single_focus
         self._near_m = near_m
         self.held: OrderedDict[int, Key | None] = OrderedDict()
@@ -99,6 +104,8 @@ class SlotCache:
         self.drop(slot)
         self.held[slot] = key
         self.held.move_to_end(slot)
+        if not self._reuses:
+            return
         self._slot_of[key] = slot
         focus = self._single_focus(key) if isinstance(key, int) or len(key) == 1 else None
         if focus is not None:
@@ -108,7 +115,7 @@ class SlotCache:
         """Take note that what a slot holds cannot be played; it is the next one to be taken."""
         key = self.held[slot]
         if key is not None:
-            del self._slot_of[key]
+            self._slot_of.pop(key, None)
             self._single_focus_of.pop(slot, None)
             self.held[slot] = None
         self.held.move_to_end(slot, last=False)

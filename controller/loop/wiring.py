@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
+
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import Clock
@@ -21,6 +23,7 @@ from controller.loop.playback import Playback
 from controller.loop.records import Played
 from controller.loop.scene_source import SceneChange
 from controller.loop.scheduler import Scheduler
+from controller.loop.skips import ALL, Skips
 from controller.metrics import Counters
 from controller.scene.scene import Scene
 from controller.touch.source import TrackedTouch
@@ -53,6 +56,7 @@ def assemble(
     played: Callable[[Played], None] | None = None,
     commands: CommandSource | None = None,
     change: SceneChange | None = None,
+    skips: Skips = ALL,
     **loop: Any,
 ) -> Assembly:
     """Construct a loop.
@@ -68,8 +72,10 @@ def assemble(
         Called with every start.
     commands, change, **loop
         As `EventLoop` takes them.
+    skips : Skips
+        What of the work is left out: all that can be; less to measure what it saves.
     """
-    selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
+    selection = Selection(bank, bank.snap_m(board) if skips.cells else -1.0, board.idle_word)
     counters = Counters()
     clock_estimate = ClockEstimate(board.link.clock_hz)
     occupancy = Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty)
@@ -88,15 +94,16 @@ def assemble(
         timing=timing,
         counters=counters,
         played=played,
+        skips=skips,
     )
     playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots])
 
-    scheduler = Scheduler(
-        scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, _nobody if commands is None else commands.outcome
-    )
+    outcomes = _nobody if commands is None else commands.outcome
+    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes, skips)
     dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
-    running = EventLoop(board, *parts, commands=commands, change=change, **loop)
+    never_idle = msgspec.structs.replace(board, idle_disarm_s=None)
+    running = EventLoop(board if skips.idle else never_idle, *parts, commands=commands, change=change, **loop)
     return Assembly(running, counters, selection, timing)
 
 

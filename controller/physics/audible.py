@@ -18,13 +18,12 @@ from scipy.signal import zoom_fft
 from controller.bank.packing import channel_bits
 from controller.board.board import Board
 from controller.physics.driver import DriverResponse
-from controller.physics.plate import PlateModes
+from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
 
 AUDIBLE_HZ = 16e3
-HIGHEST_HZ = 100e3
 REST_TAUS = 10.0  # of ringing after the last step: e^-10 of the slowest amplitude is left
 BLOCK = 64  # frequencies at once
 
@@ -75,7 +74,7 @@ def surface_spectrum(
     step_hz : float
         Between the frequencies.
     """
-    modes = PlateModes.of(board.plate, HIGHEST_HZ)
+    modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform))
     forces = channel_forces(board, modes)
     first = idle_word if before_word is None else before_word
     levels = channel_bits(np.concatenate([[first], words, [idle_word]]).astype("<u4")).astype(np.float64)

@@ -44,7 +44,8 @@ class DriverResponse:
         root = np.sqrt(complex(half**2 - gain))
         if abs(root) < 1e-5 * half:
             root = 1e-5 * half  # a double pole has no partial fractions: split it by 1e-5, an error of 1e-10
-        poles = np.array([-half + root, -half - root])
+        fast = -half - root
+        poles = np.array([gain / fast if root.real else -half + root, fast])  # a difference of near numbers would lose the slow one
         residues = gain / (poles * (poles - poles[::-1]))
         return cls(poles=poles, residues=residues, gain=gain)
 

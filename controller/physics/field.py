@@ -8,24 +8,60 @@ deflection by the idle levels never changes, so neither a finger nor a vibromete
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from controller.physics.plate import PlateModes
+from controller.board.board import Board
+from controller.physics.plate import PlateModes, bending_wavelength_m
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
+# On the paper's plate, in whose band's middle waves are 10.54 mm long; `FocusScale` has them for others
+MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
 MAP_STEP_M = 2e-3
 OUTSIDE_M = 10e-3  # contrast is relative to points farther than this from the focus
-LINE_M = np.arange(-120, 121) * 0.05e-3  # where the spot is measured
-CREST_M = np.arange(-16, 17) * 0.25e-3  # search range for the crest of a spot: less than half a wavelength at 70 kHz
-AROUND_S = np.arange(-50, 51) * 0.1e-6
+LINE_M: Floats = np.arange(-120.0, 121) * 0.05e-3  # where the spot is measured
+CREST_M: Floats = np.arange(-16.0, 17) * 0.25e-3  # search range for the crest of a spot: less than half a wavelength at 70 kHz
+AROUND_S: Floats = np.arange(-50.0, 51) * 0.1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class FocusScale:
+    """Where a focus is measured: lengths go with the wavelength in the middle of the band, times with its period.
+
+    Attributes
+    ----------
+    map_step_m : float
+        Largest distance of the points of a map.
+    outside_m : float
+        Contrast is relative to points farther than this from every focus: 0.95 wavelengths, 10 mm on the paper's plate.
+    line_m : (241,) array
+        Offsets at which the spot is measured: 1.14 wavelengths, 12 mm.
+    crest_m : (33,) array
+        Offsets among which the crest of a spot is searched.
+    around_s : (101,) array
+        Times from T: 0.225 periods before and after, 5 us.
+    """
+
+    map_step_m: float = MAP_STEP_M
+    outside_m: float = OUTSIDE_M
+    line_m: Floats = field(default_factory=LINE_M.copy)
+    crest_m: Floats = field(default_factory=CREST_M.copy)
+    around_s: Floats = field(default_factory=AROUND_S.copy)
+
+    @classmethod
+    def of(cls, board: Board) -> FocusScale:
+        """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
+        middle_hz = (board.waveform.band_low_hz + board.waveform.band_high_hz) / 2
+        longer = float(f"{bending_wavelength_m(board.plate, middle_hz) / WAVELENGTH_M:.3g}")
+        slower = float(f"{MIDDLE_HZ / middle_hz:.3g}")
+        return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower)
 
 
 @dataclass(frozen=True)
@@ -37,13 +73,13 @@ class FocusMetrics:
     amplitude_m : float
         Displacement at the focus at T.
     contrast : float
-        Its size over the rms displacement outside 10 mm of every focus.
+        Its size over the rms displacement farther than `FocusScale.outside_m` from every focus: 10 mm on the paper's plate.
     contrast_all : float
         The same over all points of the map.
     spot_m : float
         Full width at half height, mean over x, y and both diagonals.
     peak_offset_s : float
-        Time of the largest displacement within 5 us of T, from T.
+        Time of the largest displacement within `FocusScale.around_s` of T, from T: 5 us on the paper's plate.
     """
 
     amplitude_m: float
@@ -69,6 +105,11 @@ class Field:
         Times of the voltage steps around T, relative to T; those at T or later are not in the state.
     near_force : (mode, edge) array
         Their forces on the modes, N.
+    early_driver_amplitudes : (mode, 2) complex array
+        As `driver_amplitudes`, at the first of the times around T, from the steps before that: a driver may forget within
+        nanoseconds, so its state cannot be stepped back from T.
+    scale : FocusScale
+        Where the focus is measured.
     """
 
     modes: PlateModes
@@ -78,6 +119,8 @@ class Field:
     level: Floats
     near_s: Floats
     near_force: Floats
+    early_driver_amplitudes: Complex
+    scale: FocusScale
 
     @cached_property
     def modal(self) -> Floats:
@@ -99,24 +142,29 @@ class Field:
         values: Floats = np.einsum("pn,pn->p", along_x, self.modes.y_sines(points[:, 1]))
         return values
 
-    def map(self, step_m: float = MAP_STEP_M) -> tuple[Floats, Floats, Floats]:
-        """Displacement at T over the plate: x (nx,), y (ny,), u (ny, nx), all in m; points at most `step_m` apart."""
-        x, y = _centres(self.modes.length_m, step_m), _centres(self.modes.width_m, step_m)
+    def map(self, step_m: float | None = None) -> tuple[Floats, Floats, Floats]:
+        """Displacement at T over the plate: x (nx,), y (ny,), u (ny, nx), all in m; at most `step_m` (of the scale) apart."""
+        step_m = self.scale.map_step_m if step_m is None else step_m
+        x, y = map_axis(self.modes.length_m, step_m), map_axis(self.modes.width_m, step_m)
         return x, y, self.modes.y_sines(y) @ (self._matrix.T @ self.modes.x_sines(x).T)
 
     def around(self, point_m: Point) -> Floats:
-        """Displacement in m of `point_m` at the times `AROUND_S` from T: exact, steps of voltage in between included."""
+        """Displacement in m of `point_m` at the times `FocusScale.around_s` from T: exact, steps of voltage in between included."""
         shape = self.modes.mode_shapes(point_m)[0]
         rows = shape[self.step.mode_of_pole]
-        tables = _tables(self.step)
-        u = float(shape @ self.level) + _oscillation(tables, rows * self.pole_amplitudes, shape @ self.driver_amplitudes)
+        times_s = self.scale.around_s
+        decay, driver_decay = _tables(self.step, self.scale)
+        u: Floats = float(shape @ self.level) + (decay @ (rows * self.pole_amplitudes)).real
+        u += (driver_decay @ (shape @ self.early_driver_amplitudes)).real
         for edge_s, force in zip(self.near_s, self.near_force.T, strict=True):
-            # the state holds the steps before T: take each out again for times before it; add those after T
-            here = np.greater(AROUND_S, edge_s) if edge_s >= 0 else np.less(AROUND_S, edge_s)
+            # the state of the plate holds the steps before T: take each out again for times before it; add those after T
+            here = np.greater(times_s, edge_s) if edge_s >= 0 else np.less(times_s, edge_s)
             poles = rows * force[self.step.mode_of_pole] * self.step.residues * np.exp(-self.step.poles * edge_s)
-            drivers = (shape * force) @ self.step.driver_residues * np.exp(-self.step.driver_poles * edge_s)
-            pushed = float((shape * force) @ self.step.static) + _oscillation(tables, poles, drivers, here)
+            pushed = float((shape * force) @ self.step.static) + (decay[here] @ poles).real
             u[here] += pushed if edge_s >= 0 else -pushed
+            since = here if edge_s >= 0 else ~here  # of the drivers the state begins with the first of the times
+            settling = np.exp(np.outer(times_s[since] - edge_s, self.step.driver_poles))
+            u[since] += (settling @ ((shape * force) @ self.step.driver_residues)).real
         return u
 
     def focus_metrics(self, x_m: float, y_m: float, foci: Sequence[Point] = ()) -> FocusMetrics:
@@ -125,13 +173,13 @@ class Field:
         Parameters
         ----------
         foci : sequence of (x_m, y_m)
-            All points focused on at this time; contrast is taken outside 10 mm of any. Default: this one.
+            All points focused on at this time; contrast is taken outside 10 mm (of the scale) of any. Default: this one.
         """
         amplitude = float(self.at((x_m, y_m))[0])
         x, y, u = self.map()
         outside = np.ones(u.shape, np.bool_)
         for fx, fy in foci or [(x_m, y_m)]:
-            outside &= np.hypot(x - fx, (y - fy)[:, None]) > OUTSIDE_M
+            outside &= np.hypot(x - fx, (y - fy)[:, None]) > self.scale.outside_m
         squared = u**2
         return FocusMetrics(
             amplitude_m=amplitude,
@@ -142,38 +190,41 @@ class Field:
         )
 
     def crest(self, x_m: float, y_m: float) -> Point:
-        """Place in m of the spot's crest at T: the extremum of the sign of (x_m, y_m), within 4 mm of it along x and y."""
-        x = x_m + CREST_M[(x_m + CREST_M >= 0) & (x_m + CREST_M <= self.modes.length_m)]
-        y = y_m + CREST_M[(y_m + CREST_M >= 0) & (y_m + CREST_M <= self.modes.width_m)]
+        """Place in m of the spot's crest at T: the extremum of the sign of (x_m, y_m), within 4 mm (scaled) of it along x and y."""
+        crest_m = self.scale.crest_m
+        x = x_m + crest_m[(x_m + crest_m >= 0) & (x_m + crest_m <= self.modes.length_m)]
+        y = y_m + crest_m[(y_m + crest_m >= 0) & (y_m + crest_m <= self.modes.width_m)]
         u = self.modes.x_sines(x) @ self._matrix @ self.modes.y_sines(y).T
         u *= 1.0 if self.at((x_m, y_m))[0] >= 0 else -1.0
         i, j = np.unravel_index(int(np.argmax(u)), u.shape)
-        step = float(CREST_M[1] - CREST_M[0])
+        step = float(crest_m[1] - crest_m[0])
         return float(x[i]) + step * _vertex(u[:, j], int(i)), float(y[j]) + step * _vertex(u[i], int(j))
 
     def _spot(self, crest: Point, amplitude: float) -> float:
         widths = []
         for dx, dy in ((1.0, 0.0), (0.0, 1.0), (0.5**0.5, 0.5**0.5), (0.5**0.5, -(0.5**0.5))):
-            x, y = crest[0] + dx * LINE_M, crest[1] + dy * LINE_M
+            x, y = crest[0] + dx * self.scale.line_m, crest[1] + dy * self.scale.line_m
             on_plate = (x >= 0) & (x <= self.modes.length_m) & (y >= 0) & (y <= self.modes.width_m)
             line = np.where(on_plate, self.at(np.column_stack([x, y])), 0.0)
-            widths.append(half_width(line if amplitude >= 0 else -line))
+            widths.append(half_width(line if amplitude >= 0 else -line, self.scale.line_m))
         return float(np.mean(widths))
 
     def _peak_offset(self, point_m: Point, amplitude: float) -> float:
         u = self.around(point_m) * (1 if amplitude >= 0 else -1)
         top = int(np.argmax(u))
-        return float(AROUND_S[top] + _vertex(u, top) * (AROUND_S[1] - AROUND_S[0]))
+        times_s = self.scale.around_s
+        return float(times_s[top] + _vertex(u, top) * (times_s[1] - times_s[0]))
 
 
-def half_width(line: Floats) -> float:
-    """Full width at half height of a crest in the middle of a line sampled at `LINE_M`, in m.
+def half_width(line: Floats, line_m: Floats = LINE_M) -> float:
+    """Full width at half height of a crest in the middle of a line sampled at `line_m`, in m.
 
     A crest that does not fall to half within the line has the width up to the line's end.
     """
-    top = len(LINE_M) // 2
+    top = len(line_m) // 2
     half = float(line[top]) / 2
-    return _crossing(line[top:], half) + _crossing(line[top::-1], half)
+    step = float(line_m[1] - line_m[0])
+    return step * (_crossing(line[top:], half) + _crossing(line[top::-1], half))
 
 
 def _vertex(values: Floats, top: int) -> float:
@@ -186,30 +237,23 @@ def _vertex(values: Floats, top: int) -> float:
 
 
 def _crossing(falling: Floats, half: float) -> float:
-    """Distance from the first sample to where the line falls to `half`."""
-    step = float(LINE_M[1] - LINE_M[0])
+    """Samples from the first to where the line falls to `half`."""
     below = np.flatnonzero(falling <= half)
     if not below.size or below[0] == 0:
-        return step * (len(falling) - 1)
+        return float(len(falling) - 1)
     i = int(below[0])
-    return step * (i - 1 + float((falling[i - 1] - half) / (falling[i - 1] - falling[i])))
+    return i - 1 + float((falling[i - 1] - half) / (falling[i - 1] - falling[i]))
 
 
 @lru_cache(maxsize=2)
-def _tables(step: StepResponse) -> tuple[Complex, Complex]:
-    """exp(pole * t) of the plate's and the driver's poles at the times `AROUND_S`: (time, pole) each."""
-    return np.exp(np.outer(AROUND_S, step.poles)), np.exp(np.outer(AROUND_S, step.driver_poles))
+def _tables(step: StepResponse, scale: FocusScale) -> tuple[Complex, Complex]:
+    """exp(pole * t) at the times around T, (time, pole) each: of the plate's poles from T, of the driver's from the first time."""
+    times_s = scale.around_s
+    return np.exp(np.outer(times_s, step.poles)), np.exp(np.outer(times_s - times_s[0], step.driver_poles))
 
 
-def _oscillation(
-    tables: tuple[Complex, Complex], poles: Complex, drivers: Complex, here: slice | NDArray[np.bool_] = slice(None)
-) -> Floats:
-    """Re sum_p amplitude_p exp(pole_p t) at the times `AROUND_S[here]`."""
-    result: Floats = (tables[0][here] @ poles + tables[1][here] @ drivers).real
-    return result
-
-
-def _centres(extent_m: float, step_m: float) -> Floats:
+def map_axis(extent_m: float, step_m: float) -> Floats:
+    """Coordinates of a map's points along an axis of `extent_m`, (n,) in m: centres of equal cells of at most `step_m`."""
     count = int(np.ceil(extent_m / step_m - 1e-9))
     return np.linspace(0.5, count - 0.5, count) * (extent_m / count)
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,10 +25,11 @@ from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.fpga.capture import Capture
 from controller.physics.driver import DriverResponse
-from controller.physics.field import AROUND_S, Field
-from controller.physics.focusing import focus
+from controller.physics.field import Field, FocusScale
+from controller.physics.focusing import balanced_weights, focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import PlateModes
+from controller.physics.memory import TABLE_BYTES
+from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -37,7 +39,7 @@ Point = tuple[float, float]
 
 GAP_BITS = 16
 MAX_GROUP_BITS = 1024
-NEAR_S = float(AROUND_S[-1])
+POLES_AT_ONCE = 512  # 25 MB of exponentials
 
 
 class GroupState(NamedTuple):
@@ -61,30 +63,37 @@ class PlateTwin:
     Parameters
     ----------
     board : Board
-    highest_hz : float
-        Modes above are left out.
+    highest_hz : float, optional
+        Modes above are left out; `mode_cut_hz` by default.
     remembered : int
         Groups kept (0.1 MB each); the one not used for longest goes first.
 
     Attributes
     ----------
+    scale : FocusScale
+        Where foci are measured.
     work : Work
         Counters.
     """
 
-    def __init__(self, board: Board, highest_hz: float = 100e3, remembered: int = 256) -> None:
+    def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256) -> None:
         self.board = board
-        self.modes = PlateModes.of(board.plate, highest_hz)
+        self._highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
+        self.modes = PlateModes.of(board.plate, self._highest_hz)
         self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.modes)
+        self.scale = FocusScale.of(board)
         self.work = Work()
-        self._highest_hz = highest_hz
         self._remembered = remembered
         self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
-        self._table: NDArray[np.float64] | None = None
+        self._table: Floats | None = None
         self._exact: dict[tuple[Point, ...], Floats] = {}
-        self._responses: ResponseModel | None = None
         self._pole_forces = np.ascontiguousarray(self.forces[self.step.mode_of_pole])
+
+    @cached_property
+    def responses(self) -> ResponseModel:
+        """Responses of the same plate, which its own way from pins to displacement does not use."""
+        return ResponseModel(self.board, self._highest_hz)
 
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
@@ -109,9 +118,12 @@ class PlateTwin:
         cuts = _cuts(ticks, focus_ticks, bit_ticks)
         idle = self._volts(np.array([self.board.idle_word], np.uint32))[0]
         plate, driver = np.zeros(self.step.poles.size, np.complex128), np.zeros((2, CHANNELS), np.complex128)
-        now = 0
-        group = 0
+        now = group = 0
+        early, early_driver, early_end = 0, driver, 0  # tick and state of the drivers after the first `early_end` steps
+        around_ticks = self.scale.around_s[-1] * clock_hz
         for focus_tick in focus_ticks.tolist():
+            if now <= focus_tick - around_ticks and group:
+                early, early_driver, early_end = now, driver, cuts[group]
             end = int(np.searchsorted(ticks, focus_tick, side="left"))
             while group + 1 < len(cuts) and cuts[group + 1] <= end:
                 first, after = cuts[group], cuts[group + 1]
@@ -121,9 +133,14 @@ class PlateTwin:
                 driver = driver * np.exp(self.step.driver_poles * passed)[:, None] + state.driver
                 now = int(ticks[after - 1])
                 group += 1
+                if now <= focus_tick - around_ticks:
+                    early, early_driver, early_end = now, driver, after
             passed = (focus_tick - now) / clock_hz
             settling = driver * np.exp(self.step.driver_poles * passed)[:, None]
-            near, beyond = np.searchsorted(ticks, [focus_tick - NEAR_S * clock_hz, focus_tick + NEAR_S * clock_hz]).tolist()
+            near, beyond = np.searchsorted(ticks, [focus_tick - around_ticks, focus_tick + around_ticks]).tolist()
+            ago_s = np.maximum(focus_tick - around_ticks - np.append(early, ticks[early_end:near]), 0) / clock_hz
+            forgot = np.exp(np.outer(self.step.driver_poles, ago_s))
+            at_first = forgot[:, :1] * early_driver + forgot[:, 1:] @ np.diff(self._volts(words[early_end : near + 1]), axis=0)
             yield Field(
                 modes=self.modes,
                 step=self.step,
@@ -132,6 +149,8 @@ class PlateTwin:
                 level=self.step.static * (self.forces @ (self._volts(words[end : end + 1])[0] - idle)),
                 near_s=(ticks[near:beyond] - focus_tick) / clock_hz,
                 near_force=self.forces @ np.diff(self._volts(words[near : beyond + 1]), axis=0).T,
+                early_driver_amplitudes=self.step.driver_residues * (self.forces @ at_first.T),
+                scale=self.scale,
             )
 
     def reference_amplitude(self, x_m: float, y_m: float) -> float:
@@ -141,21 +160,17 @@ class PlateTwin:
     def exact_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
         """Amplitude in m of each of `points_m` when all are composed exactly at full amplitude: (point,).
 
-        As `reference_amplitude`, with the sign of the sum of all points' responses, each divided by the sum of its
-        absolute values.
+        As `reference_amplitude`, with the sign of the sum of all points' responses with `balanced_weights`; the absolute
+        values of the displacements, since the polarities of points are free.
         """
         if points_m not in self._exact:
-            if self._responses is None:
-                self._responses = ResponseModel(self.board, self._highest_hz)
             places = np.array(points_m)
-            in_band = self._responses.drive_order_responses(places, dtype=np.float64)
-            whole = self._responses.responses(places)[:, ::-1]
-            sizes = np.abs(in_band).sum(axis=(1, 2))
-            weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)  # at the plate's edge nothing can move
-            self._exact[points_m] = self._amplitudes_of(in_band, weights, whole)
+            in_band = self.responses.drive_order_responses(places, dtype=np.float64)
+            whole = self.responses.responses(places)[:, ::-1]
+            self._exact[points_m] = np.abs(self._amplitudes_of(in_band, balanced_weights(in_band), whole))
             for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
                 alone = slice(index, index + 1)
-                self._exact.setdefault((point,), self._amplitudes_of(in_band[alone], np.ones(1), whole[alone]))
+                self._exact.setdefault((point,), np.abs(self._amplitudes_of(in_band[alone], np.ones(1), whole[alone])))
         return self._exact[points_m]
 
     def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
@@ -188,11 +203,14 @@ class PlateTwin:
         if np.array_equal(whole, ago_bits) and whole[0] < MAX_GROUP_BITS:
             spread = np.zeros((int(whole[0]) + 1, CHANNELS))
             spread[whole] = steps
-            rung = self._decay_table()[:, : len(spread)] @ spread
+            table = self._decay_table()
+            if table is not None:
+                summed = (table[:, : len(spread)] @ spread).reshape(2, count, CHANNELS)
+                rung = np.einsum("pq,rpq->rp", self._pole_forces, summed)
+            else:
+                rung = self._rung(np.arange(float(len(spread))) * period, spread)
         else:
-            decay = np.exp(np.outer(self.step.poles, ago_bits * period))
-            rung = np.concatenate([decay.real, decay.imag]) @ steps
-        rung = np.einsum("pq,rpq->rp", self._pole_forces, rung.reshape(2, count, CHANNELS))
+            rung = self._rung(ago_bits * period, steps)
         plate = (rung[0] + 1j * rung[1]) * self.step.residues
         return GroupState(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
 
@@ -200,12 +218,27 @@ class PlateTwin:
         """Voltage of each channel's stage: (word, 32)."""
         return channel_bits(words).astype(np.float64) * self.board.driver.supply_v
 
-    def _decay_table(self) -> Floats:
-        """exp(pole * n bit periods), real parts above imaginary parts: (2 * pole, n)."""
-        if self._table is None:
+    def _rung(self, ago_s: Floats, steps: Floats) -> Floats:
+        """Sum of steps of voltage, (step, 32), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
+        rung = np.empty((2, self.step.poles.size))
+        for first in range(0, self.step.poles.size, POLES_AT_ONCE):
+            some = slice(first, first + POLES_AT_ONCE)
+            decay = np.exp(np.outer(self.step.poles[some], ago_s))
+            for part, of_poles in zip(rung, (decay.real, decay.imag), strict=True):
+                part[some] = np.einsum("pq,pq->p", self._pole_forces[some], of_poles @ steps)
+        return rung
+
+    def _decay_table(self) -> Floats | None:
+        """exp(pole * n bit periods), real parts above imaginary parts, (2 * pole, n); None if it would be too large."""
+        count = self.step.poles.size
+        if self._table is None and 16.0 * count * MAX_GROUP_BITS <= TABLE_BYTES:
             times = np.arange(MAX_GROUP_BITS) * self.board.waveform.bit_period_s
-            decay = np.exp(np.outer(self.step.poles, times))
-            self._table = np.concatenate([decay.real, decay.imag])
+            table = np.empty((2 * count, MAX_GROUP_BITS))
+            for first in range(0, count, POLES_AT_ONCE):
+                last = min(first + POLES_AT_ONCE, count)
+                decay = np.exp(np.outer(self.step.poles[first:last], times))
+                table[first:last], table[count + first : count + last] = decay.real, decay.imag
+            self._table = table
         return self._table
 
 

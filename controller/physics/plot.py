@@ -15,7 +15,6 @@ from controller.errors import ConfigError
 from controller.physics.field import Field
 
 KINDS = (".png", ".svg", ".pdf")
-STEP_M = 0.5e-3
 Point = tuple[float, float]
 
 
@@ -46,7 +45,7 @@ def plot_focus(path: Path, board: Board, field: Field, foci: Sequence[Point], ti
     ConfigError
         If the file cannot be written.
     """
-    x, y, u = field.map(STEP_M)
+    x, y, u = field.map(field.scale.map_step_m / 4)
     u_um = u * 1e6
     across_m = np.linspace(0, board.plate.length_m, 2101)
     section_y_m = foci[0][1]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from functools import partial
+from typing import Final, NamedTuple
 
 from controller.clocks import FpgaTime
 from controller.scene.scene import Spot
@@ -44,6 +46,11 @@ class Emission(NamedTuple):
     beat: int = 0
     period_s: float = 0.0
     alternate: bool = False
+
+
+_Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool]
+new_emission: Final[Callable[[_Fields], Emission]] = partial(tuple.__new__, Emission)
+"""An `Emission` of a tuple of all its fields, at a third of the instructions: without the function that its class has for it."""
 
 
 def spot_emission(spot: Spot, start_s: FpgaTime, beat: int) -> Emission:

@@ -37,7 +37,8 @@ class DistanceProgress:
 
     def crossed(self, x_m: float, y_m: float) -> bool:
         """Whether the finger's move to (x_m, y_m) completes a spacing; if several, the rest of the distance is kept."""
-        step_m = math.hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m)
+        off_x_m, off_y_m = x_m - self._anchor_x_m, y_m - self._anchor_y_m
+        step_m = math.sqrt(off_x_m * off_x_m + off_y_m * off_y_m)
         travelled_m = self._travelled_m + step_m
         if travelled_m >= self._spacing_m - ROUNDING_M:
             self._travelled_m = max(math.fmod(travelled_m + ROUNDING_M, self._spacing_m) - ROUNDING_M, 0.0)

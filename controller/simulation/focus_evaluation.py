@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from controller.physics.field import OUTSIDE_M, Field, FocusMetrics
+from controller.physics.field import Field, FocusMetrics
 from controller.physics.plate_twin import PlateTwin
 from controller.scene.emission import Emission
 from controller.simulation.simulated_run import Run
@@ -24,7 +24,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Focus:
-    """One focus of one emission, evaluated where its finger was at T."""
+    """One focus of one emission, evaluated where its finger was at T; amplitudes are those of a kick to either side."""
 
     time_s: float  # T, in the recording's time
     emission: Emission
@@ -66,7 +66,7 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
     with contextlib.suppress(KeyboardInterrupt):
         for done, ((tick, emissions), field) in enumerate(moments, 1):
             together = _judge_moment(run, twin, field, run.link.time_s(tick) - run.start_s, emissions)
-            better = _worth_showing(together) > _worth_showing(judged.shown)
+            better = _worth_showing(together, twin.scale.outside_m) > _worth_showing(judged.shown, twin.scale.outside_m)
             shown = (field, together) if better else (judged.field, judged.shown)
             judged.foci.extend(together)
             judged = Judged(judged.foci, *shown, len(meant) - done)
@@ -84,8 +84,9 @@ def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissi
         metrics = field.focus_metrics(x_m, y_m, places)
         crest_x_m, crest_y_m = field.crest(emission.x_m, emission.y_m)
         reference_m = twin.reference_amplitude(x_m, y_m)
-        relative = metrics.amplitude_m / reference_m if reference_m else float("nan")
-        exact_share = metrics.amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
+        amplitude_m = abs(metrics.amplitude_m)
+        relative = amplitude_m / reference_m if reference_m else float("nan")
+        exact_share = amplitude_m / (emission.amplitude * asked_m) if asked_m > 0 else float("nan")
         distance_m = float(np.hypot(crest_x_m - x_m, crest_y_m - y_m))
         together.append(Focus(time_s, emission, x_m, y_m, relative, exact_share, metrics, distance_m))
     return together
@@ -101,14 +102,14 @@ def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
     return meant
 
 
-def _worth_showing(foci: list[Focus]) -> tuple[int, float]:
-    """Rank of an emission for the picture: number of separate fingers, then amplitude of its weakest focus."""
+def _worth_showing(foci: list[Focus], apart_m: float) -> tuple[int, float]:
+    """Rank of an emission for the picture: number of fingers `apart_m` from others, then amplitude of its weakest focus."""
     apart = [
         focus.emission.finger is not None
-        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > OUTSIDE_M for other in foci if other is not focus)
+        and all(np.hypot(focus.x_m - other.x_m, focus.y_m - other.y_m) > apart_m for other in foci if other is not focus)
         for focus in foci
     ]
-    return sum(apart), min((focus.metrics.amplitude_m for focus in foci), default=0.0)
+    return sum(apart), min((abs(focus.metrics.amplitude_m) for focus in foci), default=0.0)
 
 
 def _place(tracks: dict[int, Track], emission: Emission, time_s: float) -> Point:

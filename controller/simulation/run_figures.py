@@ -53,6 +53,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "late": counters.late,
         "due": counters.due,
         "foci": counters.foci,
+        "composed_beforehand": counters.composed_beforehand,
         "prefetched": counters.prefetched,
         "prefetch_wasted": counters.prefetch_wasted,
         "near": counters.near,
@@ -103,7 +104,7 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
     columns: dict[str, tuple[list[float], Callable[[list[float]], float]]] = {
         "relative_amplitude": ([f.relative_amplitude for f in foci], min),
         "exact_share": ([f.exact_share for f in foci], min),
-        "amplitude_um": ([f.metrics.amplitude_m * 1e6 for f in foci], min),
+        "amplitude_um": ([abs(f.metrics.amplitude_m) * 1e6 for f in foci], min),
         "contrast": ([f.metrics.contrast for f in foci], min),
         "contrast_all": ([f.metrics.contrast_all for f in foci], min),
         "spot_mm": ([f.metrics.spot_m * 1e3 for f in foci], max),

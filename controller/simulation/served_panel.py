@@ -42,7 +42,7 @@ from controller.service.systemd import Notifier, Watchdog
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
-PITCH_M = 5e-3  # of the bank: the whole plate in a second
+PITCH_M = 4e-3  # of the bank: the whole plate in a second
 REPORT_S = 1 / 60
 FINGERS_MM = ((60.0, 50.0), (150.0, 95.0))  # centres of their movement
 SWING_MM, SWING_S = 20.0, 4.0

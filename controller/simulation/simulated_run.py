@@ -22,6 +22,7 @@ from controller.gateware_model.gateware import GatewareFactory
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.loop.records import Played
+from controller.loop.skips import ALL, Skips
 from controller.loop.wiring import assemble
 from controller.metrics import Counters, LatencyHistogram
 from controller.scene.scene import Scene
@@ -63,6 +64,7 @@ def play(
     real_time: bool,
     ready: Callable[[], None] = lambda: None,
     gateware: GatewareFactory = GatewareModel,
+    skips: Skips = ALL,
 ) -> Run:
     """Replay a recording through the event loop into the gateware.
 
@@ -80,6 +82,8 @@ def play(
         Called once the outputs are on.
     gateware : GatewareFactory
         Makes the gateware: the model by default, or the compiled Verilog.
+    skips : Skips
+        What of the loop's work is left out.
 
     Returns
     -------
@@ -102,7 +106,7 @@ def play(
     source = RecordingSource(recording, axes, start_s)
     contacts = {finger: [track] for finger, track in tracks.items()}
     tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
-    assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append)
+    assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append, skips=skips)
     assembly.loop.run(ready)
     link.close()
     return Run(

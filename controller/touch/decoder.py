@@ -38,7 +38,7 @@ from controller.touch.event_codes import (
     Protocol,
 )
 from controller.touch.event_reader import Event
-from controller.touch.source import Counts, TouchSample
+from controller.touch.source import Counts, TouchSample, touch_sample
 
 MAX_PLAYED: Final = 10
 MAX_SLOTS: Final = 256
@@ -76,6 +76,8 @@ class Decoder:
         Reports, contacts and fingers so far.
     warnings : Counter of str
         Anomalies so far, by kind.
+    touched : bool
+        Whether the events fed last ended a report with at least one contact down.
     """
 
     def __init__(
@@ -98,6 +100,7 @@ class Decoder:
         self._replaced: list[Contact] = []  # contacts that another one has replaced within the report
         self._touching: bool | None = None  # BTN_TOUCH, None before its first event
         self._dropping = False
+        self.touched = False
         self._played = 0
         self._next_finger: int = after._next_finger if after else 0
         self._serials = count(FIRST_SERIAL)
@@ -124,6 +127,7 @@ class Decoder:
             If the last event is SYN_REPORT: fingers released, then fingers moved or begun; else None.
         """
         samples = None
+        self.touched = False
         x_code, y_code = self._x_code, self._y_code
         for kind, code, value, _ in events:
             samples = None
@@ -296,6 +300,7 @@ class Decoder:
             elif contact.moved or contact.finger is None:
                 changed.append(contact)
         if down:
+            self.touched = True
             counts = self.counts
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)
@@ -326,7 +331,7 @@ class Decoder:
         contact.y_m = y_m
         contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
         contact.moved = False
-        samples.append(TouchSample(finger, x_m, y_m, time_s, True, size_m))
+        samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))
 
     def _down(self, contact: Contact) -> bool:
         return (contact.identity >= 0 or contact.identity == IMPLIED) and not contact.hovers and self._touching is not False

@@ -96,7 +96,6 @@ class LinuxInput:
             self._state_due = False
             return self._resynchronise(now_s)
         events: list[Event] = []
-        append = events.append
         unpack = INPUT_EVENT.unpack_from
         buffer = self._buffer
         begin = self._begin
@@ -116,7 +115,7 @@ class LinuxInput:
                     self._dropping = False
                     return self._resynchronise(now_s)
             else:
-                append((kind, code, value, second + microsecond * 1e-6))
+                events.append((kind, code, value, second + microsecond * 1e-6))
                 if kind == EV_SYN and code == SYN_REPORT:
                     break
         self._begin = begin

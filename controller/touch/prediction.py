@@ -7,7 +7,7 @@ reported position, so that it does not lag behind a moving finger.
 
 from __future__ import annotations
 
-from math import hypot
+from math import sqrt
 from typing import Final
 
 ALPHA, BETA = 0.7, 0.4  # gains of position and velocity; best over the recordings, and flat around there
@@ -80,17 +80,19 @@ class Motion:
         self._vx = vx = vx + BETA / step_s * off_x_m
         self._vy = vy = vy + BETA / step_s * off_y_m
         step_x_m, step_y_m = x_m - self.x_m, y_m - self.y_m
-        self.missed_m = hypot(step_x_m - self.vx * step_s, step_y_m - self.vy * step_s)
+        off_x_m, off_y_m = step_x_m - self.vx * step_s, step_y_m - self.vy * step_s
+        self.missed_m = sqrt(off_x_m * off_x_m + off_y_m * off_y_m)
         if vx * step_x_m + vy * step_y_m <= 0:
             vx = vy = 0.0
         else:
-            most = MAX_SPEED_RATIO * hypot(step_x_m, step_y_m) / step_s
-            speed = hypot(vx, vy)
+            most = MAX_SPEED_RATIO * sqrt(step_x_m * step_x_m + step_y_m * step_y_m) / step_s
+            speed = sqrt(vx * vx + vy * vy)
             if speed > most:
                 vx, vy = vx * most / speed, vy * most / speed
         self.vx, self.vy = vx, vy
         self.x_m, self.y_m, self.time_s = x_m, y_m, time_s
-        if hypot(x_m - self._anchor_x_m, y_m - self._anchor_y_m) <= REST_RADIUS_M:
+        off_x_m, off_y_m = x_m - self._anchor_x_m, y_m - self._anchor_y_m
+        if off_x_m * off_x_m + off_y_m * off_y_m <= REST_RADIUS_M * REST_RADIUS_M:
             self._rested += 1
             if self._rested == REST_REPORTS:
                 self._anchor_x_m, self._anchor_y_m = self._x_m, self._y_m
@@ -123,7 +125,7 @@ class Motion:
         silent_s = known_s - self.time_s
         if silent_s > MOVING_PERIODS * period_s:
             ahead_s *= max(SILENT_PERIODS - silent_s / period_s, 0.0) / (SILENT_PERIODS - MOVING_PERIODS)
-        ahead_m = hypot(self.vx, self.vy) * ahead_s
+        ahead_m = sqrt(self.vx * self.vx + self.vy * self.vy) * ahead_s
         if ahead_m > MAX_EXTRAPOLATION_M:
             ahead_s *= MAX_EXTRAPOLATION_M / ahead_m
         return self.x_m + self.vx * ahead_s, self.y_m + self.vy * ahead_s

@@ -7,11 +7,15 @@ and amplitudes to steps, so that a finger at rest asks for the same waveform aga
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Sequence
+from math import floor
 from typing import Final
 
+from controller.bank.grid import TO_WHOLE
 from controller.bank.reader import Bank
+from controller.errors import BankError
 from controller.fpga.frames import ReadyFrames, Waveform
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
@@ -55,6 +59,8 @@ class Selection:
         BankError
             If the bank's first entry is damaged.
         """
+        if not self._bank.composes:
+            return
         if self._composer is None:
             self._composer = Composer(self._bank, self._idle_word)
         cells = self._bank.cells.nonzero()[0]
@@ -68,7 +74,9 @@ class Selection:
         Raises
         ------
         ValueError
-            If an amplitude is not above 0 and at most 1.
+            If an amplitude is not above 0 and at most 1, or a place is NaN.
+        OverflowError
+            If a place is infinite.
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
@@ -77,17 +85,14 @@ class Selection:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
                     return cell
-            return ((round(x_m / LATTICE_M), round(y_m / LATTICE_M), step),)
-        lattice = []
-        for x_m, y_m, amplitude in points:
-            lattice.append((round(x_m / LATTICE_M), round(y_m / LATTICE_M), 0 if amplitude == 1 else amplitude_step(amplitude)))
-        lattice.sort()
-        return tuple(lattice)
+            return ((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step),)
+        return lattice_key(points)
 
     def waveform(self, key: Key) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
 
-        With frames comes the CRC-32 with which their entry was built, so that the FPGA finds whatever changed since.
+        With frames comes the CRC-32 with which they were built, so that the FPGA finds whatever changed since. Points that the bank
+        has composed beforehand are taken from there; if that is damaged, they are composed here.
 
         Raises
         ------
@@ -96,6 +101,9 @@ class Selection:
         """
         if isinstance(key, int):
             return ReadyFrames(*self._bank.frames(key))
+        if key in self._bank.compositions:
+            with contextlib.suppress(BankError):
+                return ReadyFrames(*self._bank.composed(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
         words = self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
@@ -112,6 +120,8 @@ class Selection:
         """
         if isinstance(key, int):
             self._bank.recheck(key)
+        else:
+            self._bank.recheck_composed(key)
 
     def reusable(self, key: Key, resident: Key) -> bool:
         """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within REUSE_RADIUS_M.
@@ -136,3 +146,13 @@ class Selection:
             return None
         x, y, step = key[0]
         return x * LATTICE_M, y * LATTICE_M, step
+
+
+def lattice_key(points: Sequence[Point]) -> tuple[LatticePoint, ...]:
+    """Points (x_m, y_m, amplitude) on the lattice, in ascending order."""
+    lattice = []
+    for x_m, y_m, amplitude in points:
+        step = 0 if amplitude == 1 else amplitude_step(amplitude)
+        lattice.append((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step))
+    lattice.sort()
+    return tuple(lattice)

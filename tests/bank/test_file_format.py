@@ -37,7 +37,8 @@ def read(data: bytes, table: list[tuple[str, int, str]], name: str, start: int =
 def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
     """Plain struct, offsets out of the README's tables: what another language would do."""
     rests = {cell: np.random.default_rng(cell).normal(0, 1e-9, (2, 32)) for cell in range(6)}
-    responses = make_bank(tmp_path / "bank", GRID, CELLS, rests=rests)
+    words_of = {((3, -4, 0), (3, 7, 16)): np.arange(9, dtype=np.uint32), ((40, 40, 32),): np.full(9, 0xF0F0F0F0, np.uint32)}
+    responses = make_bank(tmp_path / "bank", GRID, CELLS, rests=rests, compositions=words_of)
     data = (tmp_path / "bank").read_bytes()
     fields, columns = table_of("Header:"), table_of("One line of the section table:")
 
@@ -45,7 +46,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         return read(data, fields, name)
 
     assert header("`HPNLBANK`") == b"HPNLBANK"
-    assert header("format version") == 3
+    assert header("format version") == 4
     assert header("bytes of the file") == len(data)
     assert header("SHA-256") == board.digest()
     assert (header("pitch"), header("x"), header("y")) == (5e-3, 5e-3, 6e-3)
@@ -57,7 +58,7 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
     for line in range(count):
         row = {key: read(data, columns, key, 184 + 48 * line) for key in ("name", "offset", "bytes:", "bytes of", "stride", "CRC")}
         sections[row["name"].rstrip(b"\0").decode()] = row
-    for name in ("index", "checksums", "scale"):
+    for name in ("index", "checksums", "scale", "points"):
         section = sections[name]
         assert zlib.crc32(data[section["offset"] :][: section["bytes:"]]) == section["CRC"]
 
@@ -87,6 +88,14 @@ def test_a_bank_is_read_with_nothing_but_the_readme(tmp_path, make_bank, board):
         for row, rest in enumerate(rests[cell]):
             for q in range(32):
                 assert abs(struct.unpack_from("<b", levels, 32 * (9 + row) + q)[0] * scale - rest[q]) <= 0.501 * scale
+    assert header("compositions") == 2
+    for number, (points, words) in enumerate(words_of.items()):
+        crc, count, *steps = struct.unpack("<II30i", row_of("points", number))
+        assert list(zip(*[iter(steps[: 3 * count])] * 3, strict=True)) == list(points)
+        assert not any(steps[3 * count :])
+        frames = row_of("composed", number)
+        assert struct.unpack("<HBBHH9I", frames[:44]) == (0xA55A, 3, 0, 36, 0, *words.tolist())
+        assert crc == zlib.crc32(words.tobytes())
 
 
 def small_header(**changed):
@@ -135,9 +144,11 @@ TABLE = 184
         (160, struct.pack("<I", 1001), "does not allow"),
         (172, struct.pack("<I", 1 << 30), "does not allow"),  # bytes of parameters
         (176, struct.pack("<I", 6), "does not allow"),  # sections
-        (TABLE + 240, b"xx", "unreadable"),  # parameters that are not JSON
-        (TABLE + 240, b"[]", "no table"),
-        (TABLE + 340, b"x", "padding"),
+        (180, struct.pack("<I", 1025), "does not allow"),  # compositions
+        (180, struct.pack("<I", 1), "does not fit"),
+        (TABLE + 336, b"xx", "unreadable"),  # parameters that are not JSON
+        (TABLE + 336, b"[]", "no table"),
+        (TABLE + 436, b"x", "padding"),
         (16, struct.pack("<Q", 1 << 40), "is truncated"),
         (16, struct.pack("<Q", 4096), "has grown"),
     ],
@@ -151,7 +162,7 @@ def test_a_header_with_a_good_checksum_but_impossible_contents_is_refused(offset
 def test_a_page_that_no_section_owns_is_refused():
     header = small_header()
     data = bytearray(header.pack(header.sections()))
-    for line in range(1, 5):  # every section but the first one page on
+    for line in range(1, 7):  # every section but the first one page on
         at = TABLE + 48 * line + 16
         data[at : at + 8] = struct.pack("<Q", struct.unpack_from("<Q", data, at)[0] + 4096)
     data[16:24] = struct.pack("<Q", header.file_bytes + 4096)
@@ -164,3 +175,16 @@ def test_refuses_to_write_what_the_header_cannot_hold():
     for header in (small_header(creator="x" * 65), small_header(parameters={"x": "y" * (1 << 20)})):
         with pytest.raises(ValueError, match=r"creator|parameters"):
             header.pack(header.sections())
+
+
+CHOICE = {"asked": {"max_error": 0.1}, "pitch_mm": 4, "snap_mm": 1.5, "composes": False}
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [None, 1, [], {}, CHOICE | {"asked": 1}, CHOICE | {"pitch_mm": "4"}, CHOICE | {"snap_mm": None}, CHOICE | {"composes": True}],
+)
+def test_what_was_chosen_is_whole_or_nothing(choice):
+    assert small_header(parameters={"composes": False, "choice": CHOICE}).choice == CHOICE
+    assert small_header(parameters={"composes": False, "choice": choice}).choice is None
+    assert small_header(parameters={"composes": False}).sections()[4].rows == 0

@@ -1,7 +1,9 @@
 import errno
 import os
+import struct
 import zlib
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from controller.bank.grid import Grid
 from controller.bank.packing import drive_words
 from controller.bank.reader import Bank, map_bytes
 from controller.errors import BankError
+from controller.kernel import unpack_loads
 
 IDLE_WORD = 0x69969669
 CELLS = [True, False, True, True, False, True]
@@ -187,7 +190,7 @@ def test_the_bank_of_another_board_is_refused_with_both_digests(path, make_bank,
         (lambda data: data[:4096], "is truncated"),
         (lambda data: data[:-1], "is truncated"),
         (lambda data: data + b"\0", "has grown"),
-        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 3"),
+        (lambda data: data[:8] + b"\x01" + data[9:], "format version 1; this program reads version 4"),
         (lambda data: data[:12] + b"\x01" + data[13:], "header of 4097 bytes"),
         (lambda data: data[:30] + b"!" + data[31:], "CRC-32 of the header"),
         (lambda data: data[:4096] + b"\x07" + data[4097:], "CRC-32 of section 'index'"),
@@ -261,3 +264,39 @@ def test_a_name_in_a_bank_that_is_no_name_is_not_shown(path, make_bank):
     path.write_bytes(path.read_bytes()[:-1] + b"\1")
     with Bank.open(path) as bank:
         assert bank.rebuild.startswith("haptic-panel bank build --board NAME --out ")
+
+
+POINTS = ((3, -4, 0), (3, 7, 16))
+
+
+def test_a_composition_is_read_and_checked_once_and_a_damaged_one_is_taken_out(path, make_bank):
+    words = np.arange(9, dtype=np.uint32)
+    make_bank(path, compositions={POINTS: words})
+    with Bank.open(path) as bank:
+        for _ in range(2):
+            frames, crc = bank.composed(POINTS)
+            unpacked = bytearray(36)
+            assert unpack_loads(unpacked, frames) == crc
+            assert bytes(unpacked) == words.tobytes()
+        assert bank.counters.drive_checked == 1
+        at = bank.sections["composed"].offset
+        bank.recheck_composed(POINTS)
+        bank.recheck_composed(POINTS[:1])  # there is none
+        flip(path, at + 12, 1)
+        bank.composed(POINTS)  # was found good
+        with pytest.raises(BankError, match="composition 0 is damaged; rebuild it: haptic-panel bank build"):
+            bank.recheck_composed(POINTS)
+        assert not bank.compositions
+    with Bank.open(path) as bank, pytest.raises(BankError, match="is damaged"):
+        bank.composed(POINTS)
+
+
+@pytest.mark.parametrize("steps", [(2, 1, 2, 0, 0, 0, 0, 5), (0,), (11,)])
+def test_a_table_of_compositions_that_cannot_be_is_refused(path, make_bank, monkeypatch, steps):
+    packed = struct.Struct("<II30i")
+    monkeypatch.setattr(
+        "controller.bank.writer.COMPOSITION", SimpleNamespace(pack=lambda *_: packed.pack(1, *steps, *[0] * (31 - len(steps))))
+    )
+    make_bank(path, compositions={POINTS: np.arange(9, dtype=np.uint32)})
+    with pytest.raises(BankError, match=rf"composition of {steps[0]} points"):
+        Bank.open(path)

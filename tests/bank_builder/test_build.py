@@ -1,3 +1,4 @@
+import hashlib
 import json
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
+from controller.bank_builder.interpolation_error import InterpolationError
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.errors import BankError, ConfigError
@@ -127,6 +129,27 @@ def test_the_whole_plate_at_5_mm_is_built_in_600_mb(tmp_path):
     assert report["sgemm_share"] < 1
 
 
+def test_the_header_has_a_hash_of_what_a_bank_was_built_from_and_of_what_it_holds(board, built, tmp_path):
+    told = bank_info(built[1])["parameters"]
+    content = hashlib.sha256()
+    with Bank.open(built[1], board) as bank:
+        for cell in np.flatnonzero(bank.cells).tolist():
+            levels, scale_m_per_v = bank.response(cell)
+            content.update(bytes(bank.words(cell)))
+            start = bank.sections["response"].offset + cell * bank.sections["response"].stride
+            content.update(bank.read(start, bank.sections["response"].row_bytes))
+            assert np.frombuffer(bank.read(start, levels.nbytes), np.int8).tobytes() == levels.tobytes()
+            content.update(np.float32(scale_m_per_v).tobytes())
+    assert told["content_sha256"] == content.hexdigest()
+    again = tmp_path / "again"
+    build_bank(board, again, PITCH_M, measure_sgemm=False)
+    assert again.read_bytes() == built[1].read_bytes()
+    build_bank(board, again, PITCH_M, np.arange(15) == 3, measure_sgemm=False)
+    other = bank_info(again)["parameters"]
+    assert other["inputs_sha256"] != told["inputs_sha256"]
+    assert other["content_sha256"] != told["content_sha256"]
+
+
 def test_a_waveform_that_switches_more_often_than_the_board_allows_is_refused(board, tmp_path):
     report = build_bank(board, tmp_path / "bank", 20e-3, measure_sgemm=False)
     assert 70e3 < report.worst_edge_rate_hz < 110e3, "twice the mean frequency of what passes the driver, 40 kHz or so"
@@ -169,6 +192,8 @@ def test_responses_are_computed_in_blocks_of_whole_rows(board, tmp_path, monkeyp
 
     monkeypatch.setattr(ResponseModel, "entry_responses", noted)
     monkeypatch.setattr("controller.bank_builder.build.CELLS_PER_BLOCK", 12)
+    nothing = InterpolationError(np.zeros(0), np.zeros(0), np.zeros(0))
+    monkeypatch.setattr("controller.bank_builder.build.interpolation_error", lambda *_: nothing)
     grid = Grid.of(board.plate, PITCH_M)
     wanted = np.arange(15) % 7 != 3
     for cells in (np.ones(15, bool), wanted, np.arange(15) == 14):

@@ -444,14 +444,14 @@ static int decode(const struct event *events, int count, double time_s, struct s
 }
 
 /* One read: a report's events, or none; how long it took. */
-int64_t twin_read(const struct event *events, int count, double start_s, double now_s)
+int64_t twin_read(const struct event *events, int count, double now_s)
 {
     int64_t began_ns = now_ns();
     struct sample samples[2 * FINGERS];
     int n = 0, told = 0;
     if (count) {
         const struct event *last = events + count - 1;
-        double time_s = fmin(start_s + last->second + last->microsecond * 1e-6, now_s);
+        double time_s = fmin(last->second + last->microsecond * 1e-6, now_s);
         n = decode(events, count - 1, time_s, samples, &told);
     }
     tracker_read(samples, n, told, now_s);
@@ -494,12 +494,91 @@ static void patch_at(double x_m, double y_m, struct patch *p)
     for (int i = p->cells; i < 4; i++) p->from[i] = p->from[0];
 }
 
-/* Weights of responses: whole numbers that sum to 32767, each the smaller the larger its response is. */
-static void weigh(const int64_t *size, int count, int16_t *weight)
+/* Samples 0, 4, 8, .. of a response, then 2, 6, 10, .. */
+static int16_t sketch_of[POINTS][VALUES / 2];
+static int32_t sketch_sum[VALUES / 2];
+
+static void sketch(const int16_t *response, int16_t *out)
+{
+    for (int first = 0; first < 4; first += 2)
+        for (int n = first; n < SAMPLES; n += 4, out += CHANNELS)
+            for (int q = 0; q < CHANNELS; q++) out[q] = response[n * CHANNELS + q] >> 4;
+}
+
+static int64_t inner_product(const int16_t *a, const int16_t *b)
+{
+    int64_t sum = 0;
+    for (int v = 0; v < VALUES / 4; v += 256) { /* 256 products of 22 bits */
+        int32_t part = 0, end = v + 256 < VALUES / 4 ? v + 256 : VALUES / 4;
+        for (int k = v; k < end; k++) part += a[k] * b[k];
+        sum += part;
+    }
+    return sum;
+}
+
+/* Whole numbers that sum to 32767. */
+static void whole_weights(const double *divisor, const double *weight, int count, int16_t *whole)
 {
     double total = 0;
-    for (int i = 0; i < count; i++) total += 1.0 / (size[i] ? (double)size[i] : 1.0);
-    for (int i = 0; i < count; i++) weight[i] = (int16_t)rint(1.0 / (size[i] ? (double)size[i] : 1.0) * (32767 / total));
+    for (int i = 0; i < count; i++) total += fabs(weight[i] / divisor[i]);
+    for (int i = 0; i < count; i++) whole[i] = (int16_t)rint(weight[i] / divisor[i] * (32767 / total));
+}
+
+/* What each point gets of the sketch, with these weights. */
+static void got_of_sketch(const int16_t *weight, int count, int32_t *got)
+{
+    for (int v = 0; v < VALUES / 2; v++) sketch_sum[v] = weight[0] * sketch_of[0][v];
+    for (int i = 1; i < count; i++)
+        for (int v = 0; v < VALUES / 2; v++) sketch_sum[v] += weight[i] * sketch_of[i][v];
+    for (int i = 0; i < count; i++) {
+        int32_t sum = 0;
+        for (int v = 0; v < VALUES / 2; v++) sum += sketch_sum[v] > 0 ? sketch_of[i][v] : 0;
+        got[i] = sum;
+    }
+}
+
+/* Weights of responses, of the sums of whose absolute values: polarities with which the energy of the sum is largest, then balanced
+   so that all points get the same share. */
+static void weigh(const int64_t *size, const int16_t *const *response, int count, int16_t *weight)
+{
+    double divisor[POINTS], product[POINTS][POINTS], balance[POINTS], largest = 0;
+    int64_t whole[POINTS][POINTS] = {{0}}, most = INT64_MIN;
+    int best = 0, negative = 0;
+    for (int i = 0; i < count; i++) {
+        divisor[i] = size[i] ? (double)size[i] : INFINITY;
+        balance[i] = 1;
+        sketch(response[i], sketch_of[i]);
+        for (int j = 0; j < i; j++) {
+            product[i][j] = (double)inner_product(sketch_of[i], sketch_of[j]) / divisor[i] / divisor[j];
+            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+        }
+    }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) whole[i][j] = largest ? (int64_t)rint(product[i][j] * ((1 << 30) / largest)) : 0;
+    for (int choice = 0; choice < 1 << (count - 1); choice++) {
+        int64_t energy = 0;
+        for (int i = 0; i < count; i++)
+            for (int j = 0; j < i; j++) energy += ((choice << 1 >> i ^ choice << 1 >> j) & 1) ? -whole[i][j] : whole[i][j];
+        if (energy > most) {
+            most = energy;
+            best = choice;
+        }
+    }
+    for (int i = 0; i < count; i++) negative += best << 1 >> i & 1;
+    for (int i = 0; i < count; i++)
+        if ((best << 1 >> i & 1) != (2 * negative > count)) divisor[i] = -divisor[i];
+    for (int round = 0; round < 2; round++) {
+        double share[POINTS], mean = 0;
+        int32_t got[POINTS];
+        whole_weights(divisor, balance, count, weight);
+        got_of_sketch(weight, count, got);
+        for (int i = 0; i < count; i++) mean += share[i] = got[i] / divisor[i];
+        mean /= count;
+        for (int i = 0; i < count; i++) balance[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
+    }
+    for (int i = 0; i < count; i++) divisor[i] /= balance[i];
+    for (int i = 0; i < count; i++) balance[i] = 1;
+    whole_weights(divisor, balance, count, weight);
 }
 
 /* Words of a place and of several places: plain loops, or by -DVECTORS vectors of 128 bits, which are SSE and NEON alike. */
@@ -561,6 +640,7 @@ static void compose(const double (*points)[2], int count)
     i16x8 flips[GROUPS];
     int16_t weight[POINTS];
     int64_t size[POINTS] = {0};
+    const int16_t *response[POINTS];
     memcpy(flips, flip, sizeof flips);
     for (int i = 0; i < count; i++) {
         struct patch patch, *p = &patch;
@@ -581,7 +661,8 @@ static void compose(const double (*points)[2], int count)
             for (int k = 0; k < PER; k++) size[i] += low[k] + 256 * (int64_t)high[k];
         }
     }
-    weigh(size, count, weight);
+    for (int i = 0; i < count; i++) response[i] = (const int16_t *)rows[i];
+    weigh(size, response, count, weight);
     for (int n = 0; n < SAMPLES; n++) {
         uint32_t word = 0;
         for (int half = 0; half < 2; half++) {
@@ -645,6 +726,7 @@ static void interpolate(double x_m, double y_m)
 static void compose(const double (*points)[2], int count)
 {
     int64_t size[POINTS] = {0};
+    const int16_t *response[POINTS];
     int16_t weight[POINTS];
     for (int i = 0; i < count; i++) {
         struct patch p;
@@ -660,7 +742,8 @@ static void compose(const double (*points)[2], int count)
             size[i] += part;
         }
     }
-    weigh(size, count, weight);
+    for (int i = 0; i < count; i++) response[i] = (const int16_t *)rows[i];
+    weigh(size, response, count, weight);
     for (int i = 0; i < count; i++)
         if (i)
             for (int v = 0; v < VALUES; v++) total_of[v] += weight[i] * rows[i][v];

@@ -6,13 +6,9 @@ counts, of the scenes the median.
 
 from __future__ import annotations
 
-import ctypes
-import os
 import statistics
-import subprocess
 import tempfile
 import time
-from array import array
 from pathlib import Path
 
 import numpy as np
@@ -21,56 +17,15 @@ from controller import kernel
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
+from controller.benchmark.plain_c import PlainC
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.waveforms.composition import Composer, Point
 
-SOURCE = Path(__file__).with_name("compose_reference.c")
 FINGERS = (1, 2, 4, 10)
 SCENES = 12
 TURNS = 60
 MARGIN_M = 12e-3
-
-
-class BankOfReference(ctypes.Structure):
-    _fields_ = (
-        *((name, ctypes.c_void_p) for name in ("response", "entry_of", "scale_of")),
-        *((name, ctypes.c_int64) for name in ("stride", "nx", "ny")),
-        *((name, ctypes.c_double) for name in ("pitch_m", "x0_m", "y0_m")),
-        ("idle_word", ctypes.c_uint32),
-    )
-
-
-class Reference:
-    """Plain C on the responses of an open bank of which every cell that is played was used before.
-
-    Attributes
-    ----------
-    words : array
-        Of the last call.
-    """
-
-    def __init__(self, folder: Path, bank: Bank, idle_word: int) -> None:
-        library = folder / "compose_reference.so"
-        command = [os.environ.get("CC", "cc"), "-O3", "-Wall", "-Wextra", "-Werror", "-fno-math-errno"]
-        subprocess.run([*command, "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
-        self._compose = ctypes.CDLL(str(library)).compose_reference
-        self._compose.restype = ctypes.c_int64
-        grid, (entries, scales, _) = bank.grid, bank.response_tables()
-        self._kept = np.array(entries, np.int32), np.array(scales, np.float32), np.frombuffer(bank.responses, np.int8)
-        entry_of, scale_of, response = (some.ctypes.data for some in self._kept)
-        stride = bank.sections["response"].stride
-        self._bank = BankOfReference(
-            response, entry_of, scale_of, stride, grid.nx, grid.ny, grid.pitch_m, grid.x0_m, grid.y0_m, idle_word
-        )
-        self.words = (ctypes.c_uint32 * bank.samples)()
-
-    def compose(self, points: list[Point]) -> int:
-        """Compose points, all at full amplitude; time in ns."""
-        places = array("d", [number for x_m, y_m, _ in points for number in (x_m, y_m)])
-        address, _ = places.buffer_info()
-        taken_ns: int = self._compose(ctypes.byref(self._bank), ctypes.c_void_p(address), len(points), self.words)
-        return taken_ns
 
 
 def scenes_of(grid: Grid, fingers: int, on_grid: bool, amplitude: float, scenes: int = SCENES) -> list[list[Point]]:
@@ -98,7 +53,7 @@ def bank_for(folder: Path, scenes: list[list[Point]]) -> Path:
     return folder / "bank"
 
 
-def compared(composer: Composer, reference: Reference, scene: list[Point], turns: int = TURNS) -> tuple[float, float]:
+def compared(composer: Composer, reference: PlainC, scene: list[Point], turns: int = TURNS) -> tuple[float, float]:
     """Shortest times of the product and of the reference in us."""
     best = best_of_reference = float("inf")
     for _ in range(turns):
@@ -121,7 +76,7 @@ def main() -> None:
         for *_, some in rows:
             for scene in some:
                 composer.compose(scene)
-        reference = Reference(Path(folder), bank, board.idle_word)
+        reference = PlainC(Path(folder), bank, board.idle_word)
         for name, fingers, some in rows:
             times = [compared(composer, reference, scene) for scene in some]
             ours, plain = (statistics.median(column) for column in zip(*times, strict=True))

@@ -1,25 +1,48 @@
-"""Recordings round and round as the events of a panel: bytes as the kernel gives them, unpacked report by report."""
+"""Recordings round and round as a panel's events, which the product's `LinuxInput` reads from a pipe in the device's place.
+
+What is measured with it is the product's own reading, with its system call: of the panel itself only a comparison is in the turns.
+"""
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable, Sequence
+from math import inf
 from pathlib import Path
+from unittest import mock
 
 from controller.touch import event_codes as ev
+from controller.touch import linux_input
 from controller.touch.event_codes import Protocol
 from controller.touch.event_reader import AxisInfo, DeviceDescription, Event
-from controller.touch.linux_input import INPUT_EVENT
+from controller.touch.linux_input import BUFFERED_EVENTS, INPUT_EVENT, LinuxInput
 from controller.touch.recording import Recording
 
-Given = Callable[[float, float, int, bytes, int, int], None]
+Given = Callable[[float, int, bytes, int, int], None]
 
 PAUSE_S = 0.1  # between one recording and the next: all fingers are up
 LAST_SLOT = 15
+STATELESS = DeviceDescription("pipe", axes=dict.fromkeys(ev.POSITIONS, AxisInfo(0, 1)))  # of protocol A: no state is asked for
+
+
+class _Pipe:
+    """What `LinuxInput` has of an opened device; nothing waits in it unless it was sent."""
+
+    def __init__(self) -> None:
+        self.fd, self._sender = os.pipe()
+        os.set_blocking(self.fd, False)
+
+    def send(self, image: memoryview) -> None:
+        os.write(self._sender, image)
+
+    def close(self) -> None:
+        os.close(self.fd)
+        os.close(self._sender)
 
 
 class _Reports:
-    """One recording as an image of struct input_event; ends with all fingers lifted."""
+    """One recording, report by report; ends with all fingers lifted."""
 
     def __init__(self, recording: Recording) -> None:
         axes = {ev.ABS_MT_SLOT: AxisInfo(0, LAST_SLOT)}
@@ -31,10 +54,20 @@ class _Reports:
         for slot in sorted(used):
             events += [(ev.EV_ABS, ev.ABS_MT_SLOT, slot, end_s), (ev.EV_ABS, ev.ABS_MT_TRACKING_ID, -1, end_s)]
         events.append((ev.EV_SYN, ev.SYN_REPORT, 0, end_s))
-        self.image = b"".join(INPUT_EVENT.pack(int(t), round(t % 1 * 1e6), kind, code, value) for kind, code, value, t in events)
         ends = [i + 1 for i, (kind, code, _, _) in enumerate(events) if (kind, code) == (ev.EV_SYN, ev.SYN_REPORT)]
-        self.spans = list(zip([0, *ends], ends, strict=False))
-        self.times_s = [events[end - 1][3] for end in ends]
+        self.reports = [events[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
+        assert max(map(len, self.reports)) <= BUFFERED_EVENTS, "one read of the file takes a report"
+        self.end_s = end_s
+
+    def pack(self, image: bytearray, number: int, start_s: float) -> tuple[int, float]:
+        """Pack a report of a recording that began at `start_s`, as struct input_event: its bytes, and its time."""
+        size, time_s = 0, 0.0
+        for kind, code, value, at_s in self.reports[number]:
+            second, microsecond = divmod(round((start_s + at_s) * 1e6), 1_000_000)
+            INPUT_EVENT.pack_into(image, size, second, microsecond, kind, code, value)
+            size += INPUT_EVENT.size
+            time_s = second + microsecond * 1e-6
+        return size, time_s
 
 
 class LoopedPanel:
@@ -46,20 +79,34 @@ class LoopedPanel:
     start_s : float
         When the first one begins.
     given : callable, optional
-        Told of every read: recording, start of it, image, first event of the report, events; of none without a report.
+        Told of every read: its time, recording, image of the report, first event that was read, events; of none without a report.
     """
 
     def __init__(self, paths: Sequence[Path], start_s: float, given: Given | None = None) -> None:
-        self.warnings: Counter[str] = Counter()
         recordings = [Recording.open(path) for path in paths]
         self._all = [_Reports(recording) for recording in recordings if recording.protocol is Protocol.B]
         self.names = [reports.description.name for reports in self._all]
         self.stopped = False
         self.rounds = 0
         self._which = 0
-        self._next = 0
+        self._next = -1
         self._start_s = start_s
         self._given = given
+        self._pipe = _Pipe()
+        with mock.patch.object(linux_input, "open_touch_device", return_value=(self._pipe, STATELESS)):
+            self._reader = LinuxInput("")
+        self._read = self._reader.read
+        self._read(0.0)  # the state of protocol A
+        self._room = bytearray(BUFFERED_EVENTS * INPUT_EVENT.size)
+        self._view = memoryview(self._room)
+        self._image, self._at = b"", 0  # for whom it is given to
+        self._time_s = -inf  # of the report in the pipe
+        self._due_s = inf  # inf: it has been read
+
+    @property
+    def warnings(self) -> Counter[str]:
+        """Those of the reader."""
+        return self._reader.warnings
 
     @property
     def descriptions(self) -> list[DeviceDescription]:
@@ -81,34 +128,48 @@ class LoopedPanel:
         return
 
     def next_time_s(self) -> float | None:
-        """When the next report is due."""
-        if self.stopped and self._next == 0:
-            return None
-        return self._start_s + self._all[self._which].times_s[self._next]
+        """When the next report is due. It is made here, after a turn's work, and not where it is read."""
+        if self._due_s == inf:
+            if self._reader.next_time_s() is not None:  # the rest of a long report
+                self._due_s = self._time_s
+            elif not self._advance():
+                return None
+        return self._due_s
 
     def read(self, now_s: float) -> Sequence[Event]:
-        """Events of the report that is due, unpacked as `LinuxInput` does."""
-        reports = self._all[self._which]
-        if (self.stopped and self._next == 0) or self._start_s + reports.times_s[self._next] > now_s:
+        """Events of the report that is due, read by `LinuxInput`."""
+        if now_s < self._due_s:
             if self._given is not None:
-                self._given(now_s, self._start_s, self._which, b"", 0, 0)
+                self._given(now_s, self._which, b"", 0, 0)
             return ()
-        first, end = reports.spans[self._next]
-        unpack, image, start_s, events = INPUT_EVENT.unpack_from, reports.image, self._start_s, []
-        for at in range(first * INPUT_EVENT.size, end * INPUT_EVENT.size, INPUT_EVENT.size):
-            second, microsecond, kind, code, value = unpack(image, at)
-            events.append((kind, code, value, start_s + second + microsecond * 1e-6))
+        events = self._read(now_s)
+        self._due_s = inf
         if self._given is not None:
-            self._given(now_s, start_s, self._which, image, first, end - first)
-        self._next += 1
-        if self._next == len(reports.spans):
-            self._start_s += reports.times_s[-1] + PAUSE_S
+            self._given(now_s, self._which, self._image, self._at, len(events))
+            self._at += len(events)
+        return events
+
+    def close(self) -> None:
+        """Close the pipe."""
+        self._reader.close()
+
+    def _advance(self) -> bool:
+        """Put the next report into the pipe; False at the end."""
+        reports = self._all[self._which]
+        if self._next + 1 < len(reports.reports):
+            self._next += 1
+        elif self.stopped:
+            return False
+        else:
+            self._start_s += reports.end_s + PAUSE_S
             self._next = 0
             self._which += 1
             if self._which == len(self._all):
                 self._which = 0
                 self.rounds += 1
-        return events
-
-    def close(self) -> None:
-        """Nothing is held."""
+        size, self._time_s = self._all[self._which].pack(self._room, self._next, self._start_s)
+        self._pipe.send(self._view[:size])
+        if self._given is not None:
+            self._image, self._at = bytes(self._view[:size]), 0
+        self._due_s = self._time_s
+        return True

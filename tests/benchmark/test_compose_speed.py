@@ -1,12 +1,12 @@
 """The plain C beside which composing is timed does the same work: its words are equal."""
 
-import numpy as np
 import pytest
 
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
+from controller.benchmark.plain_c import PlainC
 from controller.waveforms.composition import Composer
-from tests.benchmark.compose_speed import Reference, bank_for, compared, scenes_of
+from tests.benchmark.compose_speed import bank_for, compared, scenes_of
 
 
 @pytest.mark.parametrize("on_grid", [False, True])
@@ -16,9 +16,9 @@ def test_plain_c_composes_the_same_words(board, tmp_path, on_grid):
     with Bank.open(bank_for(tmp_path, scenes)) as bank:
         composer = Composer(bank, board.idle_word)
         words = [composer.compose(scene).tobytes() for scene in scenes]
-        reference = Reference(tmp_path, bank, board.idle_word)
+        reference = PlainC(tmp_path, bank, board.idle_word)
         for scene, expected in zip(scenes, words, strict=True):
             ours_us, plain_us = compared(composer, reference, scene, turns=1)
             assert ours_us > 0
             assert plain_us > 0
-            assert np.array(reference.words, np.uint32).tobytes() == expected
+            assert reference.words_bytes() == expected

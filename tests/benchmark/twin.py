@@ -66,7 +66,7 @@ def compiled(folder: Path, *flags: str) -> ctypes.CDLL:
     subprocess.run(["cc", *flags, *warnings, "-ffp-contract=off", "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
     twin = ctypes.CDLL(str(library))
     twin.twin_read.restype = twin.twin_upload.restype = twin.twin_play.restype = ctypes.c_int64
-    twin.twin_read.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double)
+    twin.twin_read.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_double)
     twin.twin_sent.restype = ctypes.c_void_p
     return twin
 
@@ -139,7 +139,7 @@ class Twin:
         result: int = getattr(self._twin, name)(*arguments)
         return result
 
-    def given(self, now_s: float, start_s: float, which: int, image: bytes, first: int, count: int) -> None:
+    def given(self, now_s: float, which: int, image: bytes, first: int, count: int) -> None:
         """A read of the loop's panel."""
         if count and which != self._panel:
             self._panel = which
@@ -154,7 +154,7 @@ class Twin:
                 self._kept.append(image)  # replays read it too
                 self._images[id(image)] = np.frombuffer(image, np.uint8).ctypes.data
             at = self._images[id(image)] + first * INPUT_EVENT.size
-        self._call("twin_read", at, count, start_s, now_s)
+        self._call("twin_read", at, count, now_s)
 
     def aimed(self, finger: int, focus_s: float) -> None:
         """The loop asks where a finger will be."""

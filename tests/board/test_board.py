@@ -244,3 +244,13 @@ def test_a_boards_own_scene_is_not_taken_from_where_one_happens_to_be(tmp_path, 
     monkeypatch.chdir(tmp_path)
     assert find_scene(board) == board.folder / "scene.toml"
     assert find_scene(board, "scene.toml") == Path("scene.toml"), "as asked for"
+
+
+def test_patches_that_lie_on_each_other_are_refused_and_those_that_touch_are_not(tmp_path):
+    """Thirty-two on one place were accepted: glass has room for one there."""
+    piled, count = re.subn(r"x_mm = +[\d.]+, y_mm = +[\d.]+, size", "x_mm = 50.0, y_mm = 50.0, size", SHIPPED)
+    assert count == 32
+    assert "actuators[1] lies on actuators[0]" in refused(tmp_path, piled)
+    (tmp_path / "board.toml").write_text(SHIPPED.replace("size_mm = 4.6", "size_mm = 5.0"))
+    load_board(tmp_path)
+    assert "5.01 mm" in refused(tmp_path, SHIPPED.replace("size_mm = 4.6", "size_mm = 5.01"))

@@ -57,7 +57,7 @@ def small_board(tmp_path):
     """The simulated board with a coarse bank, a scene of one button and one click on it."""
     folder = tmp_path / "small"
     folder.mkdir()
-    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "pitch_mm = 10.0")
+    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "coarse = true\npitch_mm = 10.0")
     (folder / "board.toml").write_text(text.replace('name = "simulated"', 'name = "small"'))
     (folder / "scene.toml").write_text(
         '[[regions]]\nname = "button"\nshape = "circle"\nx_mm = 110.0\ny_mm = 74.0\nradius_mm = 15.0\n'
@@ -195,7 +195,7 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
     ("arguments", "code", "said"),
     [
         (("run", "--board", "nothing"), 78, "board 'nothing' not found; there are: ice40_hx8k, simulated"),
-        (("run", "--scene", "nothing"), 78, "scene 'nothing' not found; board 'simulated' has: library, plate, scene"),
+        (("run", "--scene", "nothing"), 78, "board 'simulated' has: keyboard, library, plate, scene, slider, spots"),
         (("run", "--replay", "/nothing.evemu"), 69, "/nothing.evemu: the recording cannot be read"),
         (("run", "--replay", "/"), 69, "the recording cannot be read"),
         (("run", "--bank", "/nothing.bank"), 78, "/nothing.bank: cannot be read"),
@@ -366,6 +366,28 @@ def test_a_changed_pitch_of_the_board_is_told_by_the_service_and_not_passed_over
     assert f"{path}: its cells are 10 mm apart, bank.pitch_mm of the board is 12; rebuild it: haptic-panel bank build" in said
     out, _ = printed(capsys, "doctor", "--board", small_board, code=1)
     assert re.search(r"NOT OK  bank +.*its cells are 10 mm apart", out)
+
+
+def test_run_plays_from_the_bank_that_auto_chose_and_chooses_again_for_other_bounds(capsys, small_board, monkeypatch):
+    monkeypatch.setattr("controller.bank_builder.choice.PITCHES_MM", (3.0, 4.0))
+    file = small_board / "board.toml"
+    text = file.read_text()
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\n')
+    out, err = printed(capsys, "run", "--board", small_board, "--speed", "max", "--json")
+    assert "building the bank" in err
+    assert json.loads(out)["focus"]["exact_share"]["worst"] > 1 - 0.1
+    choice = json.loads(printed(capsys, "bank", "info", path, "--json").out)["parameters"]["choice"]
+    assert choice["pitch_mm"] == 4.0
+    assert choice["why"].startswith("responses every 4 mm, cells within 1 mm of a lone finger: the smallest of")
+    assert "building the bank" not in printed(capsys, "run", "--board", small_board, "--speed", "max").err
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\nmax_error = 0.01\n')
+    out, _ = printed(capsys, "bank", "choices", "--board", small_board)
+    assert re.search(r"^ +3 +0.* <- auto$", out, re.MULTILINE)
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\nmax_error = 0.001\nmax_time_us = 1\n')
+    said = told_off(capsys, "run", "--board", small_board, "--speed", "max")
+    assert "compose.max_error = 0.001 and compose.max_time_us = 1 cannot both be kept for scene.toml" in said
 
 
 def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys, small_board):

@@ -146,7 +146,7 @@ def seven_inches(text):
         "length_mm": LENGTH_MM,
         "width_mm": WIDTH_MM,
         "thickness_mm": 0.7,
-        "pitch_mm": 5.0,
+        "pitch_mm": 4.5,
         "heartbeat_timeout_ms": 250.0,
         "scene": '"../simulated/plate.toml"',
     }.items():
@@ -302,7 +302,7 @@ def test_the_service_plays_what_was_commissioned():
 def test_a_pitch_changed_in_the_board_is_said_by_the_service_with_what_to_do():
     board = Path("/etc/haptic-panel/boards/panel/board.toml")
     good = board.read_text()
-    board.write_text(good.replace("pitch_mm = 5.0", "pitch_mm = 4.0"))
+    board.write_text(good.replace("pitch_mm = 4.5", "pitch_mm = 4.0"))
     try:
         run("systemctl", "stop", UNIT)
         subprocess.run(["systemctl", "start", UNIT], check=False, capture_output=True)

@@ -43,7 +43,7 @@ sed -i '1s#.*#\#!/opt/haptic-panel/bin/python#' "$tree/opt/haptic-panel/bin/hapt
 # the simulated board with a coarse bank, and a bit clock for which compiled Verilog is fast enough; the test files write what else their board has
 board=$tree/etc/haptic-panel/boards/panel
 cp -r "$checkout/boards/simulated" "$board"
-sed -i 's/^pitch_mm = .*/pitch_mm = 15.0/; s/^snap_mm = .*/snap_mm = 7.0/; s/^bit_clock_hz = .*/bit_clock_hz = 250e3/' "$board/board.toml"
+sed -i 's/^pitch_mm = .*/pitch_mm = 15.0\ncoarse = true/; s/^snap_mm = .*/snap_mm = 7.0/; s/^bit_clock_hz = .*/bit_clock_hz = 250e3/' "$board/board.toml"
 PYTHONPATH=$checkout STATE_DIRECTORY=$tree/var/lib/haptic-panel OPENBLAS_NUM_THREADS=1 "$python" -c \
   'import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))' bank build --board "$board" --scene scene --json >/dev/null
 

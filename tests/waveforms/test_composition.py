@@ -1,3 +1,5 @@
+import itertools
+
 import numpy as np
 import pytest
 
@@ -30,16 +32,29 @@ def interpolated(bank, x_m, y_m):
     return sum(round(256 * share / total) * bank.response(cell)[0].astype(np.int64) for cell, share in used)
 
 
-def reference(bank, points):
-    """The sum at full amplitude in float64, straight from its definition."""
-    return sum(here / np.abs(here).sum() for here in (interpolated(bank, x_m, y_m) for x_m, y_m, _ in points))
+def weighed(bank, points):
+    """Responses, and for each its weight of either sign, straight from the definition.
 
-
-def reference_in_whole_numbers(bank, points):
-    """The same with weights of 15 bits."""
+    The polarities with which the sum of every fourth sample has most energy, as few of them negative as positive; then two rounds
+    in which weights are divided by what their points get in every second sample.
+    """
     responses = [interpolated(bank, x_m, y_m) for x_m, y_m, _ in points]
-    shares = [1 / int(np.abs(here).sum()) for here in responses]
-    return sum(round(share * (32767 / sum(shares))) * here for share, here in zip(shares, responses, strict=True))
+    norms = np.array([float(np.abs(here).sum()) for here in responses])
+    deviating = [here * (1 - 2 * channel_bits(np.uint32([IDLE_WORD])).astype(np.int64)) for here in responses]
+    fourth, second = (np.array([here[::step] >> 4 for here in deviating]).reshape(len(points), -1) for step in (4, 2))
+    choices = np.array([(1, *rest) for rest in itertools.product((1, -1), repeat=len(points) - 1)])
+    signs = choices[np.argmax([np.sum((choice / norms @ fourth) ** 2) for choice in choices])]
+    signs = -signs if (signs < 0).sum() > len(points) / 2 else signs
+    weights = np.ones(len(points))
+    for _ in range(2 if len(points) > 1 else 0):
+        got = (whole(signs * weights / norms) @ second > 0) @ second.T * signs / norms
+        weights *= np.clip(got.mean() / got, 0.5, 2)
+    return np.array(responses), signs * weights / norms
+
+
+def whole(weights):
+    """Weights of 15 bits."""
+    return np.rint(weights * (32767 / np.abs(weights).sum())).astype(np.int64)
 
 
 def amplitude(words, response):
@@ -55,8 +70,9 @@ def test_composes_what_its_definition_gives(bank, count):
     for _ in range(5):
         points = [(*random.uniform([0, 0], [19e-3, 17e-3]).tolist(), 1.0) for _ in range(count)]
         words = np.frombuffer(composer.compose(points), "<u4")
-        assert words.tolist() == drive_words(reference_in_whole_numbers(bank, points), IDLE_WORD).tolist()
-        exact = reference(bank, points)
+        responses, weights = weighed(bank, points)
+        assert words.tolist() == drive_words(np.tensordot(whole(weights), responses, 1), IDLE_WORD).tolist()
+        exact = np.tensordot(weights, responses, 1)
         where = channel_bits(words) != channel_bits(drive_words(exact, IDLE_WORD))
         assert (np.abs(exact[where]) < 1e-3 * np.abs(exact).max()).all(), "only sums next to zero change their sign"
         differing += where.sum()
@@ -84,21 +100,35 @@ def test_between_cells_interpolating_reaches_more_than_the_nearest_entry(bank, w
         assert composed > max(nearest, 0.97)
 
 
-def test_equal_weights_give_equal_shares_however_unequal_the_responses(tmp_path, make_bank):
+def test_equal_weights_give_equal_shares_however_unequal_the_responses(tmp_path, make_bank, waves):
     """A plate that answers ten times stronger at one cell than at the other."""
-    random = np.random.default_rng(5)
-    responses = {0: 1e-8 * random.standard_normal((SAMPLES, CHANNELS)), 5: 1e-9 * random.standard_normal((SAMPLES, CHANNELS))}
-    make_bank(tmp_path / "bank", Grid(5e-3, 3, 2, 5e-3, 6e-3), np.isin(np.arange(6), [0, 5]), SAMPLES, responses=responses)
+    grid = Grid(5e-3, 3, 2, 5e-3, 6e-3)
+    responses = {0: waves.at(*grid.place(0)), 5: 0.1 * waves.at(*grid.place(5))}
+    make_bank(tmp_path / "bank", grid, np.isin(np.arange(6), [0, 5]), SAMPLES, responses=responses)
     with Bank.open(tmp_path / "bank") as bank:
         ends = bank.grid.points()[[0, 5]]
         points = [(x_m, y_m, 1.0) for x_m, y_m in ends]
         words = Composer(bank, IDLE_WORD).compose(points)
-        strong, weak = amplitude(words, responses[0]), amplitude(words, responses[5])
-        assert strong == pytest.approx(weak, abs=0.03)  # 6,400 random bits: 0.01 expected
+        strong, weak = abs(amplitude(words, responses[0])), abs(amplitude(words, responses[5]))
+        assert strong == pytest.approx(weak, abs=0.03)
         assert min(strong, weak) > 0.65  # two independent fingers: 1 / sqrt(2)
         scales = {cell: bank.response(cell)[1] for cell in (0, 5)}
         as_they_are = drive_words(sum(scales[c] * bank.response(c)[0].astype(float) for c in scales), IDLE_WORD)
         assert amplitude(as_they_are, responses[5]) < 0.2
+
+
+def test_a_point_that_cannot_move_takes_nothing_from_the_others(tmp_path, make_bank, waves):
+    grid = Grid(5e-3, 3, 2, 5e-3, 6e-3)
+    responses = {0: waves.at(*grid.place(0)), 5: np.zeros((SAMPLES, CHANNELS))}
+    make_bank(tmp_path / "bank", grid, np.isin(np.arange(6), [0, 5]), SAMPLES, responses=responses)
+    with Bank.open(tmp_path / "bank") as bank:
+        composer = Composer(bank, IDLE_WORD)
+        alone, together = (composer.compose([(*grid.place(c), 1.0) for c in cells]).tobytes() for cells in ([0], [0, 5]))
+        assert together == alone
+        half, together = (
+            amplitude(composer.compose([(*grid.place(c), 0.5) for c in cells]), responses[0]) for cells in ([0], [5, 0])
+        )
+        assert together == pytest.approx(half, abs=0.01)
 
 
 def test_where_nothing_is_to_be_done_channels_stay_idle(tmp_path, make_bank):

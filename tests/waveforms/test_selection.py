@@ -51,6 +51,15 @@ def test_a_finger_at_rest_asks_for_the_same_waveform_whatever_its_noise(selectio
     assert len(keys) == 1
 
 
+@pytest.mark.parametrize("steps", [200.5, 201.5, 202.49999999999997, 203.5000000000001, 0.5, -0.5, -1.5])
+def test_a_place_is_rounded_to_the_lattice_and_of_two_to_the_even_one(selection, steps):
+    x_m = steps * LATTICE_M
+    expected = round(x_m / LATTICE_M)
+    ((x, _, _),) = selection.key([(x_m, 0.0, 0.5)])
+    assert x == expected
+    assert sorted(x for x, _, _ in selection.key([(x_m, 0.0, 1.0), (0.15, 0.1, 1.0)])) == sorted([expected, 600])
+
+
 def test_the_order_of_the_fingers_does_not_matter_but_their_amplitudes_do(selection):
     a, b = (0.05, 0.05, 1.0), (0.15, 0.1, 0.5)
     assert selection.key([a, b]) == selection.key([b, a])

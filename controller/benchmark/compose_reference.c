@@ -17,7 +17,7 @@ struct bank {
     uint32_t idle_word;
 };
 
-static int16_t response_of[POINTS][VALUES];
+static int16_t response_of[POINTS][VALUES], sketch_of[POINTS][VALUES / 2]; /* a sketch: samples 0, 4, 8, .., then 2, 6, 10, .. */
 static int32_t sum_of[VALUES];
 static uint8_t bits[VALUES];
 
@@ -66,18 +66,102 @@ static int64_t interpolate(const struct bank *b, double x_m, double y_m, int16_t
     return norm;
 }
 
+/* Negated in channels that idle high: a bit deviates from idle where the sum is positive. */
+static void sketch(const int16_t *response, const int16_t *idles_high, int16_t *out)
+{
+    for (int first = 0; first < 4; first += 2)
+        for (int n = first; n < SAMPLES; n += 4, out += CHANNELS)
+            for (int c = 0; c < CHANNELS; c++) out[c] = ((response[n * CHANNELS + c] ^ -idles_high[c]) + idles_high[c]) >> 4;
+}
+
+/* Polarities with the largest energy of the sum, from the first half of the sketches. */
+static void find_polarities(const int64_t *norm, int count, int *sign)
+{
+    double product[POINTS][POINTS], largest = 0;
+    int64_t whole[POINTS][POINTS] = {{0}}, most = INT64_MIN;
+    int best = 0, negative = 0;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) {
+            int64_t sum = 0;
+            for (int v = 0; v < VALUES / 4; v += 250) {
+                int32_t part = 0;
+                for (int k = v; k < v + 250; k++) part += sketch_of[i][k] * sketch_of[j][k];
+                sum += part;
+            }
+            product[i][j] = (double)sum / (double)norm[i] / (double)norm[j];
+            if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+        }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < i; j++) whole[i][j] = (int64_t)rint(product[i][j] * ((1 << 30) / largest));
+    for (int choice = 0; choice < 1 << (count - 1); choice++) {
+        int64_t energy = 0;
+        for (int i = 0; i < count; i++)
+            for (int j = 0; j < i; j++) energy += (choice << 1 >> i & 1) == (choice << 1 >> j & 1) ? whole[i][j] : -whole[i][j];
+        if (energy > most) {
+            most = energy;
+            best = choice;
+        }
+    }
+    for (int i = 0; i < count; i++) negative += best << 1 >> i & 1;
+    for (int i = 0; i < count; i++) sign[i] = (best << 1 >> i & 1) != (2 * negative > count) ? -1 : 1;
+}
+
+/* Whole weights of 15 bits. */
+static void weigh(const double *divisor, const double *weight, int count, int16_t *whole)
+{
+    double total = 0;
+    for (int i = 0; i < count; i++) total += fabs(weight[i] / divisor[i]);
+    for (int i = 0; i < count; i++) whole[i] = (int16_t)rint(weight[i] / divisor[i] * (32767 / total));
+}
+
+/* Twice divide weights by what the points get. */
+static void balance(const double *divisor, int count, double *weight)
+{
+    for (int round = 0; round < 2; round++) {
+        int16_t whole[POINTS], above[VALUES / 2];
+        double share[POINTS], mean = 0;
+        weigh(divisor, weight, count, whole);
+        for (int i = 0; i < count; i++)
+            if (i == 0)
+                for (int v = 0; v < VALUES / 2; v++) sum_of[v] = whole[i] * sketch_of[i][v];
+            else
+                for (int v = 0; v < VALUES / 2; v++) sum_of[v] += whole[i] * sketch_of[i][v];
+        for (int v = 0; v < VALUES / 2; v++) above[v] = sum_of[v] > 0;
+        for (int i = 0; i < count; i++) {
+            int32_t got = 0; /* 16,000 values of 11 bits */
+            for (int v = 0; v < VALUES / 2; v++) got += sketch_of[i][v] * above[v];
+            share[i] = got / divisor[i];
+            mean += share[i];
+        }
+        mean /= count;
+        for (int i = 0; i < count; i++) weight[i] *= share[i] > 0 ? fmin(fmax(mean / share[i], 0.5), 2) : 2;
+    }
+}
+
 static void compose(const struct bank *b, const double (*points)[2], int count, uint32_t *words)
 {
     int64_t norm[POINTS];
-    double shares = 0;
+    double divisor[POINTS], weight_of[POINTS];
+    int16_t whole[POINTS], idles_high[CHANNELS];
+    int sign[POINTS] = {1};
     int32_t least[CHANNELS]; /* that plays high: a sum of zero leaves the channel idle */
     for (int c = 0; c < CHANNELS; c++) least[c] = b->idle_word >> c & 1 ? 0 : 1;
+    for (int c = 0; c < CHANNELS; c++) idles_high[c] = b->idle_word >> c & 1;
     for (int i = 0; i < count; i++) {
         norm[i] = interpolate(b, points[i][0], points[i][1], response_of[i]);
-        shares += 1.0 / (double)norm[i];
+        if (count > 1) sketch(response_of[i], idles_high, sketch_of[i]);
     }
+    if (count > 1) find_polarities(norm, count, sign);
     for (int i = 0; i < count; i++) {
-        int16_t weight = (int16_t)rint(1.0 / (double)norm[i] * (32767 / shares));
+        divisor[i] = sign[i] * (double)norm[i];
+        weight_of[i] = 1;
+    }
+    if (count > 1) balance(divisor, count, weight_of);
+    for (int i = 0; i < count; i++) divisor[i] /= weight_of[i];
+    for (int i = 0; i < count; i++) weight_of[i] = 1;
+    weigh(divisor, weight_of, count, whole);
+    for (int i = 0; i < count; i++) {
+        int16_t weight = whole[i];
         if (count == 1)
             for (int v = 0; v < VALUES; v++) sum_of[v] = response_of[0][v];
         else if (i == 0)

@@ -1,0 +1,261 @@
+"""Optimised drive words of many cells: in this process, in processes of this machine, or on other machines.
+
+A cell's words do not depend on where and with which others they are computed (`waveform_design/exact.py`), so tasks are small
+groups of cells, and one whose worker is lost is simply computed again by another. What is done is kept in a file beside the
+bank until the bank is there: an interrupted build goes on where it was.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import glob
+import os
+import struct
+import threading
+import zlib
+from collections.abc import Generator, Iterator
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from controller.bank.file_format import creator
+from controller.bank.packing import WORD
+from controller.board.board import Board
+from controller.errors import BankError, UsageError
+from controller.physics.impulse_response import ResponseModel
+from controller.waveform_design.descent import CELLS_AT_ONCE, Aim, Descent
+
+Words = NDArray[np.uint32]
+
+METHOD_CODE = ("exact.py", "field_form.py", "audible_form.py", "descent.py")
+TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
+CELLS_OF_A_STRANGER = 8  # some seconds of work
+FOUND_WITHIN_S = 30.0  # a scheduler on another machine
+LOST_WORKERS = 10  # that one group of cells may have had; more, and it is taken to be the cause
+ONE_AT_A_TIME = threading.Lock()  # in a process: the response model has one workspace, and a dask worker may have several threads
+RECORD = struct.Struct("<I")  # cell; then its words; then the CRC-32 of both
+
+
+@dataclass(frozen=True)
+class Workers:
+    """Who optimises.
+
+    Attributes
+    ----------
+    processes : int
+        On this machine; 1: the calling process itself.
+    address : str, optional
+        Of a dask scheduler, whose workers have this package in the same version; takes the place of `processes`.
+    """
+
+    processes: int = 1
+    address: str | None = None
+
+
+ALONE = Workers()
+
+
+@dataclass(frozen=True)
+class Task:
+    """A group of cells, and all that determines their words.
+
+    Attributes
+    ----------
+    points_m : tuple of (x_m, y_m)
+    maker : str
+        `creator()` of who asks: a worker of another version would compute other words.
+    """
+
+    board: Board
+    highest_hz: float
+    aim: Aim
+    points_m: tuple[tuple[float, float], ...]
+    maker: str
+
+
+def told(board: Board, aim: Aim) -> dict[str, Any]:
+    """What determines the words besides the board's physics and the cell, for a bank: aim, limit, CRC-32 of the code."""
+    code = 0
+    for name in METHOD_CODE:
+        code = zlib.crc32((Path(__file__).parent.parent / "waveform_design" / name).read_bytes(), code)
+    return {**asdict(aim), "max_edge_rate_hz": board.limits.max_edge_rate_hz, "code": f"{code:08x}"}
+
+
+def compute(task: Task) -> Words:
+    """Drive words of a task's cells: (cell, sample)."""
+    if task.maker != creator():
+        raise BankError(f"a worker has another version than asked for: {creator()}, not {task.maker}: install the same on all")
+    with ONE_AT_A_TIME, threadpool_limits(1, "blas"):
+        return _method(task.board, task.highest_hz, task.aim).entries(task.points_m)
+
+
+@lru_cache(maxsize=1)
+def _method(board: Board, highest_hz: float, aim: Aim) -> Descent:
+    return Descent(board, ResponseModel(board, highest_hz), aim)
+
+
+def kept_path(bank: Path, inputs_sha256: str) -> Path:
+    """File that keeps what is done of the bank at `bank`, by the hash of all that determines it."""
+    return bank.with_name(f".{bank.name}.{inputs_sha256[:16]}.words")
+
+
+def remove_kept(bank: Path) -> None:
+    """Remove what is kept of any build of the bank at `bank`."""
+    for file in bank.parent.glob(f".{glob.escape(bank.name)}.*.words"):
+        file.unlink(missing_ok=True)
+
+
+def optimised_words(
+    board: Board,
+    highest_hz: float,
+    aim: Aim,
+    cells: NDArray[np.intp],
+    points_m: NDArray[np.float64],
+    kept: Path,
+    workers: Workers,
+    *,
+    progress: bool = False,
+) -> Words:
+    """Optimise the entries of cells, the same bits whoever does it.
+
+    Parameters
+    ----------
+    board : Board
+    highest_hz : float
+        Modes above are left out.
+    aim : Aim
+    cells : (cell,) int array
+        Their numbers.
+    points_m : (cell, 2) array
+    kept : Path
+        File of what is done; what it holds is not computed again. The caller names it by all that determines the words, and removes
+        it when they are safe.
+    workers : Workers
+    progress : bool
+        Show a bar with the time left on stderr if that is a terminal.
+
+    Returns
+    -------
+    (cell, sample) uint32 array
+
+    Raises
+    ------
+    BankError
+        If the scheduler is not found, a worker has another version, or what is done cannot be kept.
+    """
+    words: Words = np.zeros((len(cells), board.waveform.samples), WORD)
+    with _Kept.open(kept, board.waveform.samples) as done:
+        missing = []
+        for index, cell in enumerate(cells.tolist()):
+            found = done.words.get(cell)
+            if found is None:
+                missing.append(index)
+            else:
+                words[index] = found
+        groups = _groups(missing, workers)
+        tasks = [Task(board, highest_hz, aim, tuple(map(tuple, points_m[group].tolist())), creator()) for group in groups]
+        bar = tqdm(
+            total=len(cells),
+            initial=len(cells) - len(missing),
+            unit="cell",
+            desc=f"optimised, {aim.name}",
+            disable=None if progress else True,
+        )
+        with bar, contextlib.closing(_computed(tasks, workers)) as results:
+            for number, result in results:
+                for index, row in zip(groups[number], result, strict=True):
+                    words[index] = row
+                    done.add(int(cells[index]), row)
+                done.flush()
+                bar.update(len(result))
+    return words
+
+
+def _groups(indices: list[int], workers: Workers) -> list[list[int]]:
+    """Groups of cells, each a task: large enough for fast products, and several for each worker."""
+    if workers.address:  # who knows how many there are
+        size = CELLS_OF_A_STRANGER
+    else:
+        size = max(1, min(CELLS_AT_ONCE, -(-len(indices) // (TASKS_PER_WORKER * workers.processes))))
+    return [indices[first : first + size] for first in range(0, len(indices), size)]
+
+
+def _computed(tasks: list[Task], workers: Workers) -> Generator[tuple[int, Words]]:
+    """Number of each task and its result, as they come."""
+    if not tasks:
+        return
+    if workers.address is None and workers.processes == 1:
+        yield from enumerate(map(compute, tasks))
+        return
+    import dask
+    from distributed import CancelledError, Client, KilledWorker, LocalCluster, as_completed
+
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
+        try:
+            cluster: Any = workers.address or stack.enter_context(
+                LocalCluster(
+                    n_workers=workers.processes,
+                    threads_per_worker=1,
+                    memory_limit=0,
+                    dashboard_address=None,
+                    silence_logs="CRITICAL",
+                )
+            )
+            client = stack.enter_context(Client(cluster, timeout=FOUND_WITHIN_S))
+        except (OSError, ValueError) as error:
+            raise BankError(f"--dask {workers.address}: no dask scheduler answers there ({error})") from error
+        number_of = {future: number for number, future in enumerate(client.map(compute, tasks, pure=False))}
+        try:
+            for future in as_completed(list(number_of)):
+                yield number_of[future], future.result()
+                future.release()
+        except (KilledWorker, CancelledError, OSError) as error:
+            raise BankError(
+                f"the workers are lost ({error}); what they have done is kept: the same command goes on there"
+            ) from error
+
+
+class _Kept:
+    """The file of entries that are done: records of cell, words and CRC-32, of which the last may be torn."""
+
+    def __init__(self, file: BinaryIO, samples: int) -> None:
+        self._file = file
+        self.words: dict[int, Words] = {}
+        size = RECORD.size + WORD.itemsize * samples + 4
+        whole = 0
+        while len(record := file.read(size)) == size and zlib.crc32(record[:-4]) == int.from_bytes(record[-4:], "little"):
+            self.words[RECORD.unpack_from(record)[0]] = np.frombuffer(record, WORD, samples, RECORD.size)
+            whole += size
+        file.seek(whole)
+        file.truncate()
+
+    @classmethod
+    @contextlib.contextmanager
+    def open(cls, path: Path, samples: int) -> Iterator[_Kept]:
+        try:
+            fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            with os.fdopen(fd, "r+b") as file:
+                try:
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    raise UsageError(
+                        f"{path}: another build is at work on the same bank: wait for it, or give another --out"
+                    ) from None
+                yield cls(file, samples)
+        except OSError as error:
+            raise BankError(f"{path}: cannot be written ({error.strerror})") from error
+
+    def add(self, cell: int, words: Words) -> None:
+        record = RECORD.pack(cell) + np.ascontiguousarray(words, WORD).tobytes()
+        self._file.write(record + zlib.crc32(record).to_bytes(4, "little"))
+
+    def flush(self) -> None:
+        self._file.flush()

@@ -1,0 +1,1 @@
+"""Methods of finding drive words that the benchmark compares, each tried in full: from points to words."""

@@ -1,0 +1,72 @@
+"""Responses as complex baseband at a reduced rate: what lies between 20 and 70 kHz needs no 500,000 samples a second.
+
+A response is the sum of pulses, low-passed by a windowed sinc, on a carrier in the middle of the band; their complex weights are
+stored, in 8 bits, in place of samples. The weights are those of least squares. Interpolating and summing is done on weights;
+one matrix product then gives the samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.bank.packing import CHANNELS, drive_words
+from controller.benchmark.methods.candidate import Candidate, Words, wire_bytes
+from controller.benchmark.methods.interpolation import bilinear
+from controller.benchmark.methods.laboratory import Laboratory
+from controller.benchmark.methods.responses import FromTable
+from controller.board.panel import Waveform
+from controller.kernel import Point
+
+DECIMATIONS = (5, 6, 7, 8, 10)  # samples of the bit clock to a complex one
+REACH = 4  # complex samples before and after a pulse's middle
+KAISER_BETA = 4.0
+PITCH_MM = 2.5
+
+
+def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
+    """All of them."""
+    board = laboratory.board
+    for decimation in DECIMATIONS:
+        pulses = pulse_matrix(board.waveform, decimation)
+        analysis = np.linalg.pinv(pulses).astype(np.float32)
+        table = laboratory.table(PITCH_MM * 1e-3, 8, bilinear, analysis)
+        yield Candidate(
+            curve="baseband, 8 bits, bilinear",
+            setting=f"{PITCH_MM:g} mm, 1/{decimation}",
+            compose=FromBaseband(FromTable(table, bilinear, board.idle_word), pulses.astype(np.float32), board.idle_word),
+            memory_bytes=table.memory_bytes + 4 * pulses.size,
+            wire_bytes=wire_bytes(board.waveform.samples),
+        )
+
+
+class FromBaseband:
+    """Drive words from a table of complex weights.
+
+    Parameters
+    ----------
+    weights : FromTable
+        Interpolates and sums them.
+    pulses : (sample, weight) array
+    idle_word : int
+    """
+
+    def __init__(self, weights: FromTable, pulses: NDArray[np.float32], idle_word: int) -> None:
+        self._weights, self._pulses, self._idle_word = weights, pulses, idle_word
+
+    def __call__(self, points: Sequence[Point]) -> Words:
+        """Drive words for points of full amplitude."""
+        return drive_words(self._pulses @ self._weights.sum(points).reshape(-1, CHANNELS), self._idle_word)
+
+
+def pulse_matrix(waveform: Waveform, decimation: int) -> NDArray[np.float64]:
+    """Pulses on the carrier, real and imaginary: (sample, 2 * pulses)."""
+    samples = np.arange(waveform.samples)
+    middles = np.arange(-1, -(-waveform.samples // decimation) + 2) * decimation
+    away = (samples[:, None] - middles) / decimation
+    inside = np.clip(1 - (away / REACH) ** 2, 0, None)
+    envelope = np.where(np.abs(away) < REACH, np.sinc(away) * np.i0(KAISER_BETA * np.sqrt(inside)) / np.i0(KAISER_BETA), 0)
+    phase = np.pi * (waveform.band_low_hz + waveform.band_high_hz) * waveform.bit_period_s * samples[:, None]
+    return np.concatenate([envelope * np.cos(phase), envelope * np.sin(phase)], axis=1)

@@ -1,0 +1,60 @@
+"""Methods behind `DesignMethod`, from the plate model: each is one line of `DESIGNS`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from controller.benchmark.methods.candidate import Candidate, Place, Words, wire_bytes
+from controller.benchmark.methods.laboratory import Laboratory
+from controller.board.board import Board
+from controller.kernel import Point
+from controller.physics.impulse_response import ResponseModel
+from controller.waveform_design.exact_composition import ExactComposition
+from controller.waveform_design.nulls import ExactNulls
+from controller.waveform_design.plain import SignOfSum
+from controller.waveforms.design import DesignMethod
+
+
+@dataclass(frozen=True)
+class Design:
+    """How a method is made, and how it is judged."""
+
+    make: Callable[[Board, ResponseModel], DesignMethod]
+    free_polarity: bool = False
+    keeps_quiet: bool = False
+
+
+DESIGNS = {
+    "full field, float64": Design(SignOfSum),
+    "exact composition": Design(ExactComposition, free_polarity=True),
+    "exact composition, nulls": Design(ExactNulls, free_polarity=True, keeps_quiet=True),
+}
+
+
+def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
+    """All of them."""
+    model, board = laboratory.model, laboratory.board
+    memory = model.modal_band.nbytes + model.forces.nbytes
+    for name, design in DESIGNS.items():
+        method = design.make(board, model)
+        yield Candidate(
+            name,
+            f"{model.modes} modes",
+            Designed(method),
+            memory,
+            wire_bytes(board.waveform.samples),
+            free_polarity=design.free_polarity,
+            keeps_quiet=design.keeps_quiet,
+        )
+
+
+class Designed:
+    """The drive words of a design method."""
+
+    def __init__(self, method: DesignMethod) -> None:
+        self._method = method
+
+    def __call__(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> Words:
+        """Drive words."""
+        return self._method.design(points, quiet).words

@@ -1,0 +1,35 @@
+"""The Pareto front of costs and errors: settings of which no other has both less cost and less error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
+    """Find the settings that no other one dominates.
+
+    One setting dominates another if neither its cost nor its error is larger and one of both is smaller.
+
+    Parameters
+    ----------
+    costs, errors : sequence of float
+        Of each setting.
+
+    Returns
+    -------
+    list of int
+        Indices by ascending cost. Of equal settings all are listed.
+
+    Raises
+    ------
+    ValueError
+        If there are not as many errors as costs.
+    """
+    by_cost = sorted(zip(costs, errors, range(len(costs)), strict=True))
+    front: list[int] = []
+    least = cost_of_least = float("inf")
+    for cost, error, index in by_cost:
+        if error < least or (error == least and cost == cost_of_least):
+            front.append(index)
+            least, cost_of_least = error, cost
+    return front

@@ -1,0 +1,253 @@
+"""Work-precision figures: time, memory, bytes and energy of every method against the errors of its drive words.
+
+In the manner of the SciML benchmarks: one curve for each method, one point for each of its settings, and the Pareto front of
+those that no other one beats in both. `haptic-panel benchmark` runs it; `work_precision_diagrams` draws it.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from controller.bank.packing import CHANNELS
+from controller.benchmark.baselines import Baselines
+from controller.benchmark.environment import environment
+from controller.benchmark.fingers_scenes import FINGERS, Scene, scenes
+from controller.benchmark.interleaved import Timing, interleaved
+from controller.benchmark.judge import Errors, Judge
+from controller.benchmark.methods.candidate import Candidate
+from controller.benchmark.methods.laboratory import Laboratory
+from controller.benchmark.methods.registry import all_candidates
+from controller.benchmark.pareto import pareto_front
+from controller.board.board import Board
+from controller.kernel import Point
+
+Figures = dict[str, Any]
+Progress = Callable[[int, int], None]
+SCHEMA_VERSION = 1
+LONGEST_S = 2.0  # of timing a method for one number of fingers, beyond its first turns
+PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
+BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
+AXES = ("time", "memory", "wire", "stage energy")
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
+
+    Attributes
+    ----------
+    each : int
+        Scenes of each family.
+    random_scenes : int
+        Further scenes of one to ten fingers.
+    timed_scenes : int
+        Scenes of each number of fingers on which methods are timed.
+    turns : int
+        Calls of each method for each of them.
+    """
+
+    each: int
+    random_scenes: int
+    timed_scenes: int
+    turns: int
+
+
+QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=15)
+FULL = Effort(each=10, random_scenes=100, timed_scenes=5, turns=60)
+
+
+def work_precision(
+    board: Board,
+    effort: Effort,
+    seed: int = 1,
+    *,
+    timing: bool = True,
+    candidates: Callable[[Laboratory], list[Candidate]] = all_candidates,
+    progress: Progress = lambda _done, _total: None,
+) -> Figures:
+    """Measure errors and costs of all methods.
+
+    Parameters
+    ----------
+    board : Board
+    effort : Effort
+    seed : int
+        Of the scenes. Errors of equal seeds are equal.
+    timing : bool
+        Whether times are measured.
+    candidates : callable
+        Makes the methods.
+    progress : callable
+        Called with what is done and all there is to do.
+
+    Returns
+    -------
+    dict
+        Plain values, as `tests/benchmark/work_precision.schema.json` says.
+    """
+    drawn = scenes(board, seed, effort.each, effort.random_scenes)
+    places = [place for scene in drawn for place in scene.expected]
+    with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
+        laboratory = Laboratory(board, Path(folder), places)
+        try:
+            methods = candidates(laboratory)
+            judge = Judge(board, {scene.detuning for scene in drawn})
+            finger_counts = [count for count in FINGERS if any(scene.family == f"{count} off grid" for scene in drawn)]
+            steps = len(drawn) + (len(finger_counts) * effort.turns if timing else 0)
+            bar = _Bar(progress, steps)
+            found = _errors(laboratory, judge, methods, drawn, bar)
+            times: dict[int, dict[int, Timing]] = {}
+            baselines: list[Figures] = []
+            left_out: list[str] = []
+            rates: Figures = {}
+            if timing:
+                machine = Baselines(board, laboratory.bank(board.bank.pitch_mm * 1e-3), Path(folder))
+                left_out = machine.left_out
+                modes = judge.modes
+                rates = {
+                    "sgemm_gflops": machine.sgemm_rate * 1e-9,
+                    "wire_us": machine.wire_us,
+                    "sgemm_response_us": machine.sgemm_us(modes),
+                    "multiplications_of_a_response": board.waveform.samples * CHANNELS * modes,
+                }
+                for count in finger_counts:
+                    timed = [scene for scene in drawn if scene.family == f"{count} off grid"][: effort.timed_scenes]
+                    times[count], besides = _times(laboratory, machine, methods, count, timed, effort.turns, bar)
+                    baselines += besides
+        finally:
+            laboratory.close()
+    settings = [_setting(method, index, found[index], times) for index, method in enumerate(methods)]
+    return {
+        "version": SCHEMA_VERSION,
+        "board": board.name,
+        "seed": seed,
+        "effort": asdict(effort),
+        "environment": environment(),
+        "modes": judge.modes,
+        "modes_in_band": judge.modes_in_band,
+        "scenes": {family: sum(scene.family == family for scene in drawn) for family in dict.fromkeys(s.family for s in drawn)},
+        "settings": settings,
+        "baselines": baselines,
+        "left_out": left_out,
+        "machine": rates,
+        "fronts": {
+            f"{axis}, {family}": front(settings, axis, family)
+            for axis in AXES
+            for family in dict.fromkeys(scene.family for scene in drawn)
+            if family != "idle"
+        },
+    }
+
+
+def cost(setting: Figures, axis: str, family: str) -> float | None:
+    """Cost of a setting on one of `AXES`, for scenes of a family; None if it was not measured."""
+    if axis == "memory":
+        return float(setting["memory_bytes"])
+    if axis == "wire":
+        return float(setting["wire_bytes"])
+    if axis == "stage energy":
+        found = setting["families"].get(family)
+        return found and float(found["stage_j"]["median"])
+    timing = setting["time_us"].get(family.partition(" ")[0])
+    return timing and float(timing["median_us"])
+
+
+def front(settings: Sequence[Figures], axis: str, family: str, error: str = "bound_loss") -> list[int]:
+    """Indices of the settings on the Pareto front of a cost and the median of an error, by ascending cost."""
+    judged = [index for index, setting in enumerate(settings) if family in setting["families"]]
+    costs = [(index, cost(settings[index], axis, family)) for index in judged]
+    costly = [(index, value) for index, value in costs if value is not None]
+    errors = [settings[index]["families"][family][error]["median"] for index, _ in costly]
+    return [costly[place][0] for place in pareto_front([value for _, value in costly], errors)]
+
+
+class _Bar:
+    """Counts what is done."""
+
+    def __init__(self, progress: Progress, total: int) -> None:
+        self._progress, self._done, self._total = progress, 0, total
+
+    def step(self) -> None:
+        self._done += 1
+        self._progress(self._done, self._total)
+
+
+def _full(scene: Scene) -> list[Point]:
+    return [(x_m, y_m, 1.0) for x_m, y_m in scene.expected]
+
+
+def _errors(
+    laboratory: Laboratory, judge: Judge, methods: Sequence[Candidate], drawn: Sequence[Scene], bar: _Bar
+) -> list[dict[str, list[Errors]]]:
+    """Errors of each method by family."""
+    found: list[dict[str, list[Errors]]] = [{} for _ in methods]
+    waiting = [scene for scene in drawn if scene.points]
+    while waiting:
+        some = [waiting.pop(0)]
+        while waiting and sum(len(scene.points) for scene in (*some, waiting[0])) <= PLACES_AT_ONCE:
+            some.append(waiting.pop(0))
+        laboratory.prepare([place for scene in some for place in scene.expected])
+        for scene in some:
+            able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
+            words = [methods[index].words_of(methods[index].run(_full(scene), scene.quiet)) for index in able]
+            judged = judge.errors(scene, words, [methods[index].free_polarity for index in able])
+            for index, errors in zip(able, judged, strict=True):
+                found[index].setdefault(scene.family, []).append(errors)
+            bar.step()
+    return found
+
+
+def _times(
+    laboratory: Laboratory,
+    machine: Baselines,
+    methods: Sequence[Candidate],
+    fingers: int,
+    timed: Sequence[Scene],
+    turns: int,
+    bar: _Bar,
+) -> tuple[dict[int, Timing], list[Figures]]:
+    """Times of methods, by their index, and of the baselines, all taking turns."""
+    laboratory.prepare([place for scene in timed for place in scene.expected])
+    able = [index for index, method in enumerate(methods) if fingers <= method.most_fingers]
+    jobs: list[list[Callable[[], object]]] = [[_call(methods[index], scene) for scene in timed] for index in able]
+    besides = machine.jobs([_full(scene) for scene in timed])
+    timings = interleaved([*jobs, *(job.calls for job in besides)], turns, LONGEST_S, bar.step)
+    rows = [
+        {"name": job.name, "fingers": fingers, **asdict(timing)} for job, timing in zip(besides, timings[len(able) :], strict=True)
+    ]
+    return dict(zip(able, timings, strict=False)), rows
+
+
+def _call(method: Candidate, scene: Scene) -> Callable[[], object]:
+    points, quiet = _full(scene), scene.quiet
+    return lambda: method.run(points, quiet)
+
+
+def _setting(method: Candidate, index: int, errors: dict[str, list[Errors]], times: dict[int, dict[int, Timing]]) -> Figures:
+    return {
+        "curve": method.curve,
+        "setting": method.setting,
+        "memory_bytes": method.memory_bytes,
+        "wire_bytes": method.wire_bytes,
+        "time_us": {str(count): asdict(timings[index]) for count, timings in times.items() if index in timings},
+        "families": {family: _summary(some) for family, some in errors.items()},
+    }
+
+
+def _summary(errors: Sequence[Errors]) -> Figures:
+    """Median and worst of each error."""
+    found: Figures = {}
+    for name in errors[0]:
+        values = [error[name] for error in errors]
+        found[name] = {
+            "median": float(np.median(values)),
+            "worst": float(min(values) if name in BETTER_HIGH else max(values)),
+        }
+    return found

@@ -1,0 +1,137 @@
+import dataclasses
+import os
+import signal
+
+import numpy as np
+import pytest
+from small_plate import small_board
+
+from controller.bank.file_format import creator
+from controller.bank.inspection import bank_info, verify_bank
+from controller.bank.reader import Bank
+from controller.bank_builder import optimised
+from controller.bank_builder.build import build_bank
+from controller.bank_builder.optimised import Workers, compute
+from controller.errors import BankError, UsageError
+from controller.waveform_design.descent import AIMS
+
+PITCH_M = 10e-3
+AIM = dataclasses.replace(AIMS["contrast"], steps=3)
+BOARD = small_board()
+CELLS = 6 * 4
+SOME = np.isin(np.arange(CELLS), [7, 8, 14, 15, 16])
+
+
+def build(path, cells=SOME, **options):
+    return build_bank(BOARD, path, PITCH_M, cells, measure_sgemm=False, **options)
+
+
+@pytest.fixture(scope="module")
+def banks(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("optimised")
+    build(folder / "plain")
+    return folder / "plain", folder / "optimised", build(folder / "optimised", aim=AIM)
+
+
+def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
+    plain, path, report = banks
+    assert verify_bank(path)["cells"] == 5
+    with Bank.open(plain, BOARD) as before, Bank.open(path, BOARD) as after:
+        for cell in np.flatnonzero(SOME).tolist():
+            assert bytes(before.words(cell)) != bytes(after.words(cell))
+            assert np.array_equal(before.response(cell)[0], after.response(cell)[0])
+    told = bank_info(path)["parameters"]
+    assert told["optimised"] == optimised.told(BOARD, AIM)
+    assert told["optimised"]["name"] == "contrast"
+    assert bank_info(plain)["parameters"]["optimised"] is None
+    assert told["amplitude_of_plain"]["cells"] == 5
+    assert 0.8 < told["amplitude_of_plain"]["least"] <= told["amplitude_of_plain"]["median"] < 1.3
+    assert report.optimised == {"aim": "contrast", "amplitude_of_plain": told["amplitude_of_plain"]}
+    assert 0 < report.optimise_seconds < report.seconds
+    assert told["inputs_sha256"] != bank_info(plain)["parameters"]["inputs_sha256"]
+    assert not list(path.parent.glob(".*"))
+
+
+def test_an_interrupted_build_leaves_the_old_bank_and_goes_on_where_it_was(banks, tmp_path, monkeypatch):
+    path = tmp_path / "bank"
+    build(path)
+    old = path.read_bytes()
+    monkeypatch.setattr(optimised, "CELLS_AT_ONCE", 2)  # tasks of 2, 2 and 1 cells
+    computed = []
+
+    def interrupted(task):
+        if computed:
+            raise KeyboardInterrupt
+        computed.append(task)
+        return compute(task)
+
+    monkeypatch.setattr(optimised, "compute", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        build(path, aim=AIM)
+    assert path.read_bytes() == old
+    (kept,) = tmp_path.glob(".bank.*.words")
+    assert not list(tmp_path.glob("*.building"))
+    record = 4 + 4 * BOARD.waveform.samples + 4
+    assert kept.stat().st_size == 2 * record
+    kept.write_bytes(kept.read_bytes()[:-1])  # as if the power had failed: the second record is torn
+
+    computed.clear()
+    monkeypatch.setattr(optimised, "compute", lambda task: (computed.append(task), compute(task))[1])
+    build(path, aim=AIM)
+    assert sum(len(task.points_m) for task in computed) == 4
+    assert path.read_bytes() == banks[1].read_bytes()
+    assert [file.name for file in tmp_path.iterdir()] == ["bank"]
+
+
+def test_what_is_kept_for_other_inputs_is_not_taken(tmp_path, monkeypatch):
+    def interrupt(task):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(optimised, "compute", interrupt)
+    for aim in (AIM, dataclasses.replace(AIM, calm=0.5)):
+        with pytest.raises(KeyboardInterrupt):
+            build(tmp_path / "bank", aim=aim)
+    assert len(list(tmp_path.glob(".bank.*.words"))) == 2
+
+
+def test_two_builds_of_one_bank_do_not_meet(tmp_path):
+    kept = tmp_path / "kept"
+    with optimised._Kept.open(kept, 4), pytest.raises(UsageError, match="another build"), optimised._Kept.open(kept, 4):
+        pass
+
+
+def test_a_worker_of_another_version_is_refused():
+    task = optimised.Task(BOARD, 100e3, AIM, ((0.03, 0.03),), creator() + "x")
+    with pytest.raises(BankError, match="another version"):
+        compute(task)
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_is_not_there_is_told(tmp_path, monkeypatch):
+    monkeypatch.setattr(optimised, "FOUND_WITHIN_S", 0.05)
+    with pytest.raises(BankError, match=r"--dask tcp://127\.0\.0\.1:1: no dask scheduler answers"):
+        build(tmp_path / "bank", aim=AIM, workers=Workers(address="tcp://127.0.0.1:1"))
+
+
+@pytest.mark.slow
+def test_a_bank_is_the_same_by_two_processes_of_which_one_is_killed(banks, tmp_path, monkeypatch):
+    """The first task to arrive kills its worker, as a power cut would; the scheduler gives it to another."""
+    monkeypatch.setattr(optimised, "compute", Fatal(str(tmp_path / "killed")))
+    build(tmp_path / "bank", aim=AIM, workers=Workers(2))
+    assert (tmp_path / "killed").exists()
+    assert (tmp_path / "bank").read_bytes() == banks[1].read_bytes()
+
+
+@dataclasses.dataclass(frozen=True)
+class Fatal:
+    """Kills the process that calls it first."""
+
+    mark: str
+
+    def __call__(self, task):
+        try:
+            os.close(os.open(self.mark, os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            return compute(task)
+        os.kill(os.getpid(), signal.SIGKILL)
+        raise AssertionError

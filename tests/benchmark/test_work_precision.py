@@ -1,0 +1,147 @@
+"""The benchmark as a whole, on a coarse grid with few methods: its figures, their schema, its diagrams and command."""
+
+import json
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import jsonschema
+import msgspec
+import pytest
+
+from controller.benchmark import baselines, judge
+from controller.benchmark import work_precision as module
+from controller.benchmark.interleaved import interleaved
+from controller.benchmark.methods import designs, device, modal_bank, registry
+from controller.benchmark.methods.laboratory import Laboratory
+from controller.benchmark.work_precision import Effort, cost, front, work_precision
+from controller.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
+from controller.cli import main
+from controller.commands import benchmark as command
+from controller.errors import ConfigError
+
+SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
+EFFORT = Effort(each=1, random_scenes=1, timed_scenes=1, turns=2)
+
+
+def few(laboratory):
+    """One setting of each of four methods."""
+    return [
+        *islice(device.candidates(laboratory), 3, 4),
+        *islice(modal_bank.candidates(laboratory), 4, 5),
+        *plain(laboratory),
+    ]
+
+
+def plain(laboratory):
+    return islice(designs.candidates(laboratory), 1)
+
+
+@pytest.fixture(scope="module")
+def coarse(small_board):
+    return msgspec.structs.replace(small_board, bank=msgspec.structs.replace(small_board.bank, pitch_mm=10.0))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def hasty():
+    """Neither the bounds of many fingers nor the machine's best rate are the subject here, and both take long."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(judge, "BOUND_STEPS", 5)
+        patched.setattr(baselines, "best_sgemm_rate", lambda: 1e10)
+        yield
+
+
+@pytest.fixture(scope="module")
+def figures(coarse):
+    return work_precision(coarse, EFFORT, seed=5, candidates=few)
+
+
+def test_figures_are_as_the_schema_says(figures):
+    jsonschema.validate(json.loads(json.dumps(figures, allow_nan=False)), SCHEMA)
+    broken = {**figures, "settings": [{**figures["settings"][0], "time_us": 3}]}
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(broken, SCHEMA)
+
+
+def test_errors_are_the_same_for_a_seed(coarse, figures):
+    again = work_precision(coarse, EFFORT, seed=5, timing=False, candidates=few)
+    assert [setting["families"] for setting in again["settings"]] == [setting["families"] for setting in figures["settings"]]
+    assert not any(setting["time_us"] for setting in again["settings"])
+    assert again["baselines"] == []
+
+
+def test_the_full_field_loses_nothing_alone_and_the_nearest_of_coarse_cells_much(figures):
+    entry, *_, exact = figures["settings"]
+    assert entry["curve"] == "nearest entry"
+    assert abs(exact["families"]["1 off grid"]["loss"]["worst"]) < 1e-9
+    assert entry["families"]["1 off grid"]["loss"]["worst"] > 0.3
+    assert "2 off grid" not in entry["families"]
+    assert exact["families"]["1 at +0.5 % drift"]["loss"]["median"] > 0.02
+    assert set(exact["time_us"]) == {"1", "2", "4", "10"}
+
+
+def test_fronts_name_settings_that_none_beats(figures):
+    for name, indices in figures["fronts"].items():
+        axis, _, family = name.partition(", ")
+        assert indices == front(figures["settings"], axis, family)
+        costs = [cost(figures["settings"][index], axis, family) for index in indices]
+        assert costs == sorted(costs)
+
+
+def test_every_diagram_has_its_curves(figures):
+    for name, draw in DIAGRAMS.items():
+        figure = draw(figures)
+        labels = {text.get_text() for ax in figure.axes for text in ax.texts}
+        assert {"B", "C"} <= labels, name  # the letters of the curves
+        assert len(figure.legends[0].get_texts()) == 4
+
+
+@pytest.mark.slow
+def test_every_diagram_is_written(figures, tmp_path):
+    written = draw_all(tmp_path, figures)
+    assert {path.suffix for path in written} == {".png", ".svg"}
+    assert {path.stem for path in written} == set(DIAGRAMS)
+    for path in written:
+        assert path.stat().st_size > 10_000
+    with pytest.raises(ConfigError, match="cannot be written"):
+        draw_all(tmp_path / "nowhere", figures)
+
+
+def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(module, "QUICK", replace(EFFORT, random_scenes=0))
+    monkeypatch.setattr(registry, "METHODS", (plain,))
+    monkeypatch.setattr(command, "load_board", lambda _folder: coarse)
+    assert main(["benchmark", "--quick", "--no-timing", "--no-pictures", "--json", "--out", str(tmp_path / "out")]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert shown == json.loads((tmp_path / "out" / "work_precision.json").read_text())
+    assert shown["seed"] == 1
+    (tmp_path / "file").write_text("")
+    assert main(["benchmark", "--out", str(tmp_path / "file")]) == 78
+    assert "another folder" in capsys.readouterr().err
+
+
+def test_every_method_gives_words(small_board, tmp_path):
+    places = [(0.0417, 0.0332), (0.0603, 0.0471)]
+    laboratory = Laboratory(small_board, tmp_path, places)
+    try:
+        methods = registry.all_candidates(laboratory)
+        laboratory.prepare(places)
+        assert len({(method.curve, method.setting) for method in methods}) == len(methods)
+        for method in methods:
+            points = [(*place, 1.0) for place in places[: method.most_fingers]]
+            words = method.words_of(method.run(points, (0.05, 0.02)))
+            assert words.dtype == "u4"
+            assert 0 < len(words) <= small_board.waveform.samples
+            assert method.memory_bytes > 0
+            assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
+    finally:
+        laboratory.close()
+
+
+def test_jobs_take_turns():
+    order = []
+    timings = interleaved([[lambda: order.append("a")], [lambda: order.append("b")]], turns=5, most_s=1e3)
+    assert order == ["a", "b", *("a", "a", "b", "b") * 5]
+    assert [timing.calls for timing in timings] == [5, 5]
+    assert all(0 <= timing.median_us <= timing.p99_us for timing in timings)
+    assert interleaved([[lambda: order.append("a")]], turns=50, most_s=0)[0].calls == 3
