@@ -169,6 +169,17 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
 
 
+def optimised_for(path: Path) -> str:
+    """What the entries of the bank at `path` were optimised for; empty: nothing, or there is no such bank that can be read."""
+    try:
+        with Bank.open(path) as bank:
+            told = bank.header.parameters.get("optimised")
+    except BankError:
+        return ""
+    name = told.get("name") if isinstance(told, dict) else None
+    return name if isinstance(name, str) and name.isprintable() else ""
+
+
 def wrong_pitch(bank: Bank, board: Board) -> str:
     """How the grid of a bank differs from that of a board; empty: it does not."""
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):
