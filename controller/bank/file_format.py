@@ -104,6 +104,11 @@ class Header:
         return round_up(FIXED.size + SECTIONS * SECTION.size + len(self._json()) + CRC.size, PAGE)
 
     @property
+    def composes(self) -> bool:
+        """Whether there are responses, from which other places, less amplitude and several points at once are composed."""
+        return self.parameters.get("composes") is not False
+
+    @property
     def rest_rows(self) -> int:
         """Rows of the rest of a response: one for each `REST_SAMPLES` samples."""
         return -(-self.samples // REST_SAMPLES)
@@ -118,7 +123,7 @@ class Header:
             ("checksums", self.entries, 8, 8),
             ("scale", self.entries, 4, 4),
             ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
-            ("response", self.entries, response_bytes, round_up(response_bytes, LINE)),
+            ("response", self.entries if self.composes else 0, response_bytes, round_up(response_bytes, LINE)),
             ("points", self.compositions, COMPOSITION.size, COMPOSITION.size),
             ("composed", self.compositions, drive_bytes, round_up(drive_bytes, PAGE)),
         ):

@@ -59,6 +59,8 @@ class Selection:
         BankError
             If the bank's first entry is damaged.
         """
+        if not self._bank.composes:
+            return
         if self._composer is None:
             self._composer = Composer(self._bank, self._idle_word)
         cells = self._bank.cells.nonzero()[0]

@@ -7,7 +7,7 @@
 
 _shtab_haptic_panel_board_subparsers=(check reference schema)
 _shtab_haptic_panel_gateware_subparsers=(check)
-_shtab_haptic_panel_bank_subparsers=(build info verify)
+_shtab_haptic_panel_bank_subparsers=(build choices info verify)
 _shtab_haptic_panel_subparsers=(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)
 
 _shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plot)
@@ -19,6 +19,7 @@ _shtab_haptic_panel_board_option_strings=(-h --help)
 _shtab_haptic_panel_gateware_check_option_strings=(-h --help --board --json --link --device --baud --bits --channel --pause-s)
 _shtab_haptic_panel_gateware_option_strings=(-h --help)
 _shtab_haptic_panel_bank_build_option_strings=(-h --help --board --json --scene --pitch-mm --out --memory-mb --optimise --workers --dask)
+_shtab_haptic_panel_bank_choices_option_strings=(-h --help --board --json --scene)
 _shtab_haptic_panel_bank_info_option_strings=(-h --help --board --json --power)
 _shtab_haptic_panel_bank_verify_option_strings=(-h --help --board --json)
 _shtab_haptic_panel_bank_option_strings=(-h --help)
@@ -48,7 +49,7 @@ _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)
 _shtab_haptic_panel_gateware_pos_0_choices=(check)
 _shtab_haptic_panel_bank_build___optimise_choices=(contrast quiet balanced)
-_shtab_haptic_panel_bank_pos_0_choices=(build info verify)
+_shtab_haptic_panel_bank_pos_0_choices=(build choices info verify)
 _shtab_haptic_panel_calibrate_touch___targets_choices=(3 4 5)
 _shtab_haptic_panel_completion_pos_0_choices=(bash zsh tcsh)
 _shtab_haptic_panel_pos_0_choices=(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)
@@ -81,6 +82,9 @@ _shtab_haptic_panel_gateware___help_nargs=0
 _shtab_haptic_panel_bank_build__h_nargs=0
 _shtab_haptic_panel_bank_build___help_nargs=0
 _shtab_haptic_panel_bank_build___json_nargs=0
+_shtab_haptic_panel_bank_choices__h_nargs=0
+_shtab_haptic_panel_bank_choices___help_nargs=0
+_shtab_haptic_panel_bank_choices___json_nargs=0
 _shtab_haptic_panel_bank_info__h_nargs=0
 _shtab_haptic_panel_bank_info___help_nargs=0
 _shtab_haptic_panel_bank_info___json_nargs=0

@@ -29,7 +29,7 @@ complete haptic-panel \
         'p/1/(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
-        'n/bank/(build info verify)/' \
+        'n/bank/(build choices info verify)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
