@@ -109,6 +109,18 @@ class Header:
         return self.parameters.get("composes") is not False
 
     @property
+    def choice(self) -> dict[str, Any] | None:
+        """What was chosen with the bank, and what for (`bank_builder/choice.py`); None if nothing was."""
+        choice = self.parameters.get("choice")
+        if not isinstance(choice, dict) or not isinstance(choice.get("asked"), dict):
+            return None
+        whole = (
+            all(type(choice.get(name)) in {int, float} for name in ("pitch_mm", "snap_mm"))
+            and choice.get("composes") is self.composes
+        )
+        return choice if whole else None
+
+    @property
     def rest_rows(self) -> int:
         """Rows of the rest of a response: one for each `REST_SAMPLES` samples."""
         return -(-self.samples // REST_SAMPLES)

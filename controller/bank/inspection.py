@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -184,8 +183,8 @@ def optimised_for(path: Path) -> str:
 
 
 def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
-    """What a choice is made for, as its bank repeats it: the board's bounds, and a hash of the scene's file."""
-    return bounds_of(board) | {"scene_sha256": hashlib.sha256(scene_file.read_bytes()).hexdigest()}
+    """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
+    return bounds_of(board) | {"scene_crc32": zlib.crc32(scene_file.read_bytes())}
 
 
 def bounds_of(board: Board) -> dict[str, Any]:
@@ -197,17 +196,16 @@ def choice_of(path: Path) -> dict[str, Any] | None:
     """What was chosen with the bank at `path`; None if there is no such bank, or nothing was."""
     try:
         with Bank.open(path) as bank:
-            choice = bank.header.parameters.get("choice")
+            return bank.header.choice
     except BankError:
         return None
-    return choice if isinstance(choice, dict) else None
 
 
 def wrong_pitch(bank: Bank, board: Board) -> str:
     """How the grid of a bank differs from that of a board, or the bounds it was chosen for from the board's; empty: they do not."""
     if board.compose.method == "auto":
-        choice = bank.header.parameters.get("choice")
-        if isinstance(choice, dict) and bounds_of(board).items() <= choice.get("asked", {}).items():
+        choice = bank.header.choice
+        if choice and bounds_of(board).items() <= choice["asked"].items():
             return ""
         return f"it was not chosen for {', '.join(f'compose.{name} = {value:g}' for name, value in bounds_of(board).items())}"
     if not bank.composes:

@@ -133,10 +133,8 @@ class Bank:
 
     def snap_m(self, board: Board) -> float:
         """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
-        choice = self.header.parameters.get("choice")
-        if board.compose.method == "auto" and isinstance(choice, dict):
-            return float(choice["snap_mm"]) * 1e-3
-        return board.bank.snap_mm * 1e-3
+        choice = self.header.choice if board.compose.method == "auto" else None
+        return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
 
     @property
     def worst_edges(self) -> tuple[int, int]:

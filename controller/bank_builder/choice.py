@@ -156,7 +156,7 @@ def _none(board: Board, called: str, found: Sequence[Setting]) -> str:
     bounds = board.compose
     said = f"board {board.name!r}: compose.max_error = {bounds.max_error:g} and compose.max_time_us = {bounds.max_time_us:g}"
     if not found:
-        return f"{said}: {called} reaches no cell of any grid"
+        return f"{said}: {called} reaches no cell of a grid between {FINEST:g} and 0.5 wavelengths"
     least, fastest = min(found, key=lambda one: one.error), min(found, key=lambda one: one.time_us)
     return (
         f"{said} cannot both be kept for {called}: the least error is {least.error:g} ({least.time_us:g} us), the least time"

@@ -74,7 +74,9 @@ class Selection:
         Raises
         ------
         ValueError
-            If an amplitude is not above 0 and at most 1.
+            If an amplitude is not above 0 and at most 1, or a place is NaN.
+        OverflowError
+            If a place is infinite.
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]

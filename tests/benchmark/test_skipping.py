@@ -2,14 +2,16 @@
 
 import json
 import shutil
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
 from controller.benchmark import skipping
-from controller.benchmark.skipping import CASES, NONE, Case, Contact, exact_bits, figures, main
-from controller.loop.skips import ALL
+from controller.benchmark.skipping import CASES, NONE, Case, Contact, exact_bits, figures
+from controller.cli import main
+from controller.commands.benchmark import SKIPS
+from controller.loop.skips import ALL, Skips
 
 OF = {case.name: case for case in CASES}
 SHORT_S = 0.52  # ends in the middle of a beat of the spots
@@ -34,6 +36,10 @@ def short(name):
 
 KEYBOARD = replace(OF["keyboard"], contacts=OF["keyboard"].contacts[:8])
 STILL = (KEYBOARD, OF["idle"], short("four always-on spots"))
+
+
+def test_the_command_names_every_switch():
+    assert tuple(field.name for field in fields(Skips)) == SKIPS
 
 
 def test_the_cases_that_say_so_have_fingers_that_do_not_move():
@@ -91,10 +97,12 @@ def test_the_command_prints_every_case_and_fails_if_bits_differ_that_must_not(ca
     monkeypatch.setattr(skipping, "build_bank", lambda _board, path, **_: shutil.copy(bank_file, path))
     on_a_cell = Case("one tap", "plate", (Contact(0.0, 0.1, lambda _: (100.0, 74.0)),), True)
     monkeypatch.setattr(skipping, "CASES", (on_a_cell,))
-    assert main(["--repeats", "1"]) == 0
+    assert main(["benchmark", "skipping", "--repeats", "1"]) == 0
     assert "output bits, exact skipping against none: equal (must be equal)" in capsys.readouterr().out
     monkeypatch.setattr(skipping, "EXACT", ("cells",))
-    assert main(["--repeats", "1", "--json", "--no-skip", "cells"]) == 1, "a cell's own words are not the composed ones"
+    assert main(["benchmark", "skipping", "--repeats", "1", "--json", "--no-skip", "cells"]) == 1, (
+        "a cell's own words are not the composed ones"
+    )
     told = json.loads(capsys.readouterr().out)["cases"][0]
     assert told["switched_off"] == ["cells"]
     assert not told["exact_bits"]
