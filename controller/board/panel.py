@@ -36,14 +36,14 @@ class Plate(Record, frozen=True):
         Plate theory that the model uses.
     """
 
-    length_mm: Annotated[float, Meta(ge=20, le=2000)]
-    width_mm: Annotated[float, Meta(ge=20, le=2000)]
+    length_mm: Annotated[float, Meta(ge=20, le=4000)]
+    width_mm: Annotated[float, Meta(ge=20, le=4000)]
     thickness_mm: Annotated[float, Meta(ge=0.05, le=20)]
     young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)]
     poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
     density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)]
     edge: Literal["simply_supported"]
-    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10)]
+    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
     theory: Literal["kirchhoff"] = "kirchhoff"
 
     @property
@@ -173,6 +173,26 @@ class Bank(Record, frozen=True):
     pitch_mm: Annotated[float, Meta(ge=0.5, le=50)]
     snap_mm: NotNegative
     coarse: bool = False
+
+
+class Compose(Record, frozen=True):
+    """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
+
+    Attributes
+    ----------
+    method
+        `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
+        responses at all, so that the bank is the smallest that keeps the two bounds.
+    max_error
+        Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
+    max_time_us
+        Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel on
+        the machine of the benchmark.
+    """
+
+    method: Literal["bank", "auto"] = "bank"
+    max_error: Annotated[float, Meta(gt=0, le=1)] = 0.1
+    max_time_us: Annotated[float, Meta(gt=0, le=10e3)] = 500.0
 
 
 class Limits(Record, frozen=True):

@@ -56,6 +56,7 @@ enum {
 static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
 static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
@@ -668,8 +669,10 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
         PyErr_SetString(PyExc_ValueError, "a place of the points to compose is not finite");
     else if (!(read[2] > 0 && read[2] <= 1))
         PyErr_SetString(PyExc_ValueError, "an amplitude of the points to compose is not above 0 and at most 1");
-    else
+    else {
+        if (read[2] < LEAST_AMPLITUDE) read[2] = LEAST_AMPLITUDE;
         return 1;
+    }
     return 0;
 }
 
@@ -704,23 +707,45 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
 
 enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };
 
+/* The bank in the buffers; 0 with an exception if they do not fit each other. */
+static int take_bank(const Py_buffer *buffer, struct bank *bank) {
+    struct plan *plan = &bank->plan;
+    if (buffer[PLAN].len != sizeof *plan) {
+        PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof *plan, buffer[PLAN].len);
+        return 0;
+    }
+    memcpy(plan, buffer[PLAN].buf, sizeof *plan);
+    if (!valid(plan)) return 0;
+    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries) {
+        PyErr_SetString(PyExc_ValueError, "the tables are too short for the plan");
+        return 0;
+    }
+    bank->entries = buffer[ENTRIES].buf;
+    bank->scales = buffer[SCALES].buf;
+    bank->good = buffer[GOOD].buf;
+    bank->response = buffer[RESPONSE].buf;
+    bank->response_bytes = buffer[RESPONSE].len;
+    return 1;
+}
+
+/* Whether words and room are long enough; 0 with an exception. */
+static int has_room(const Py_buffer *buffer, int64_t samples) {
+    if (buffer[WORDS].len < 4 * samples)
+        PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)samples, buffer[WORDS].len);
+    else if (buffer[ROOM].len < room_needed(samples))
+        PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)samples, room_needed(samples), buffer[ROOM].len);
+    else
+        return 1;
+    return 0;
+}
+
 static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
     struct bank bank;
     struct work work;
     struct patch patches[MAX_FOCI];
     double point[MAX_FOCI][3], asked[MAX_FOCI];
-    if (buffer[PLAN].len != sizeof bank.plan)
-        return PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof bank.plan, buffer[PLAN].len);
-    memcpy(&bank.plan, buffer[PLAN].buf, sizeof bank.plan);
+    if (!take_bank(buffer, &bank)) return NULL;
     const struct plan *plan = &bank.plan;
-    if (!valid(plan)) return NULL;
-    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries)
-        return PyErr_Format(PyExc_ValueError, "the tables are too short for the plan");
-    bank.entries = buffer[ENTRIES].buf;
-    bank.scales = buffer[SCALES].buf;
-    bank.good = buffer[GOOD].buf;
-    bank.response = buffer[RESPONSE].buf;
-    bank.response_bytes = buffer[RESPONSE].len;
     Py_ssize_t count = PySequence_Size(points);
     if (count < 0) return NULL;
     if (count < 1 || count > MAX_FOCI)
@@ -729,11 +754,7 @@ static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
         if (!read_point(points, i, point[i])) return NULL;
         asked[i] = point[i][2];
     }
-    if (buffer[WORDS].len < 4 * plan->samples)
-        return PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)plan->samples, buffer[WORDS].len);
-    if (buffer[ROOM].len < room_needed(plan->samples))
-        return PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)plan->samples,
-                            room_needed(plan->samples), buffer[ROOM].len);
+    if (!has_room(buffer, plan->samples)) return NULL;
     for (Py_ssize_t i = 0; i < count; i++) {
         int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
         if (cell == -2) return NULL;
@@ -752,6 +773,232 @@ static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_
     if (given != COMPOSE_ARGUMENTS) return PyErr_Format(PyExc_TypeError, "compose takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS, given);
     while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
     if (taken == BUFFERS) answer = compose_in(buffer, arguments[POINTS]);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
+
+/* ---- words: places that stay still, numbers of quiet_twin.py ---- */
+
+enum {
+    MAX_QUIET = 4,
+    TIMES = 9, /* around T, a sixteenth of a block apart, at which a place is kept still */
+    SWEEPS = 4,
+    MARGIN_WEIGHT_SUM = 4095, /* of the points, and 15 times as much for the corrections: below 2^31 together */
+    CORRECTION_WEIGHT_SUM = 61440,
+    WEIGHT_BITS = 20,
+    STEPS_PER_BLOCK = 16,
+};
+static const double FLOOR = 0.25, RIDGE = 0.03, PI = 3.141592653589793;
+
+/* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
+struct still {
+    int16_t *response, *rest;
+    double lower[TIMES][TIMES], pivot[TIMES];
+    int solvable;
+};
+
+struct quiet {
+    int64_t values, rest_rows, block_rows, blocks, step;
+    int32_t *sum, *strength;
+    int64_t *weight;
+    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over eight samples */
+    struct still place[MAX_QUIET];
+    double unit;
+    int64_t spent;
+};
+
+APART void add_shifted(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int samples) {
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++)
+            sum[i] += (a[CHANNELS * sample + i] >> SKETCH_SHIFT) * (b[CHANNELS * sample + i] >> SKETCH_SHIFT);
+}
+
+/* Bits that deviate from idle, in the order of values. */
+static void take_bits(struct quiet *quiet, const uint32_t *words, uint32_t idle_word) {
+    int channel[CHANNELS];
+    for (int i = 0; i < CHANNELS; i++) channel[i] = i / 16 * 16 + i % 8 * 2 + i / 8 % 2;
+    memset(quiet->above, 0, (size_t)(quiet->rest_rows * ROW) * sizeof *quiet->above);
+    for (int64_t sample = 0; sample < quiet->values / CHANNELS; sample++) {
+        uint32_t deviates = words[sample] ^ idle_word;
+        for (int i = 0; i < CHANNELS; i++) quiet->above[sample * CHANNELS + i] = (int16_t) - (int16_t)(deviates >> channel[i] & 1);
+    }
+}
+
+/* From the weighted sum of the points' responses: how much each bit may be weighed against, above zero where it deviates. */
+APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
+    for (int i = 0; i < ROW; i++) {
+        int32_t size = sum[i] < 0 ? -sum[i] : sum[i];
+        sum[i] = above[i] ? size + 1 : -size;
+    }
+}
+
+static void count_bits(struct quiet *quiet) {
+    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * ROW, REST_SAMPLES);
+}
+
+/* Inner product of the counts and a rest that is met so many rows later. */
+static int64_t rest_product(const struct quiet *quiet, const int16_t *rest, int64_t later) {
+    int64_t first = later > 0 ? later : 0, end = quiet->rest_rows + (later < 0 ? later : 0);
+    if (first >= end) return 0;
+    return -(int64_t)inner_product(quiet->count + first * CHANNELS, rest + (first - later) * CHANNELS, (int)((end - first) * CHANNELS));
+}
+
+/* Inner products of the response with itself at other times, and what solves the equations of corrections. */
+static void prepare_still(struct quiet *quiet, struct still *still) {
+    double products[TIMES];
+    for (int lag = 0; lag < TIMES; lag++) {
+        int64_t total = 0;
+        for (int64_t block = 0; block < quiet->blocks; block++) {
+            int32_t sum[CHANNELS] = {0};
+            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * REST_SAMPLES;
+            add_shifted(sum, still->response + at, still->response + at - lag * quiet->step * CHANNELS, (int)(left < most ? left : most));
+            for (int i = 0; i < CHANNELS; i++) total += sum[i] * quiet->weight[block * CHANNELS + i];
+        }
+        products[lag] = (double)total;
+    }
+    still->solvable = products[0] > 0;
+    for (int i = 0; still->solvable && i < TIMES; i++)
+        for (int j = 0; j <= i; j++) {
+            double value = i == j ? products[0] * (1 + RIDGE) : products[i - j];
+            for (int k = 0; k < j; k++) value -= still->lower[i][k] * still->lower[j][k] * still->pivot[k];
+            if (j < i) {
+                still->lower[i][j] = value / still->pivot[j];
+                continue;
+            }
+            still->pivot[i] = value;
+            if (!(value > 0)) still->solvable = 0;
+        }
+}
+
+/* Weigh the bits against what they give at a place, and set them anew. */
+static void correct(struct quiet *quiet, const struct still *still) {
+    double value[TIMES];
+    int16_t weight[TIMES + 1] = {0};
+    int64_t weights = 0;
+    count_bits(quiet);
+    for (int j = 0; j < TIMES; j++) {
+        int64_t later = (j - TIMES / 2) * quiet->step, rows = later >= 0 ? later / REST_SAMPLES : -((REST_SAMPLES - 1 - later) / REST_SAMPLES);
+        int64_t beyond = later - rows * REST_SAMPLES;
+        int64_t given = -(int64_t)inner_product(quiet->above, still->response - later * CHANNELS, (int)quiet->values) * REST_SAMPLES;
+        given += (REST_SAMPLES - beyond) * rest_product(quiet, still->rest, rows) + beyond * rest_product(quiet, still->rest, rows + 1);
+        value[j] = (double)given / REST_SAMPLES;
+    }
+    for (int i = 0; i < TIMES; i++)
+        for (int k = 0; k < i; k++) value[i] -= still->lower[i][k] * value[k];
+    for (int i = 0; i < TIMES; i++) value[i] /= still->pivot[i];
+    for (int i = TIMES - 1; i >= 0; i--)
+        for (int k = i + 1; k < TIMES; k++) value[i] -= still->lower[k][i] * value[k];
+    for (int j = 0; j < TIMES; j++) {
+        double scaled = value[j] * quiet->unit;
+        if (!(fabs(scaled) < INT16_MAX)) return;
+        weight[j] = (int16_t)-nearest(scaled);
+        weights += weight[j] < 0 ? -weight[j] : weight[j];
+    }
+    if (quiet->spent + weights > CORRECTION_WEIGHT_SUM) return;
+    quiet->spent += weights;
+    for (int64_t at = 0; at < quiet->rest_rows * ROW; at += ROW) {
+        for (int j = 0; j < TIMES; j += 2) {
+            const int16_t *one = still->response + at - (j - TIMES / 2) * quiet->step * CHANNELS;
+            const int16_t *other = j + 1 < TIMES ? one - quiet->step * CHANNELS : one;
+            add_two(quiet->sum + at, one, other, weight[j], weight[j + 1]);
+        }
+        compare_nothing(quiet->above + at, quiet->sum + at);
+    }
+    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rest_rows * ROW - quiet->values) * sizeof *quiet->above);
+}
+
+static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
+    struct quiet quiet = {.values = work->values, .rest_rows = work->rest_rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
+    int64_t padded = quiet.rest_rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    int16_t weight[MAX_FOCI];
+    double share[MAX_FOCI], shares = 0;
+    uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
+    quiet.weight = (int64_t *)room;
+    quiet.sum = (int32_t *)(quiet.weight + quiet.blocks * CHANNELS);
+    quiet.strength = quiet.sum + padded;
+    quiet.above = (int16_t *)(quiet.strength + quiet.blocks * CHANNELS);
+    quiet.count = quiet.above + padded;
+    int16_t *next = quiet.count + quiet.rest_rows * CHANNELS;
+    take_bits(&quiet, work->words, work->idle_word);
+    for (int i = 0; i < work->count; i++) {
+        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        memset(work->response[i] + work->values, 0, (size_t)(padded - work->values) * sizeof(int16_t));
+        int64_t given = -(int64_t)inner_product(quiet.above, work->response[i], (int)work->values);
+        share[i] = norm ? 1 / (double)norm : 0;
+        shares += share[i];
+        if (given < 0) share[i] = -share[i];
+    }
+    if (shares == 0) return;
+    double share_unit = MARGIN_WEIGHT_SUM / shares;
+    for (int i = 0; i < work->count; i++) weight[i] = (int16_t)nearest(share[i] * share_unit);
+    memset(quiet.strength, 0, (size_t)(quiet.blocks * CHANNELS) * sizeof *quiet.strength);
+    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+        add_up(work->count, work->response, weight, row * ROW, quiet.sum + row * ROW);
+        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, REST_SAMPLES);
+        set_margins(quiet.sum + row * ROW, quiet.above + row * ROW);
+    }
+    for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) total += quiet.strength[i];
+    if (total == 0) return;
+    double floor = (double)total * FLOOR / (double)(quiet.blocks * CHANNELS), scale = floor * (1 << WEIGHT_BITS);
+    for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) {
+        double strength = (double)quiet.strength[i];
+        quiet.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
+    }
+    quiet.unit = PI * scale / (double)(quiet.block_rows * REST_SAMPLES);
+    for (int i = 0; i < count; i++) {
+        struct still *still = quiet.place + i;
+        memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
+        still->response = next + reach;
+        still->rest = next + padded + 2 * reach;
+        next = still->rest + quiet.rest_rows * CHANNELS;
+        interpolate(work->idle_word, places + i, 0, quiet.values, still->response);
+        interpolate(work->idle_word, places + i, quiet.values, quiet.rest_rows * CHANNELS, still->rest);
+        prepare_still(&quiet, still);
+    }
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (int i = 0; i < count; i++)
+            if (quiet.place[i].solvable) correct(&quiet, quiet.place + i);
+    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+        int64_t left = (quiet.values - row * ROW) / CHANNELS;
+        write_words(work, row * ROW, left < REST_SAMPLES ? (int)left : REST_SAMPLES, quiet.above + row * ROW);
+    }
+}
+
+static PyObject *quieten_in(Py_buffer *buffer, PyObject *points, PyObject *places) {
+    struct bank bank;
+    struct work work;
+    struct patch patches[MAX_FOCI + MAX_QUIET];
+    double point[MAX_FOCI + MAX_QUIET][3];
+    if (!take_bank(buffer, &bank)) return NULL;
+    const struct plan *plan = &bank.plan;
+    Py_ssize_t count = PySequence_Size(points), still = PySequence_Size(places);
+    if (count < 0 || still < 0) return NULL;
+    if (count < 1 || count > MAX_FOCI || still < 1 || still > MAX_QUIET)
+        return PyErr_Format(PyExc_ValueError, "%zd points, not 1 to %d, and %zd quiet places, not 1 to %d", count, (int)MAX_FOCI, still,
+                            (int)MAX_QUIET);
+    for (Py_ssize_t i = 0; i < count + still; i++)
+        if (!read_point(i < count ? points : places, i < count ? i : i - count, point[i])) return NULL;
+    if (!has_room(buffer, plan->samples)) return NULL;
+    for (Py_ssize_t i = 0; i < count + still; i++) {
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        if (cell == -2) return NULL;
+        if (cell >= 0) return PyLong_FromLongLong(cell);
+    }
+    lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
+    int64_t step = plan->block_samples / STEPS_PER_BLOCK;
+    keep_still(&work, patches, patches + count, (int)still, step ? step : 1);
+    return PyLong_FromLong(-1);
+}
+
+static PyObject *quieten(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    (void)module;
+    if (given != COMPOSE_ARGUMENTS + 1)
+        return PyErr_Format(PyExc_TypeError, "quieten takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS + 1, given);
+    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
+    if (taken == BUFFERS) answer = quieten_in(buffer, arguments[POINTS], arguments[POINTS + 1]);
     while (taken--) PyBuffer_Release(buffer + taken);
     return answer;
 }
@@ -1089,6 +1336,7 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
     {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
+    {"quieten", (PyCFunction)(void (*)(void))quieten, METH_FASTCALL, "quieten(words, room, plan, entries, scales, good, response, points, quiet)"},
     {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
     {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},
