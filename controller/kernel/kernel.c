@@ -798,10 +798,10 @@ struct still {
 };
 
 struct quiet {
-    int64_t values, rest_rows, block_rows, blocks, step;
+    int64_t values, rows, rest_rows, block_rows, blocks, step; /* rows of eight samples, and of the rest */
     int32_t *sum, *strength;
     int64_t *weight;
-    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over eight samples */
+    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over the samples of a row of the rest */
     struct still place[MAX_QUIET];
     double unit;
     int64_t spent;
@@ -817,7 +817,7 @@ APART void add_shifted(int32_t *restrict sum, const int16_t *restrict a, const i
 static void take_bits(struct quiet *quiet, const uint32_t *words, uint32_t idle_word) {
     int channel[CHANNELS];
     for (int i = 0; i < CHANNELS; i++) channel[i] = i / 16 * 16 + i % 8 * 2 + i / 8 % 2;
-    memset(quiet->above, 0, (size_t)(quiet->rest_rows * ROW) * sizeof *quiet->above);
+    memset(quiet->above, 0, (size_t)(quiet->rows * ROW) * sizeof *quiet->above);
     for (int64_t sample = 0; sample < quiet->values / CHANNELS; sample++) {
         uint32_t deviates = words[sample] ^ idle_word;
         for (int i = 0; i < CHANNELS; i++) quiet->above[sample * CHANNELS + i] = (int16_t) - (int16_t)(deviates >> channel[i] & 1);
@@ -833,7 +833,7 @@ APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
 }
 
 static void count_bits(struct quiet *quiet) {
-    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * ROW, REST_SAMPLES);
+    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * REST_SAMPLES * CHANNELS, REST_SAMPLES);
 }
 
 /* Inner product of the counts and a rest that is met so many rows later. */
@@ -850,7 +850,7 @@ static void prepare_still(struct quiet *quiet, struct still *still) {
         int64_t total = 0;
         for (int64_t block = 0; block < quiet->blocks; block++) {
             int32_t sum[CHANNELS] = {0};
-            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * REST_SAMPLES;
+            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * GROUP_SAMPLES;
             add_shifted(sum, still->response + at, still->response + at - lag * quiet->step * CHANNELS, (int)(left < most ? left : most));
             for (int i = 0; i < CHANNELS; i++) total += sum[i] * quiet->weight[block * CHANNELS + i];
         }
@@ -896,7 +896,7 @@ static void correct(struct quiet *quiet, const struct still *still) {
     }
     if (quiet->spent + weights > CORRECTION_WEIGHT_SUM) return;
     quiet->spent += weights;
-    for (int64_t at = 0; at < quiet->rest_rows * ROW; at += ROW) {
+    for (int64_t at = 0; at < quiet->rows * ROW; at += ROW) {
         for (int j = 0; j < TIMES; j += 2) {
             const int16_t *one = still->response + at - (j - TIMES / 2) * quiet->step * CHANNELS;
             const int16_t *other = j + 1 < TIMES ? one - quiet->step * CHANNELS : one;
@@ -904,12 +904,13 @@ static void correct(struct quiet *quiet, const struct still *still) {
         }
         compare_nothing(quiet->above + at, quiet->sum + at);
     }
-    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rest_rows * ROW - quiet->values) * sizeof *quiet->above);
+    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rows * ROW - quiet->values) * sizeof *quiet->above);
 }
 
 static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
-    struct quiet quiet = {.values = work->values, .rest_rows = work->rest_rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
-    int64_t padded = quiet.rest_rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    struct quiet quiet = {.values = work->values, .rows = work->rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
+    quiet.rest_rows = work->rests / CHANNELS;
+    int64_t padded = quiet.rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
     int16_t weight[MAX_FOCI];
     double share[MAX_FOCI], shares = 0;
     uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
@@ -932,9 +933,9 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     double share_unit = MARGIN_WEIGHT_SUM / shares;
     for (int i = 0; i < work->count; i++) weight[i] = (int16_t)nearest(share[i] * share_unit);
     memset(quiet.strength, 0, (size_t)(quiet.blocks * CHANNELS) * sizeof *quiet.strength);
-    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+    for (int64_t row = 0; row < quiet.rows; row++) {
         add_up(work->count, work->response, weight, row * ROW, quiet.sum + row * ROW);
-        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, REST_SAMPLES);
+        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, GROUP_SAMPLES);
         set_margins(quiet.sum + row * ROW, quiet.above + row * ROW);
     }
     for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) total += quiet.strength[i];
@@ -944,7 +945,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
         double strength = (double)quiet.strength[i];
         quiet.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
     }
-    quiet.unit = PI * scale / (double)(quiet.block_rows * REST_SAMPLES);
+    quiet.unit = PI * scale / (double)(quiet.block_rows * GROUP_SAMPLES);
     for (int i = 0; i < count; i++) {
         struct still *still = quiet.place + i;
         memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
@@ -958,9 +959,9 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (int i = 0; i < count; i++)
             if (quiet.place[i].solvable) correct(&quiet, quiet.place + i);
-    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+    for (int64_t row = 0; row < quiet.rows; row++) {
         int64_t left = (quiet.values - row * ROW) / CHANNELS;
-        write_words(work, row * ROW, left < REST_SAMPLES ? (int)left : REST_SAMPLES, quiet.above + row * ROW);
+        write_words(work, row * ROW, left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES, quiet.above + row * ROW);
     }
 }
 

@@ -181,9 +181,7 @@ class PlateTwin:
         """
         if len(points_m) == 1:
             return self.exact_amplitudes(points_m)
-        if self._responses is None:
-            self._responses = ResponseModel(self.board, self._highest_hz)
-        in_band = self._responses.drive_order_responses(np.array(points_m), dtype=np.float64)
+        in_band = self.responses.drive_order_responses(np.array(points_m), dtype=np.float64)
         weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
         share = np.abs(np.tensordot(weights, in_band, 1)).sum() / (np.abs(weights) * sizes).sum()
         levels: Floats = share * sizes * self.board.driver.supply_v / 2
