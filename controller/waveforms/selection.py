@@ -62,6 +62,8 @@ class Selection:
         BankError
             If the bank's first entry is damaged.
         """
+        if not self._bank.composes:
+            return
         if self._composer is None:
             self._composer = Composer(self._bank, self._idle_word)
         cells = self._bank.cells.nonzero()[0]
@@ -75,7 +77,9 @@ class Selection:
         Raises
         ------
         ValueError
-            If an amplitude is not above 0 and at most 1.
+            If an amplitude is not above 0 and at most 1, or a place is NaN.
+        OverflowError
+            If a place is infinite.
         """
         if len(points) == 1:
             x_m, y_m, amplitude = points[0]
