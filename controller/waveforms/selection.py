@@ -41,10 +41,13 @@ class Selection:
         A single point of full amplitude at most this far from a cell's centre plays that cell.
     idle_word : int
         Level of each channel at rest: bit q is channel q.
+    ready : bool
+        False: what the bank has composed beforehand is composed all the same.
     """
 
-    def __init__(self, bank: Bank, snap_m: float, idle_word: int) -> None:
+    def __init__(self, bank: Bank, snap_m: float, idle_word: int, *, ready: bool = True) -> None:
         self._bank = bank
+        self._compositions = bank.compositions if ready else {}
         self._snap_m = snap_m
         self._idle_word = idle_word
         self._composer: Composer | None = None
@@ -125,7 +128,7 @@ class Selection:
         """
         if isinstance(key, int):
             return ReadyFrames(*self._bank.frames(key))
-        if key in self._bank.compositions:
+        if key in self._compositions:
             with contextlib.suppress(BankError):
                 return ReadyFrames(*self._bank.composed(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
