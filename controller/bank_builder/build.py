@@ -16,21 +16,26 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import MODELLED, REST_SAMPLES, Header, creator
+from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
-from controller.bank_builder.optimised import ALONE, Workers, kept_path, optimised_words, remove_kept, told
+from controller.bank_builder.optimised import ALONE, Words, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import cell_bytes, entries_bytes, require
 from controller.physics.plate import mode_cut_hz
 from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
+from controller.waveform_design.plain import SignOfSum
+from controller.waveform_design.prediction import Prediction
 
+INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+CELLS_JUDGED = 32  # at most, of an optimised bank: 10 ms each
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -95,6 +100,7 @@ def build_bank(
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
+    memory_mb: float | None = None,
     aim: Aim | None = None,
     workers: Workers = ALONE,
 ) -> BuildReport:
@@ -121,6 +127,8 @@ def build_bank(
         Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    memory_mb : float, optional
+        Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
     aim : Aim, optional
         Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
     workers : Workers
@@ -129,7 +137,8 @@ def build_bank(
     Raises
     ------
     ConfigError
-        If the pitch leaves no cell, `cells` is empty, or an entry would switch a channel more often than the board allows.
+        If the pitch leaves no cell, `cells` is empty, an entry would switch a channel more often than the board allows, or
+        the build does not fit into `memory_mb`.
     BankError
         If the folder or disk does not take the file; an old bank is untouched.
     """
@@ -161,7 +170,7 @@ def build_bank(
         "content_sha256": "0" * 64,
         "channel_edges": 0,
         "all_edges": 0,
-        "amplitude_of_plain": aim and _spread([0.0]),
+        "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
         "interpolation_error": {},
     }
     composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
@@ -175,11 +184,15 @@ def build_bank(
         parameters=parameters,
         compositions=len(composed),
     )
+    model = ResponseModel(board, highest_hz)
+    least_bytes = entries_bytes(model.plate_modes, header.samples, grid.nx) + INDEX_BYTES * grid.cells
+    spare_bytes = require(least_bytes, memory_mb, f"a bank of {board.name!r} with {model.modes} modes and {grid.nx} cells a row")
+    most = min(CELLS_PER_BLOCK, grid.nx + int(spare_bytes / cell_bytes(header.samples)))
     make_folder(path.parent)
     response_seconds = flops = 0.0
     worst_edge_rate_hz = 0.0
     content = hashlib.sha256()
-    blocks = _blocks(numbers, grid.nx)
+    blocks = _blocks(numbers, grid.nx, most)
     with (
         threadpool_limits(1, "blas"),  # many small products: on a busy machine a second thread costs more than it gains
         BankWriter(
@@ -188,7 +201,7 @@ def build_bank(
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         before = time.process_time()
-        model = ResponseModel(board, highest_hz)
+        model.entry_kernel()
         model_seconds = time.process_time() - before
         optimised, optimise_seconds = None, 0.0
         if aim:
@@ -196,7 +209,6 @@ def build_bank(
             kept = kept_path(path, inputs_sha256)
             optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
             optimise_seconds = time.perf_counter() - before
-        shares = []  # of the amplitude that the plain entry has
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
         for block in blocks:
             places_m = points_m[block.start : block.stop]
@@ -207,8 +219,7 @@ def build_bank(
             for index, entry in zip(block, entries, strict=True):
                 cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
                 if optimised is not None:
-                    plain, words = words, optimised[index]
-                    shares.append(_amplitude(entry, words, board.idle_word) / (_amplitude(entry, plain, board.idle_word) or 1.0))
+                    words = optimised[index]
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
@@ -221,7 +232,7 @@ def build_bank(
             content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
         if optimised is not None:
-            parameters["amplitude_of_plain"] = _spread(shares)
+            parameters["amplitude_of_plain"] = _amplitude_of_plain(board, model, points_m, optimised)
         parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     remove_kept(path)
     seconds = time.perf_counter() - started
@@ -251,19 +262,23 @@ def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
     return hashlib.sha256(told.encode()).hexdigest()
 
 
-def _amplitude(entry: NDArray[np.float32], words: NDArray[np.uint32], idle_word: int) -> float:
-    """Displacement by drive words at a cell, in m per V, from its response and the rest of that outside the band."""
-    whole = entry[: len(words)] + np.repeat(entry[len(words) :], REST_SAMPLES, axis=0)[: len(words)]
-    return float(np.sum(whole * (channel_bits(words) - channel_bits(np.array([idle_word], np.uint32)).astype(np.float32))))
+def _amplitude_of_plain(board: Board, model: ResponseModel, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
+    """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
+    some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_JUDGED).round().astype(int))
+    plain, prediction = SignOfSum(board, model), Prediction(board, model)
+    shares = [
+        float(
+            prediction.at_focus(words[index], points_m[index])[0] / (plain.design([(*points_m[index], 1.0)]).displacement_m[0] or 1)
+        )
+        for index in some.tolist()
+    ]
+    found = {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+    return {"cells": len(some), **found}
 
 
-def _spread(shares: list[float]) -> dict[str, float]:
-    return {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
-
-
-def _blocks(numbers: NDArray[np.intp], cells_per_row: int) -> list[range]:
-    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows."""
-    at_once = max(CELLS_PER_BLOCK // cells_per_row, 1) * cells_per_row
+def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[range]:
+    """Positions in `numbers`, ascending cells of a grid, of blocks of whole rows: at most so many cells, but one row."""
+    at_once = max(most // cells_per_row, 1) * cells_per_row
     firsts = np.flatnonzero(np.diff(numbers // at_once, prepend=-1)).tolist()
     return [range(first, end) for first, end in zip(firsts, [*firsts[1:], len(numbers)], strict=True)]
 

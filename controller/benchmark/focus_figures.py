@@ -21,6 +21,7 @@ from controller.physics.audible import surface_energy
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import focus_bytes, require
 from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
@@ -186,7 +187,7 @@ def spread(values: Sequence[float]) -> dict[str, float]:
     return {"min": float(np.min(values)), "median": float(np.median(values)), "max": float(np.max(values))}
 
 
-def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Field, list[Figures]]:
+def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
     """Focus on several points at once, without a bank.
 
     Parameters
@@ -194,6 +195,8 @@ def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Fie
     board : Board
     points_m : sequence of (x_m, y_m)
         Places of the foci.
+    memory_mb : float, optional
+        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
 
     Returns
     -------
@@ -201,10 +204,17 @@ def focus_on(board: Board, points_m: Sequence[tuple[float, float]]) -> tuple[Fie
         The plate at T.
     rows : list of dict
         Figures of each focus, in the order of `points_m`.
+
+    Raises
+    ------
+    ConfigError
+        If it does not fit into `memory_mb`.
     """
     twin = PlateTwin(board)
+    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s))
+    require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
     places = np.array(points_m)
-    words = focus(ResponseModel(board).drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
+    words = focus(twin.responses.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
     field = emit(twin, words)
     rows = []
     for x_m, y_m in points_m:

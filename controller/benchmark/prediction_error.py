@@ -189,10 +189,9 @@ def _asked(
     asked = []
     down: set[int] = set()
     while (now_s := tracker.next_time_s()) is not None:
-        reports = source.counts.reports
         for sample in tracker.read(now_s):
             (down.add if sample.contact else down.discard)(sample.finger)
-        if source.counts.reports == reports:
+        if not tracker.touched:
             continue
         for finger in down:
             places = [place for horizon_s in ahead_s if (place := tracker.predict(finger, now_s + horizon_s)) is not None]

@@ -69,6 +69,7 @@ class Playlist:
         self._number = 0
         self._fingers = 0  # of the recordings before
         self._seen = 0
+        self.touched = False
         self._source: RecordingSource | None = self._opened(start_s)
 
     @property
@@ -88,10 +89,11 @@ class Playlist:
         """Samples of the next report if it is due at `now_s`; see `TouchSource.read`."""
         source = self._source
         if source is None:
+            self.touched = False
             return ()
-        before = source.counts.reports
         samples = source.read(now_s)
-        self.counts.reports += source.counts.reports - before
+        self.touched = source.touched
+        self.counts.reports += self.touched
         if samples:
             self._seen = max(self._seen, *[sample.finger + 1 for sample in samples])
             samples = tuple([sample._replace(finger=sample.finger + self._fingers) for sample in samples])

@@ -36,14 +36,14 @@ class Plate(Record, frozen=True):
         Plate theory that the model uses.
     """
 
-    length_mm: Annotated[float, Meta(ge=20, le=2000)]
-    width_mm: Annotated[float, Meta(ge=20, le=2000)]
+    length_mm: Annotated[float, Meta(ge=20, le=4000)]
+    width_mm: Annotated[float, Meta(ge=20, le=4000)]
     thickness_mm: Annotated[float, Meta(ge=0.05, le=20)]
     young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)]
     poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
     density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)]
     edge: Literal["simply_supported"]
-    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10)]
+    decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
     theory: Literal["kirchhoff"] = "kirchhoff"
 
     @property

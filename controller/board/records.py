@@ -18,8 +18,8 @@ T = TypeVar("T")
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
-PlaceMm = Annotated[float, Meta(ge=-1000, le=3000)]  # a plate has at most 2 m; what lies off it is refused with the plate's size
-SizeMm = Annotated[float, Meta(gt=0, le=3000)]
+PlaceMm = Annotated[float, Meta(ge=-1000, le=5000)]  # a plate has at most 4 m; what lies off it is refused with the plate's size
+SizeMm = Annotated[float, Meta(gt=0, le=5000)]
 Share = Annotated[float, Meta(gt=0, le=1)]
 
 

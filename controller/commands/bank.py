@@ -44,6 +44,12 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     build.add_argument("--out", metavar="F", help="file to write (default: where run looks for the board's bank, which is printed)")
     build.add_argument(
+        "--memory-mb",
+        type=float,
+        metavar="M",
+        help="memory that the build may take, in MB (default: 1500); refused if it needs more",
+    )
+    build.add_argument(
         "--optimise",
         choices=("contrast", "quiet", "balanced"),
         help="optimise every entry: more contrast, less sound, or both; about half a second of a core a cell (default: neither)",
@@ -207,6 +213,7 @@ def _build(
             overwrite=own_path,
             aim=aim,
             workers=workers,
+            memory_mb=options.memory_mb if options else None,
         )
     except KeyboardInterrupt:
         if aim:

@@ -33,6 +33,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     point.add_argument("--pitch-mm", type=float, metavar="MM", help="of that bank (default: the board's)")
     point.add_argument("--seed", type=_natural, default=1, help="of the random points (default: 1)")
+    point.add_argument(
+        "--memory-mb", type=float, metavar="M", help="memory that --at may take, in MB (default: 1500); refused if it needs more"
+    )
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
 
@@ -70,7 +73,7 @@ def focus(options: argparse.Namespace) -> int:
     if not options.at:
         raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
-    field, rows = focus_on(board, points_m)
+    field, rows = focus_on(board, points_m, options.memory_mb)
     if picture:
         from controller.physics.plot import plot_focus
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.errors import UsageError
+from controller.kernel.quiet_twin import MAX_QUIET, quieten
 from controller.kernel.twin import (
     SHORT_FRAME_BYTES,
     load_frames_bytes,
@@ -36,6 +37,7 @@ __all__ = [
     "COMPILED",
     "MAX_BLOCK_SAMPLES",
     "MAX_FOCI",
+    "MAX_QUIET",
     "MAX_SAMPLES",
     "PLAN",
     "REST_SAMPLES",
@@ -44,6 +46,7 @@ __all__ = [
     "compose",
     "load_frames_bytes",
     "pack_loads",
+    "quieten",
     "renumber_loads",
     "room_bytes",
     "seal_short_frames",
@@ -76,4 +79,12 @@ def _has_compiled(wanted: str) -> bool:
 COMPILED = _has_compiled(os.environ.get("HAPTIC_PANEL_KERNEL", ""))
 
 if COMPILED and not TYPE_CHECKING:  # what kernel.c has takes the place of the twin's, whose types it has
-    from controller.kernel._kernel import compose, pack_loads, renumber_loads, seal_short_frames, statuses_good, unpack_loads
+    from controller.kernel._kernel import (
+        compose,
+        pack_loads,
+        quieten,
+        renumber_loads,
+        seal_short_frames,
+        statuses_good,
+        unpack_loads,
+    )

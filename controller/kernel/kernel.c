@@ -47,12 +47,14 @@ enum {
     BALANCING_ROUNDS = 2,
     THRESHOLD_BITS = 24,
     MAX_ROUNDS = 5,
+    MAX_LOWERINGS = 3,
     ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
 struct plan {
@@ -83,7 +85,7 @@ struct work {
     int16_t *sketch[MAX_FOCI]; /* samples 0, 4, 8, .. of a response, as many rows as `before`, then 2, 6, 10, .. */
     int64_t sketch_before, sketch_rows; /* rows of eight samples */
     uint32_t *words;
-    double divisor[MAX_FOCI], measured[MAX_FOCI], wanted[MAX_FOCI];
+    double divisor[MAX_FOCI], balance[MAX_FOCI], measured[MAX_FOCI], in_band[MAX_FOCI], wanted[MAX_FOCI];
 };
 
 typedef int16_t shorts __attribute__((vector_size(16)));
@@ -279,11 +281,11 @@ static double masking_threshold(double share) {
     return THRESHOLDS[SHARES_GIVEN - 1];
 }
 
-/* Whole numbers next to the weights over the divisors, times what is returned. */
+/* Whole numbers next to the weights, each times its balance, over the divisors, times what is returned. */
 static double whole_weights(const struct work *work, const double *weights, int16_t *whole) {
     double share[MAX_FOCI], total = 0;
     for (int i = 0; i < work->count; i++) {
-        share[i] = weights[i] / work->divisor[i];
+        share[i] = work->balance[i] * weights[i] / work->divisor[i];
         total += fabs(share[i]);
     }
     double unit = total > 0 && total < INFINITY ? POINT_WEIGHT_SUM / total : 0;
@@ -297,7 +299,7 @@ enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
     int16_t above[ROW], count[CHANNELS];
-    int64_t total[MAX_FOCI] = {0};
+    int64_t in_band[MAX_FOCI] = {0}, outside[MAX_FOCI] = {0};
     for (int64_t row = 0; row < work->rest_rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
         int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
@@ -312,11 +314,14 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
         if (!(to_do & MEASURE)) continue;
         add_samples(count, above, samples);
         for (int i = 0; i < work->count; i++) {
-            total[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
-            total[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
+            in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
+            outside[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
         }
     }
-    for (int i = 0; i < work->count; i++) work->measured[i] = (double)total[i] / work->divisor[i];
+    for (int i = 0; i < work->count; i++) {
+        work->in_band[i] = (double)in_band[i] / work->divisor[i];
+        work->measured[i] = (double)(in_band[i] + outside[i]) / work->divisor[i];
+    }
 }
 
 static void set_threshold(struct work *work, double threshold) {
@@ -339,7 +344,7 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
     memcpy(residual_before, asked, sizeof residual_before);
-    for (int turn = 0; turn < MAX_ROUNDS; turn++) {
+    for (int turn = 0; turn < MAX_ROUNDS + MAX_LOWERINGS; turn++) {
         double norm = sqrt(product(now, now, count));
         if (norm == 0) norm = first_norm;
         if (turn && count > 1) {
@@ -347,13 +352,28 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
             unit = whole_weights(work, scaled, weight);
         }
         set_threshold(work, masking_threshold(norm / sqrt(count)) * (unit / first_unit));
-        int last = turn == MAX_ROUNDS - 1, reached = 1;
+        int last = turn == MAX_ROUNDS + MAX_LOWERINGS - 1, reached = 1;
         pass(work, weight, last ? WRITE : WRITE | MEASURE);
         if (last) return;
         for (int i = 0; i < count; i++) reached = reached && fabs(work->wanted[i] - work->measured[i]) <= TOLERANCE * work->wanted[i];
         if (reached) return;
         if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
         if (!(gain > 0)) return;
+        if (turn >= MAX_ROUNDS - 1) {
+            double most = 0, least = INFINITY;
+            for (int i = 0; i < count; i++) {
+                double share = work->wanted[i] > 0 ? work->measured[i] / work->wanted[i] : 0;
+                if (share > most) most = share;
+                if (work->measured[i] < least) least = work->measured[i];
+            }
+            if (least < 0)
+                memcpy(now, asked, sizeof now);
+            else if (most > TOO_MUCH)
+                for (int i = 0; i < count; i++) now[i] /= most;
+            else
+                return;
+            continue;
+        }
         double change[MAX_FOCI], mixing = 0;
         for (int i = 0; i < count; i++) {
             residual[i] = (work->wanted[i] - work->measured[i]) / gain;
@@ -390,16 +410,43 @@ static void take_sketch(struct work *work) {
     }
 }
 
-/* Negate the divisors of points so that the energy of the sum is largest. */
-static void polarise(struct work *work) {
-    int count = work->count;
+static int64_t sketched_product(const struct work *work, int i, int j) {
+    int64_t sum = 0;
+    for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
+    return sum;
+}
+
+/* Ask for no more than points so near to each other can have. */
+static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double *asked) {
+    int changed = 1;
+    double size[MAX_FOCI];
+    for (int i = 0; i < work->count; i++) size[i] = (double)sketched_product(work, i, i);
+    for (int turn = 0; changed && turn < work->count; turn++) {
+        changed = 0;
+        for (int i = 0; i < work->count; i++)
+            for (int j = 0; j < i; j++) {
+                if (!(size[i] > 0 && size[j] > 0)) continue;
+                double together = (double)gram[i][j] / sqrt(size[i] * size[j]);
+                if ((work->divisor[i] < 0) != (work->divisor[j] < 0)) together = -together;
+                if (!(together > 0)) continue;
+                double room = together < ONE_PLACE ? ONE_PLACE / together : 1;
+                if (asked[j] * room < asked[i]) asked[i] = asked[j] * room, changed = 1;
+                if (asked[i] * room < asked[j]) asked[j] = asked[i] * room, changed = 1;
+            }
+    }
+}
+
+/* Negate the divisors of points so that the energy of the sum is largest; ask for what can be had. */
+static void polarise(struct work *work, double *asked) {
+    int count = work->count, unlike = 0;
+    int64_t gram[MAX_FOCI][MAX_FOCI];
     double product[MAX_FOCI][MAX_FOCI], largest = 0;
     for (int i = 0; i < count; i++)
         for (int j = 0; j < i; j++) {
-            int64_t sum = 0;
-            for (int64_t at = 0; at < work->sketch_before * ROW; at += ROW) sum += inner_product(work->sketch[i] + at, work->sketch[j] + at, ROW);
-            product[i][j] = (double)sum / work->divisor[i] / work->divisor[j];
+            gram[i][j] = sketched_product(work, i, j);
+            product[i][j] = (double)gram[i][j] / work->divisor[i] / work->divisor[j];
             if (fabs(product[i][j]) > largest) largest = fabs(product[i][j]);
+            unlike = unlike || asked[i] != asked[j];
         }
     if (largest == 0) return;
     double unit = (double)(1 << PRODUCT_BITS) / largest;
@@ -428,19 +475,21 @@ static void polarise(struct work *work) {
     if (2 * __builtin_popcount(best) > count) negative = ~negative;
     for (int i = 0; i < count; i++)
         if (negative >> i & 1) work->divisor[i] = -work->divisor[i];
+    if (unlike) ask_alike(work, gram, asked);
 }
 
-/* Divide the divisors by weights with which all points get about the same share of their maximum. */
+/* Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had. */
 static void balance(struct work *work) {
     int count = work->count;
-    double weights[MAX_FOCI], share[MAX_FOCI];
-    for (int i = 0; i < count; i++) weights[i] = 1;
+    double share[MAX_FOCI], moving = 0;
+    for (int i = 0; i < count; i++) moving += work->balance[i] = isfinite(work->divisor[i]);
+    if (moving == 0) moving = 1;
     for (int round = 0; round < BALANCING_ROUNDS; round++) {
         int16_t whole[MAX_FOCI], above[ROW];
         int32_t sum[ROW];
         int64_t got[MAX_FOCI] = {0};
         double mean = 0;
-        whole_weights(work, weights, whole);
+        whole_weights(work, ONES, whole);
         for (int64_t at = 0; at < work->sketch_rows * ROW; at += ROW) {
             add_up(count, work->sketch, whole, at, sum);
             compare_nothing(above, sum);
@@ -450,19 +499,29 @@ static void balance(struct work *work) {
             share[i] = (double)got[i] / work->divisor[i];
             mean += share[i];
         }
-        mean /= count;
+        mean /= moving;
         for (int i = 0; i < count; i++) {
             double correction = share[i] > 0 ? mean / share[i] : MAX_CORRECTION;
             if (correction < 1 / MAX_CORRECTION) correction = 1 / MAX_CORRECTION;
-            weights[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
+            work->balance[i] *= correction < MAX_CORRECTION ? correction : MAX_CORRECTION;
         }
     }
-    for (int i = 0; i < count; i++) work->divisor[i] /= weights[i];
+}
+
+/* Displacements at less than full amplitude, from those at full amplitude, which were measured. */
+static void set_wanted(struct work *work, const double *asked) {
+    double level = product(work->balance, work->in_band, work->count) / product(work->balance, ONES, work->count);
+    double nearly = level * OWN_LEVEL;
+    for (int i = 0; i < work->count; i++) {
+        double own = work->in_band[i] - level;
+        if (own > nearly) own = nearly;
+        if (own < -nearly) own = -nearly;
+        work->wanted[i] = asked[i] * (work->measured[i] - own);
+    }
 }
 
 /* Compose; what is asked for and patches of `work->count` points. */
-static void compose_points(struct work *work, const struct patch *patches, const double *asked) {
-    static const double ones[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static void compose_points(struct work *work, const struct patch *patches, double *asked) {
     int full = 1;
     int16_t weight[MAX_FOCI], weight_asked[MAX_FOCI];
     for (int i = 0; i < work->count; i++) full = full && asked[i] == 1;
@@ -479,19 +538,20 @@ static void compose_points(struct work *work, const struct patch *patches, const
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
     memset(work->strength, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->strength);
+    work->balance[0] = 1;
     if (work->count > 1) {
         take_sketch(work);
-        polarise(work);
+        polarise(work, asked);
         balance(work);
     }
-    if (whole_weights(work, ones, weight) == 0 || full) {
+    if (whole_weights(work, ONES, weight) == 0 || full) {
         pass(work, weight, WRITE);
         return;
     }
     double unit = whole_weights(work, asked, weight_asked);
     int alike = !memcmp(weight, weight_asked, (size_t)work->count * sizeof *weight);
     pass(work, weight, alike ? MEASURE | STRENGTH : MEASURE);
-    for (int i = 0; i < work->count; i++) work->wanted[i] = asked[i] * work->measured[i];
+    set_wanted(work, asked);
     if (!alike) pass(work, weight_asked, STRENGTH);
     solve(work, asked, weight_asked, unit);
 }
@@ -618,23 +678,45 @@ static void lay_out(struct work *work, const struct plan *plan, int count, uint8
 
 enum { WORDS, ROOM, PLAN, ENTRIES, SCALES, GOOD, RESPONSE, BUFFERS, POINTS = BUFFERS, COMPOSE_ARGUMENTS };
 
+/* The bank in the buffers; 0 with an exception if they do not fit each other. */
+static int take_bank(const Py_buffer *buffer, struct bank *bank) {
+    struct plan *plan = &bank->plan;
+    if (buffer[PLAN].len != sizeof *plan) {
+        PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof *plan, buffer[PLAN].len);
+        return 0;
+    }
+    memcpy(plan, buffer[PLAN].buf, sizeof *plan);
+    if (!valid(plan)) return 0;
+    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries) {
+        PyErr_SetString(PyExc_ValueError, "the tables are too short for the plan");
+        return 0;
+    }
+    bank->entries = buffer[ENTRIES].buf;
+    bank->scales = buffer[SCALES].buf;
+    bank->good = buffer[GOOD].buf;
+    bank->response = buffer[RESPONSE].buf;
+    bank->response_bytes = buffer[RESPONSE].len;
+    return 1;
+}
+
+/* Whether words and room are long enough; 0 with an exception. */
+static int has_room(const Py_buffer *buffer, int64_t samples) {
+    if (buffer[WORDS].len < 4 * samples)
+        PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)samples, buffer[WORDS].len);
+    else if (buffer[ROOM].len < room_needed(samples))
+        PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)samples, room_needed(samples), buffer[ROOM].len);
+    else
+        return 1;
+    return 0;
+}
+
 static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
     struct bank bank;
     struct work work;
     struct patch patches[MAX_FOCI];
     double point[MAX_FOCI][3], asked[MAX_FOCI];
-    if (buffer[PLAN].len != sizeof bank.plan)
-        return PyErr_Format(PyExc_ValueError, "a plan has %zd bytes, not %zd", (Py_ssize_t)sizeof bank.plan, buffer[PLAN].len);
-    memcpy(&bank.plan, buffer[PLAN].buf, sizeof bank.plan);
+    if (!take_bank(buffer, &bank)) return NULL;
     const struct plan *plan = &bank.plan;
-    if (!valid(plan)) return NULL;
-    if (buffer[ENTRIES].len / 4 / plan->nx < plan->ny || buffer[SCALES].len / 4 < plan->entries || buffer[GOOD].len < plan->entries)
-        return PyErr_Format(PyExc_ValueError, "the tables are too short for the plan");
-    bank.entries = buffer[ENTRIES].buf;
-    bank.scales = buffer[SCALES].buf;
-    bank.good = buffer[GOOD].buf;
-    bank.response = buffer[RESPONSE].buf;
-    bank.response_bytes = buffer[RESPONSE].len;
     Py_ssize_t count = PySequence_Size(points);
     if (count < 0) return NULL;
     if (count < 1 || count > MAX_FOCI)
@@ -643,11 +725,7 @@ static PyObject *compose_in(Py_buffer *buffer, PyObject *points) {
         if (!read_point(points, i, point[i])) return NULL;
         asked[i] = point[i][2];
     }
-    if (buffer[WORDS].len < 4 * plan->samples)
-        return PyErr_Format(PyExc_ValueError, "%lld words do not fit into %zd bytes", (long long)plan->samples, buffer[WORDS].len);
-    if (buffer[ROOM].len < room_needed(plan->samples))
-        return PyErr_Format(PyExc_ValueError, "%lld samples need %zd bytes of room, not %zd", (long long)plan->samples,
-                            room_needed(plan->samples), buffer[ROOM].len);
+    if (!has_room(buffer, plan->samples)) return NULL;
     for (Py_ssize_t i = 0; i < count; i++) {
         int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
         if (cell == -2) return NULL;
@@ -666,6 +744,232 @@ static PyObject *compose(PyObject *module, PyObject *const *arguments, Py_ssize_
     if (given != COMPOSE_ARGUMENTS) return PyErr_Format(PyExc_TypeError, "compose takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS, given);
     while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
     if (taken == BUFFERS) answer = compose_in(buffer, arguments[POINTS]);
+    while (taken--) PyBuffer_Release(buffer + taken);
+    return answer;
+}
+
+/* ---- words: places that stay still, numbers of quiet_twin.py ---- */
+
+enum {
+    MAX_QUIET = 4,
+    TIMES = 9, /* around T, a sixteenth of a block apart, at which a place is kept still */
+    SWEEPS = 4,
+    MARGIN_WEIGHT_SUM = 4095, /* of the points, and 15 times as much for the corrections: below 2^31 together */
+    CORRECTION_WEIGHT_SUM = 61440,
+    WEIGHT_BITS = 20,
+    STEPS_PER_BLOCK = 16,
+};
+static const double FLOOR = 0.25, RIDGE = 0.03, PI = 3.141592653589793;
+
+/* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
+struct still {
+    int16_t *response, *rest;
+    double lower[TIMES][TIMES], pivot[TIMES];
+    int solvable;
+};
+
+struct quiet {
+    int64_t values, rest_rows, block_rows, blocks, step;
+    int32_t *sum, *strength;
+    int64_t *weight;
+    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over eight samples */
+    struct still place[MAX_QUIET];
+    double unit;
+    int64_t spent;
+};
+
+APART void add_shifted(int32_t *restrict sum, const int16_t *restrict a, const int16_t *restrict b, int samples) {
+    for (int sample = 0; sample < samples; sample++)
+        for (int i = 0; i < CHANNELS; i++)
+            sum[i] += (a[CHANNELS * sample + i] >> SKETCH_SHIFT) * (b[CHANNELS * sample + i] >> SKETCH_SHIFT);
+}
+
+/* Bits that deviate from idle, in the order of values. */
+static void take_bits(struct quiet *quiet, const uint32_t *words, uint32_t idle_word) {
+    int channel[CHANNELS];
+    for (int i = 0; i < CHANNELS; i++) channel[i] = i / 16 * 16 + i % 8 * 2 + i / 8 % 2;
+    memset(quiet->above, 0, (size_t)(quiet->rest_rows * ROW) * sizeof *quiet->above);
+    for (int64_t sample = 0; sample < quiet->values / CHANNELS; sample++) {
+        uint32_t deviates = words[sample] ^ idle_word;
+        for (int i = 0; i < CHANNELS; i++) quiet->above[sample * CHANNELS + i] = (int16_t) - (int16_t)(deviates >> channel[i] & 1);
+    }
+}
+
+/* From the weighted sum of the points' responses: how much each bit may be weighed against, above zero where it deviates. */
+APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
+    for (int i = 0; i < ROW; i++) {
+        int32_t size = sum[i] < 0 ? -sum[i] : sum[i];
+        sum[i] = above[i] ? size + 1 : -size;
+    }
+}
+
+static void count_bits(struct quiet *quiet) {
+    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * ROW, REST_SAMPLES);
+}
+
+/* Inner product of the counts and a rest that is met so many rows later. */
+static int64_t rest_product(const struct quiet *quiet, const int16_t *rest, int64_t later) {
+    int64_t first = later > 0 ? later : 0, end = quiet->rest_rows + (later < 0 ? later : 0);
+    if (first >= end) return 0;
+    return -(int64_t)inner_product(quiet->count + first * CHANNELS, rest + (first - later) * CHANNELS, (int)((end - first) * CHANNELS));
+}
+
+/* Inner products of the response with itself at other times, and what solves the equations of corrections. */
+static void prepare_still(struct quiet *quiet, struct still *still) {
+    double products[TIMES];
+    for (int lag = 0; lag < TIMES; lag++) {
+        int64_t total = 0;
+        for (int64_t block = 0; block < quiet->blocks; block++) {
+            int32_t sum[CHANNELS] = {0};
+            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * REST_SAMPLES;
+            add_shifted(sum, still->response + at, still->response + at - lag * quiet->step * CHANNELS, (int)(left < most ? left : most));
+            for (int i = 0; i < CHANNELS; i++) total += sum[i] * quiet->weight[block * CHANNELS + i];
+        }
+        products[lag] = (double)total;
+    }
+    still->solvable = products[0] > 0;
+    for (int i = 0; still->solvable && i < TIMES; i++)
+        for (int j = 0; j <= i; j++) {
+            double value = i == j ? products[0] * (1 + RIDGE) : products[i - j];
+            for (int k = 0; k < j; k++) value -= still->lower[i][k] * still->lower[j][k] * still->pivot[k];
+            if (j < i) {
+                still->lower[i][j] = value / still->pivot[j];
+                continue;
+            }
+            still->pivot[i] = value;
+            if (!(value > 0)) still->solvable = 0;
+        }
+}
+
+/* Weigh the bits against what they give at a place, and set them anew. */
+static void correct(struct quiet *quiet, const struct still *still) {
+    double value[TIMES];
+    int16_t weight[TIMES + 1] = {0};
+    int64_t weights = 0;
+    count_bits(quiet);
+    for (int j = 0; j < TIMES; j++) {
+        int64_t later = (j - TIMES / 2) * quiet->step, rows = later >= 0 ? later / REST_SAMPLES : -((REST_SAMPLES - 1 - later) / REST_SAMPLES);
+        int64_t beyond = later - rows * REST_SAMPLES;
+        int64_t given = -(int64_t)inner_product(quiet->above, still->response - later * CHANNELS, (int)quiet->values) * REST_SAMPLES;
+        given += (REST_SAMPLES - beyond) * rest_product(quiet, still->rest, rows) + beyond * rest_product(quiet, still->rest, rows + 1);
+        value[j] = (double)given / REST_SAMPLES;
+    }
+    for (int i = 0; i < TIMES; i++)
+        for (int k = 0; k < i; k++) value[i] -= still->lower[i][k] * value[k];
+    for (int i = 0; i < TIMES; i++) value[i] /= still->pivot[i];
+    for (int i = TIMES - 1; i >= 0; i--)
+        for (int k = i + 1; k < TIMES; k++) value[i] -= still->lower[k][i] * value[k];
+    for (int j = 0; j < TIMES; j++) {
+        double scaled = value[j] * quiet->unit;
+        if (!(fabs(scaled) < INT16_MAX)) return;
+        weight[j] = (int16_t)-nearest(scaled);
+        weights += weight[j] < 0 ? -weight[j] : weight[j];
+    }
+    if (quiet->spent + weights > CORRECTION_WEIGHT_SUM) return;
+    quiet->spent += weights;
+    for (int64_t at = 0; at < quiet->rest_rows * ROW; at += ROW) {
+        for (int j = 0; j < TIMES; j += 2) {
+            const int16_t *one = still->response + at - (j - TIMES / 2) * quiet->step * CHANNELS;
+            const int16_t *other = j + 1 < TIMES ? one - quiet->step * CHANNELS : one;
+            add_two(quiet->sum + at, one, other, weight[j], weight[j + 1]);
+        }
+        compare_nothing(quiet->above + at, quiet->sum + at);
+    }
+    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rest_rows * ROW - quiet->values) * sizeof *quiet->above);
+}
+
+static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
+    struct quiet quiet = {.values = work->values, .rest_rows = work->rest_rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
+    int64_t padded = quiet.rest_rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    int16_t weight[MAX_FOCI];
+    double share[MAX_FOCI], shares = 0;
+    uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
+    quiet.weight = (int64_t *)room;
+    quiet.sum = (int32_t *)(quiet.weight + quiet.blocks * CHANNELS);
+    quiet.strength = quiet.sum + padded;
+    quiet.above = (int16_t *)(quiet.strength + quiet.blocks * CHANNELS);
+    quiet.count = quiet.above + padded;
+    int16_t *next = quiet.count + quiet.rest_rows * CHANNELS;
+    take_bits(&quiet, work->words, work->idle_word);
+    for (int i = 0; i < work->count; i++) {
+        int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
+        memset(work->response[i] + work->values, 0, (size_t)(padded - work->values) * sizeof(int16_t));
+        int64_t given = -(int64_t)inner_product(quiet.above, work->response[i], (int)work->values);
+        share[i] = norm ? 1 / (double)norm : 0;
+        shares += share[i];
+        if (given < 0) share[i] = -share[i];
+    }
+    if (shares == 0) return;
+    double share_unit = MARGIN_WEIGHT_SUM / shares;
+    for (int i = 0; i < work->count; i++) weight[i] = (int16_t)nearest(share[i] * share_unit);
+    memset(quiet.strength, 0, (size_t)(quiet.blocks * CHANNELS) * sizeof *quiet.strength);
+    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+        add_up(work->count, work->response, weight, row * ROW, quiet.sum + row * ROW);
+        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, REST_SAMPLES);
+        set_margins(quiet.sum + row * ROW, quiet.above + row * ROW);
+    }
+    for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) total += quiet.strength[i];
+    if (total == 0) return;
+    double floor = (double)total * FLOOR / (double)(quiet.blocks * CHANNELS), scale = floor * (1 << WEIGHT_BITS);
+    for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) {
+        double strength = (double)quiet.strength[i];
+        quiet.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
+    }
+    quiet.unit = PI * scale / (double)(quiet.block_rows * REST_SAMPLES);
+    for (int i = 0; i < count; i++) {
+        struct still *still = quiet.place + i;
+        memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
+        still->response = next + reach;
+        still->rest = next + padded + 2 * reach;
+        next = still->rest + quiet.rest_rows * CHANNELS;
+        interpolate(work->idle_word, places + i, 0, quiet.values, still->response);
+        interpolate(work->idle_word, places + i, quiet.values, quiet.rest_rows * CHANNELS, still->rest);
+        prepare_still(&quiet, still);
+    }
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (int i = 0; i < count; i++)
+            if (quiet.place[i].solvable) correct(&quiet, quiet.place + i);
+    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+        int64_t left = (quiet.values - row * ROW) / CHANNELS;
+        write_words(work, row * ROW, left < REST_SAMPLES ? (int)left : REST_SAMPLES, quiet.above + row * ROW);
+    }
+}
+
+static PyObject *quieten_in(Py_buffer *buffer, PyObject *points, PyObject *places) {
+    struct bank bank;
+    struct work work;
+    struct patch patches[MAX_FOCI + MAX_QUIET];
+    double point[MAX_FOCI + MAX_QUIET][3];
+    if (!take_bank(buffer, &bank)) return NULL;
+    const struct plan *plan = &bank.plan;
+    Py_ssize_t count = PySequence_Size(points), still = PySequence_Size(places);
+    if (count < 0 || still < 0) return NULL;
+    if (count < 1 || count > MAX_FOCI || still < 1 || still > MAX_QUIET)
+        return PyErr_Format(PyExc_ValueError, "%zd points, not 1 to %d, and %zd quiet places, not 1 to %d", count, (int)MAX_FOCI, still,
+                            (int)MAX_QUIET);
+    for (Py_ssize_t i = 0; i < count + still; i++)
+        if (!read_point(i < count ? points : places, i < count ? i : i - count, point[i])) return NULL;
+    if (!has_room(buffer, plan->samples)) return NULL;
+    for (Py_ssize_t i = 0; i < count + still; i++) {
+        int64_t cell = find_patch(&bank, point[i][0], point[i][1], patches + i);
+        if (cell == -2) return NULL;
+        if (cell >= 0) return PyLong_FromLongLong(cell);
+    }
+    lay_out(&work, plan, (int)count, buffer[ROOM].buf, buffer[WORDS].buf);
+    int64_t step = plan->block_samples / STEPS_PER_BLOCK;
+    keep_still(&work, patches, patches + count, (int)still, step ? step : 1);
+    return PyLong_FromLong(-1);
+}
+
+static PyObject *quieten(PyObject *module, PyObject *const *arguments, Py_ssize_t given) {
+    Py_buffer buffer[BUFFERS];
+    PyObject *answer = NULL;
+    int taken = 0;
+    (void)module;
+    if (given != COMPOSE_ARGUMENTS + 1)
+        return PyErr_Format(PyExc_TypeError, "quieten takes %d arguments, not %zd", (int)COMPOSE_ARGUMENTS + 1, given);
+    while (taken < BUFFERS && !PyObject_GetBuffer(arguments[taken], buffer + taken, taken <= ROOM ? PyBUF_WRITABLE : PyBUF_SIMPLE)) taken++;
+    if (taken == BUFFERS) answer = quieten_in(buffer, arguments[POINTS], arguments[POINTS + 1]);
     while (taken--) PyBuffer_Release(buffer + taken);
     return answer;
 }
@@ -1003,6 +1307,7 @@ static PyObject *statuses_good(PyObject *module, PyObject *const *args, Py_ssize
 static PyMethodDef methods[] = {
     {"statuses_good", (PyCFunction)(void (*)(void))statuses_good, METH_FASTCALL, "statuses_good(answers, start, count, head, sequence)"},
     {"compose", (PyCFunction)(void (*)(void))compose, METH_FASTCALL, "compose(words, room, plan, entries, scales, good, response, points)"},
+    {"quieten", (PyCFunction)(void (*)(void))quieten, METH_FASTCALL, "quieten(words, room, plan, entries, scales, good, response, points, quiet)"},
     {"pack_loads", (PyCFunction)(void (*)(void))pack_loads, METH_FASTCALL, "pack_loads(out, sequence, words)"},
     {"renumber_loads", (PyCFunction)(void (*)(void))renumber_loads, METH_FASTCALL, "renumber_loads(out, sequence, ready)"},
     {"unpack_loads", (PyCFunction)(void (*)(void))unpack_loads, METH_FASTCALL, "unpack_loads(words, ready)"},

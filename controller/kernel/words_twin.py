@@ -25,6 +25,14 @@ An amplitude is a share of what the same point would get if all points were comp
 sets the ratio of the amplitudes; their common level is set by leaving bits at idle where `S` is weak against the mean of its
 absolute value in the same block of samples and the same channel. Both are found by measuring: the displacement at a point is
 linear in the bits, an inner product of them with the point's response, in the band and outside it.
+
+Full amplitude is the level that all points have together: the mean of their shares in the band, weighed as they are, which is
+next to the largest share that all can have. A point that differs from it by more than a sixteenth has its own, since its neighbours
+move it.
+
+Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
+and none is asked for more than the least of them; below that it may be stronger, the less alike they are. What is too much
+after the last round is lowered together with all others.
 """
 
 from __future__ import annotations
@@ -71,6 +79,10 @@ SCALE: Final = struct.Struct("=f")
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
 MAX_ROUNDS: Final = 5  # of measuring what the bits give; most emissions need two or three
+MAX_LOWERINGS: Final = 3  # behind them
+TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
+ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
+OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
 TOLERANCE: Final = 0.01  # of an amplitude: well below a step
 
 ZERO: Final = np.array(0, np.int32)
@@ -299,16 +311,25 @@ class _Work:
                 np.greater(self._short[: self._bits.size], ZERO_SHORT, out=self._bits)
                 return
             np.copyto(self._responses[row], self._short)
-        divisors = [float(self._norm(row)) or math.inf for row in range(count)]
+        divisors, balance = [float(self._norm(row)) or math.inf for row in range(count)], [1.0]
         if count > 1:
             self._sketch.take(self._in_band[:count])
-            divisors = self._sketch.polarised(divisors)
-            divisors = self._sketch.balanced(divisors)
-        unit = self._add([1.0] * count, divisors)
+            asked, divisors = self._sketch.polarised(asked, divisors)
+            balance = self._sketch.balanced(divisors)
+        unit = self._add(balance, divisors)
         np.greater(self._sum, ZERO, out=self._bits)
         if unit and not full:
-            wanted = [share * most for share, most in zip(asked, self._measured(divisors), strict=True)]
-            self._solve(asked, wanted, divisors)
+            self._solve(asked, self._wanted(asked, divisors, balance), divisors, balance)
+
+    def _wanted(self, asked: list[float], divisors: list[float], balance: list[float]) -> list[float]:
+        """Displacements at less than full amplitude, from those at full amplitude, which the bits give."""
+        measured, in_band = self._measured(divisors)
+        level = _product(balance, in_band) / _product(balance, [1.0] * len(balance))
+        nearly = level * OWN_LEVEL
+        return [
+            share * (got - max(-nearly, min(nearly, most - level)))
+            for share, got, most in zip(asked, measured, in_band, strict=True)
+        ]
 
     def _interpolate(self, levels: Numbers, stride: int, patch: Patch) -> None:
         """Response of a point, negated in channels that idle high."""
@@ -338,17 +359,19 @@ class _Work:
                 np.add(self._sum, self._product, out=self._sum)
         return unit
 
-    def _measured(self, divisors: list[float]) -> list[float]:
-        """Displacement that the bits give at each point, divided by its divisor: in the band and outside it."""
+    def _measured(self, divisors: list[float]) -> tuple[list[float], list[float]]:
+        """Displacement that the bits give at each point, divided by its divisor: all of it, and what is in the band."""
         np.copyto(self._bit_values, self._bits)
         self._bits_of_no_sample[:] = 0
         np.matmul(self._rest_ones, self._bits_by_rest_row, out=self._rest_bits)
-        found = []
+        found, in_band = [], []
         for row, divisor in enumerate(divisors):
             np.multiply(self._in_band[row], self._bit_values, out=self._product)
             np.multiply(self._outside[row], self._flat_rest_bits, out=self._rest_product)
-            found.append((_total(self._product_halves) + _total(self._rest_product_halves)) / divisor)
-        return found
+            inside = _total(self._product_halves)
+            in_band.append(inside / divisor)
+            found.append((inside + _total(self._rest_product_halves)) / divisor)
+        return found, in_band
 
     def _measure_strength(self) -> None:
         """Sum of the absolute values of each block and channel of the sum of responses."""
@@ -369,7 +392,7 @@ class _Work:
         np.copyto(self._threshold_by_run, self._run_by_block)
         np.greater(self._sum, self._threshold, out=self._bits)
 
-    def _solve(self, asked: list[float], wanted: list[float], divisors: list[float]) -> None:
+    def _solve(self, asked: list[float], wanted: list[float], divisors: list[float], balance: list[float]) -> None:
         """Set the bits that give the wanted displacement at each point.
 
         The ratio of the weights sets the ratio of the displacements; the Euclidean norm of the weights sets how much is
@@ -384,27 +407,40 @@ class _Work:
         wanted : list of float
             Displacement of each point, as `_measured` gives it.
         divisors : list of float
-            Of the points' responses.
+            Of the points' responses: the sums of their absolute values, with the points' polarities.
+        balance : list of float
+            Weights at full amplitude.
         """
         count = len(asked)
-        first_unit = unit = self._add(asked, divisors)
+        first_unit = unit = self._add(_products(balance, asked), divisors)
         first_norm = math.sqrt(_product(asked, asked))
         self._measure_strength()
         weights = weights_before = residuals_before = asked
         gain = 0.0
-        for turn in range(MAX_ROUNDS):
+        last = MAX_ROUNDS + MAX_LOWERINGS - 1
+        for turn in range(last + 1):
             norm = math.sqrt(_product(weights, weights)) or first_norm
             if turn and count > 1:  # the sum of a single point stays as it is
-                unit = self._add([weight * first_norm / norm for weight in weights], divisors)
+                scaled = [weight * first_norm / norm for weight in weights]
+                unit = self._add(_products(balance, scaled), divisors)
             self._mask(masking_threshold(norm / math.sqrt(count)) * (unit / first_unit))
-            if turn == MAX_ROUNDS - 1:
+            if turn == last:
                 return
-            measured = self._measured(divisors)
+            measured, _ = self._measured(divisors)
             if all(abs(want - got) <= TOLERANCE * want for want, got in zip(wanted, measured, strict=True)):
                 return
             gain = gain or _product(measured, weights) / (norm * norm)
             if not gain > 0:
                 return
+            if turn >= MAX_ROUNDS - 1:
+                most = max(got / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+                if min(measured) < 0:
+                    weights = asked
+                elif most > TOO_MUCH:
+                    weights = [weight / most for weight in weights]
+                else:
+                    return
+                continue
             residuals = [(want - got) / gain for want, got in zip(wanted, measured, strict=True)]
             mixing = 0.0
             if turn:
@@ -447,8 +483,8 @@ class _Sketch:
             self._tables[count] = _SketchTables(self._rows[:count], self._parts[0][0].size)
         return self._tables[count]
 
-    def polarised(self, norms: list[float]) -> list[float]:
-        """The norms with the signs of the points for which the energy of the sum is largest."""
+    def polarised(self, asked: list[float], norms: list[float]) -> tuple[list[float], list[float]]:
+        """What can be asked for, and the norms, with the signs of the points for which the energy of the sum is largest."""
         count, tables, products, largest = len(norms), self._tables_for(len(norms)), [], 0.0
         np.matmul(tables.before, tables.before_transposed, out=tables.gram)
         for i in range(count):
@@ -457,7 +493,8 @@ class _Sketch:
                 products.append((i, j, product))
                 largest = max(largest, abs(product))
         if largest == 0:
-            return norms
+            return asked, norms
+        alike = [] if min(asked) == max(asked) else tables.correlations()
         unit = (1 << PRODUCT_BITS) / largest
         tables.gram.fill(0)
         for i, j, product in products:
@@ -467,12 +504,25 @@ class _Sketch:
         np.matmul(tables.fields, tables.ones, out=tables.energies)
         best = int(np.argmax(tables.energies))
         turned = 1 if 2 * best.bit_count() > count else 0
-        return [norm * (1 - 2 * (best << 1 >> i & 1 ^ turned)) for i, norm in enumerate(norms)]
+        signs = [1 - 2 * (best << 1 >> i & 1 ^ turned) for i in range(count)]
+        asked = list(asked)
+        for _ in range(count if alike else 0):
+            before = list(asked)
+            for i, j, correlation in alike:
+                together = correlation * signs[i] * signs[j]
+                if together > 0:
+                    room = ONE_PLACE / together if together < ONE_PLACE else 1.0
+                    asked[i] = min(asked[i], asked[j] * room)
+                    asked[j] = min(asked[j], asked[i] * room)
+            if asked == before:
+                break
+        return asked, [norm * sign for norm, sign in zip(norms, signs, strict=True)]
 
     def balanced(self, norms: list[float]) -> list[float]:
-        """The norms divided by weights with which all points get about the same share of their maximum."""
+        """Weights with which all points get about the same share of their maximum; 0 where there is nothing to be had."""
         count, tables = len(norms), self._tables_for(len(norms))
-        weights = [1.0] * count
+        weights = [1.0 if math.isfinite(norm) else 0.0 for norm in norms]
+        moving = _product(weights, weights) or 1.0
         for _ in range(BALANCING_ROUNDS):
             for index, whole in enumerate(_whole_weights(weights, norms)[0]):
                 tables.weights[index] = whole
@@ -481,11 +531,11 @@ class _Sketch:
             np.copyto(self._bit_values, self._bits)
             np.matmul(tables.rows, self._bit_values, out=tables.got)
             shares = [float(got) / norm for got, norm in zip(tables.got, norms, strict=True)]
-            mean = _product(shares, [1.0] * count) / count
+            mean = _product(shares, [1.0] * count) / moving
             for index, share in enumerate(shares):
                 correction = mean / share if share > 0 else MAX_CORRECTION
                 weights[index] *= min(max(correction, 1 / MAX_CORRECTION), MAX_CORRECTION)
-        return [norm / weight for norm, weight in zip(norms, weights, strict=True)]
+        return weights
 
 
 class _SketchTables:
@@ -498,6 +548,16 @@ class _SketchTables:
         choices = np.arange(1 << (count - 1))  # the first point is positive
         self.signs = 1.0 - 2 * (choices[:, None] << 1 >> np.arange(count) & 1)
         self.fields, self.energies = np.empty(self.signs.shape), np.empty(len(choices))
+
+    def correlations(self) -> list[tuple[int, int, float]]:
+        """Of the responses of each two points."""
+        found, count = [], len(self.gram)
+        sizes = [float(self.gram[i, i]) for i in range(count)]
+        for i in range(count):
+            for j in range(i):
+                if sizes[i] > 0 and sizes[j] > 0:
+                    found.append((i, j, float(self.gram[i, j]) / math.sqrt(sizes[i] * sizes[j])))
+        return found
 
 
 def _whole_weights(weights: list[float], divisors: list[float]) -> tuple[list[int], float]:
@@ -547,6 +607,10 @@ def _product(left: list[float], right: list[float]) -> float:
     for one, other in zip(left, right, strict=True):
         total += one * other
     return total
+
+
+def _products(left: list[float], right: list[float]) -> list[float]:
+    return [one * other for one, other in zip(left, right, strict=True)]
 
 
 def _rest_rows(samples: int) -> int:

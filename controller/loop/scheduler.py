@@ -19,7 +19,8 @@ from controller.loop.spots import Spots
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
-from controller.scene.scene import OUTSIDE, Scene
+from controller.scene.region_lookup import OUTSIDE
+from controller.scene.scene import Scene
 from controller.touch.source import TouchSample
 from controller.waveforms.composition import MAX_FOCI
 

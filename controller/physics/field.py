@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from controller.board.board import Board
-from controller.physics.plate import PlateModes, wavelength_m
+from controller.physics.plate import PlateModes, bending_wavelength_m
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
@@ -59,7 +59,7 @@ class FocusScale:
     def of(cls, board: Board) -> FocusScale:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
         middle_hz = (board.waveform.band_low_hz + board.waveform.band_high_hz) / 2
-        longer = float(f"{wavelength_m(board.plate, middle_hz) / WAVELENGTH_M:.3g}")
+        longer = float(f"{bending_wavelength_m(board.plate, middle_hz) / WAVELENGTH_M:.3g}")
         slower = float(f"{MIDDLE_HZ / middle_hz:.3g}")
         return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower)
 

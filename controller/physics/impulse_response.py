@@ -6,6 +6,7 @@ periods after the start of a pulse of one bit period (`modal_response`).
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from controller.bank.file_format import REST_SAMPLES
 from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
-from controller.physics.modal_response import band_limited_response, pulse_response
+from controller.physics.modal_response import band_limited_response, modes_at_once, pulse_response
 from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.row_responses import RowResponses, flops_in_rows, in_rows
 from controller.physics.step_response import StepResponse, channel_forces
@@ -39,10 +40,6 @@ class ResponseModel:
     step : StepResponse
     forces : (mode, 32) array
         N per V.
-    modal : (mode, sample) array
-        Response of each mode to a pulse of one bit period, in m per N.
-    modal_band : (mode, sample) array
-        The same, band-limited.
     """
 
     def __init__(self, board: Board, highest_hz: float | None = None) -> None:
@@ -51,17 +48,34 @@ class ResponseModel:
         self.forces = channel_forces(board, self.plate_modes)
         waveform = board.waveform
         self.samples = waveform.samples
-        self.modal = pulse_response(self.step, waveform.bit_period_s, waveform.samples)
-        self.modal_band = band_limited_response(
-            self.step,
-            waveform.bit_period_s,
-            waveform.samples,
-            (waveform.band_low_hz, waveform.band_high_hz),
-            board.plate.decay_time_s,
-        )
+        self._bit_period_s = waveform.bit_period_s
+        self._band_hz = waveform.band_low_hz, waveform.band_high_hz
+        self._decay_time_s = board.plate.decay_time_s
         self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
         self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
+
+    @cached_property
+    def modal(self) -> Floats:
+        """Response of each mode to a pulse of one bit period, in m per N: (mode, sample)."""
+        return self._modal(slice(0, self.modes), False)
+
+    @cached_property
+    def modal_band(self) -> Floats:
+        """The same, band-limited."""
+        return np.concatenate([self._modal(some, True) for some in self._blocks()])
+
+    def _modal(self, some: slice, band_limited: bool) -> Floats:
+        """Responses of some modes: (mode, sample)."""
+        step = self.step.part(some)
+        if not band_limited:
+            return pulse_response(step, self._bit_period_s, self.samples)
+        return band_limited_response(step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
+
+    def _blocks(self) -> list[slice]:
+        """Modes in blocks whose responses are computed at once."""
+        at_once = modes_at_once(self.step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
+        return [slice(first, min(first + at_once, self.modes)) for first in range(0, self.modes, at_once)]
 
     @property
     def modes(self) -> int:
@@ -118,15 +132,23 @@ class ResponseModel:
         Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 8 samples; what
         the last row has beyond the last sample is zero.
         """
+        return self._responses(points_m, self.entry_kernel(dtype), out)
+
+    def entry_kernel(self, dtype: DTypeLike = np.float32) -> NDArray[np.floating[Any]]:
+        """What `entry_responses` multiplies with, (sample and row, mode), computed with the first call."""
         kind = np.dtype(dtype)
         key = ("entry", kind.str)
         if key not in self._kernels:
             rows = -(-self.samples // REST_SAMPLES)
-            outside = np.zeros((self.modes, rows * REST_SAMPLES))
-            outside[:, : self.samples] = (self.modal - self.modal_band)[:, ::-1]
-            means = outside.reshape(self.modes, rows, REST_SAMPLES).mean(axis=2)
-            self._kernels[key] = np.concatenate([self._kernel(True, True, kind), means.T.astype(kind)])
-        return self._responses(points_m, self._kernels[key], out)
+            kernel = np.empty((self.samples + rows, self.modes), kind)
+            for some in self._blocks():
+                in_band = self._modal(some, True)
+                outside = np.zeros((len(in_band), rows * REST_SAMPLES))
+                outside[:, : self.samples] = (self._modal(some, False) - in_band)[:, ::-1]
+                kernel[: self.samples, some] = in_band[:, ::-1].T
+                kernel[self.samples :, some] = outside.reshape(len(in_band), rows, REST_SAMPLES).mean(axis=2).T
+            self._kernels[key] = kernel
+        return self._kernels[key]
 
     def entry_flops(self, points_m: NDArray[np.float64]) -> float:
         """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""
@@ -139,8 +161,11 @@ class ResponseModel:
         """Modal responses as the (sample, mode) factor of the GEMM; kept."""
         key = (f"{band_limited} {reverse}", dtype.str)
         if key not in self._kernels:
-            modal = self.modal_band if band_limited else self.modal
-            self._kernels[key] = np.ascontiguousarray((modal[:, ::-1] if reverse else modal).T, dtype)
+            kernel = np.empty((self.samples, self.modes), dtype)
+            for some in self._blocks():
+                modal = self._modal(some, band_limited)
+                kernel[:, some] = (modal[:, ::-1] if reverse else modal).T
+            self._kernels[key] = kernel
         return self._kernels[key]
 
     def _responses(

@@ -140,12 +140,6 @@ class PlateModes:
         return curvature
 
 
-def wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Wavelength of bending waves in m: 2 pi (D / (rho h))^(1/4) / sqrt(omega)."""
-    per_area = plate.density_kg_m3 * plate.thickness_m
-    return float(2 * np.pi * (bending_stiffness(plate) / per_area) ** 0.25 / np.sqrt(2 * np.pi * frequency_hz))
-
-
 def bending_stiffness(plate: Plate) -> float:
     """D = E h^3 / (12 (1 - nu^2)) in N m."""
     return plate.young_modulus_pa * plate.thickness_m**3 / (12 * (1 - plate.poisson_ratio**2))

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ from controller.physics.driver import DriverResponse
 from controller.physics.field import Field, FocusScale
 from controller.physics.focusing import balanced_weights, focus
 from controller.physics.impulse_response import ResponseModel
+from controller.physics.memory import TABLE_BYTES
 from controller.physics.plate import PlateModes, mode_cut_hz
 from controller.physics.step_response import StepResponse, channel_forces
 
@@ -37,6 +39,7 @@ Point = tuple[float, float]
 
 GAP_BITS = 16
 MAX_GROUP_BITS = 1024
+POLES_AT_ONCE = 512  # 25 MB of exponentials
 
 
 class GroupState(NamedTuple):
@@ -83,10 +86,14 @@ class PlateTwin:
         self.work = Work()
         self._remembered = remembered
         self._group_states: OrderedDict[bytes, GroupState] = OrderedDict()
-        self._table: NDArray[np.float64] | None = None
+        self._table: Floats | None = None
         self._exact: dict[tuple[Point, ...], Floats] = {}
-        self._responses: ResponseModel | None = None
         self._pole_forces = np.ascontiguousarray(self.forces[self.step.mode_of_pole])
+
+    @cached_property
+    def responses(self) -> ResponseModel:
+        """Responses of the same plate, which its own way from pins to displacement does not use."""
+        return ResponseModel(self.board, self._highest_hz)
 
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.
@@ -157,11 +164,9 @@ class PlateTwin:
         values of the displacements, since the polarities of points are free.
         """
         if points_m not in self._exact:
-            if self._responses is None:
-                self._responses = ResponseModel(self.board, self._highest_hz)
             places = np.array(points_m)
-            in_band = self._responses.drive_order_responses(places, dtype=np.float64)
-            whole = self._responses.responses(places)[:, ::-1]
+            in_band = self.responses.drive_order_responses(places, dtype=np.float64)
+            whole = self.responses.responses(places)[:, ::-1]
             self._exact[points_m] = np.abs(self._amplitudes_of(in_band, balanced_weights(in_band), whole))
             for index, point in enumerate(points_m):  # computing the responses takes the time, so keep each point alone too
                 alone = slice(index, index + 1)
@@ -198,11 +203,14 @@ class PlateTwin:
         if np.array_equal(whole, ago_bits) and whole[0] < MAX_GROUP_BITS:
             spread = np.zeros((int(whole[0]) + 1, CHANNELS))
             spread[whole] = steps
-            rung = self._decay_table()[:, : len(spread)] @ spread
+            table = self._decay_table()
+            if table is not None:
+                summed = (table[:, : len(spread)] @ spread).reshape(2, count, CHANNELS)
+                rung = np.einsum("pq,rpq->rp", self._pole_forces, summed)
+            else:
+                rung = self._rung(np.arange(float(len(spread))) * period, spread)
         else:
-            decay = np.exp(np.outer(self.step.poles, ago_bits * period))
-            rung = np.concatenate([decay.real, decay.imag]) @ steps
-        rung = np.einsum("pq,rpq->rp", self._pole_forces, rung.reshape(2, count, CHANNELS))
+            rung = self._rung(ago_bits * period, steps)
         plate = (rung[0] + 1j * rung[1]) * self.step.residues
         return GroupState(plate, np.exp(np.outer(self.step.driver_poles, ago_bits * period)) @ steps)
 
@@ -210,12 +218,27 @@ class PlateTwin:
         """Voltage of each channel's stage: (word, 32)."""
         return channel_bits(words).astype(np.float64) * self.board.driver.supply_v
 
-    def _decay_table(self) -> Floats:
-        """exp(pole * n bit periods), real parts above imaginary parts: (2 * pole, n)."""
-        if self._table is None:
+    def _rung(self, ago_s: Floats, steps: Floats) -> Floats:
+        """Sum of steps of voltage, (step, 32), each as old as `ago_s`, over channels: real and imaginary part of each pole."""
+        rung = np.empty((2, self.step.poles.size))
+        for first in range(0, self.step.poles.size, POLES_AT_ONCE):
+            some = slice(first, first + POLES_AT_ONCE)
+            decay = np.exp(np.outer(self.step.poles[some], ago_s))
+            for part, of_poles in zip(rung, (decay.real, decay.imag), strict=True):
+                part[some] = np.einsum("pq,pq->p", self._pole_forces[some], of_poles @ steps)
+        return rung
+
+    def _decay_table(self) -> Floats | None:
+        """exp(pole * n bit periods), real parts above imaginary parts, (2 * pole, n); None if it would be too large."""
+        count = self.step.poles.size
+        if self._table is None and 16.0 * count * MAX_GROUP_BITS <= TABLE_BYTES:
             times = np.arange(MAX_GROUP_BITS) * self.board.waveform.bit_period_s
-            decay = np.exp(np.outer(self.step.poles, times))
-            self._table = np.concatenate([decay.real, decay.imag])
+            table = np.empty((2 * count, MAX_GROUP_BITS))
+            for first in range(0, count, POLES_AT_ONCE):
+                last = min(first + POLES_AT_ONCE, count)
+                decay = np.exp(np.outer(self.step.poles[first:last], times))
+                table[first:last], table[count + first : count + last] = decay.real, decay.imag
+            self._table = table
         return self._table
 
 

@@ -12,6 +12,7 @@ plate) have two real poles instead of a conjugate pair, so poles are listed with
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from controller.physics.plate import PlateModes
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Number = TypeVar("Number", np.float64, np.complex128)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,22 @@ class StepResponse:
             driver_residues=driver.residues[None, :] * plate_at_d,
         )
 
-    def by_mode(self, of_poles: Floats) -> Floats:
+    def part(self, modes: slice) -> StepResponse:
+        """The same for some modes, by their numbers from `modes.start` to `modes.stop`."""
+        count = self.static.size
+        owner = self.mode_of_pole[count:]
+        seconds = np.flatnonzero((owner >= modes.start) & (owner < modes.stop))
+        chosen = np.concatenate([np.arange(count)[modes], count + seconds])
+        return StepResponse(
+            static=self.static[modes],
+            poles=self.poles[chosen],
+            residues=self.residues[chosen],
+            mode_of_pole=self.mode_of_pole[chosen] - modes.start,
+            driver_poles=self.driver_poles,
+            driver_residues=self.driver_residues[modes],
+        )
+
+    def by_mode(self, of_poles: NDArray[Number]) -> NDArray[Number]:
         """Add up the poles of each mode: (pole, ...) to (mode, ...)."""
         count = self.static.size
         total = of_poles[:count].copy()

@@ -23,7 +23,8 @@ from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.errors import ConfigError
 from controller.scene.emission import Emission, new_emission
 from controller.scene.progress import DistanceProgress, GridProgress
-from controller.scene.scene import OUTSIDE, Scene
+from controller.scene.region_lookup import OUTSIDE
+from controller.scene.scene import Scene
 from controller.scene.trains import NO_BEAT, ActiveTrain, Train
 
 NO_CROSSING = (math.inf, 0.0)
@@ -97,7 +98,7 @@ class ActiveEffects:
         tuple of Emission
             Due now: at most one, as for every touch sample.
         """
-        index = self._scene.region_at(self.x_m, self.y_m)
+        index = self._scene.lookup.at(self.x_m, self.y_m)
         if index == OUTSIDE:
             return ()
         self._enter(index)
@@ -107,7 +108,7 @@ class ActiveEffects:
     def move(self, x_m: float, y_m: float, time_s: FpgaTime) -> tuple[Emission, ...]:
         """The finger that is down moves to (x_m, y_m) at `time_s`; at most one emission is due, as in `press`."""
         scene = self._scene
-        index = scene.region_at(x_m, y_m)
+        index = scene.lookup.at(x_m, y_m)
         self.x_m, self.y_m = x_m, y_m
         left = self.region
         if index == left:

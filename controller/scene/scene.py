@@ -15,13 +15,12 @@ from msgspec import Meta, Struct
 
 from controller.board.board import Board
 from controller.scene.effects import EffectTable
+from controller.scene.region_lookup import TILES, RegionLookup
 from controller.scene.scene_file import CheckedRegion, Shape, read_scene, spot_at
 from controller.scene.shapes import Boxes, Coordinate
 from controller.scene.spacings import Spacing, spacing_of
 from controller.scene.trains import EffectiveAmplitude, Train, train_of
 
-OUTSIDE: Final = -1
-TILES: Final = 32  # of the spatial index, along each axis
 MIN_SIDE_M: Final = 1e-9  # of all tiles together: a region may be so thin that it has no width in floating point
 TilesPerM = Annotated[float, Meta(gt=0, le=TILES / MIN_SIDE_M)]
 
@@ -140,10 +139,14 @@ class Scene:
     known_index: InitVar[SpatialIndex | None] = None
     spots: tuple[Spot, ...] = field(init=False)
     index: SpatialIndex = field(init=False, repr=False)
+    lookup: RegionLookup = field(init=False, repr=False, compare=False)
 
     def __post_init__(self, known_index: SpatialIndex | None) -> None:
         object.__setattr__(self, "spots", tuple([region.spot for region in self.regions if region.spot]))
         object.__setattr__(self, "index", SpatialIndex.of(self.regions) if known_index is None else known_index)
+        index, shapes = self.index, [region.shape for region in self.regions]
+        tiles = index.low_x_m, index.low_y_m, index.tiles_per_m_x, index.tiles_per_m_y
+        object.__setattr__(self, "lookup", RegionLookup(shapes, *tiles, index.candidates))
 
     @property
     def may_idle(self) -> bool:
@@ -152,13 +155,7 @@ class Scene:
 
     def region_at(self, x_m: float, y_m: float) -> int:
         """Index of the first region that contains the point (x_m, y_m), or OUTSIDE."""
-        index = self.index
-        column, row = int((x_m - index.low_x_m) * index.tiles_per_m_x), int((y_m - index.low_y_m) * index.tiles_per_m_y)
-        if 0 <= column < TILES and 0 <= row < TILES:
-            for number in index.candidates[column * TILES + row]:
-                if self.regions[number].shape.contains(x_m, y_m):
-                    return number
-        return OUTSIDE
+        return self.lookup.at(x_m, y_m)
 
 
 def load_scene(file: Path, board: Board) -> Scene:

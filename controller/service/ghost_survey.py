@@ -54,6 +54,11 @@ class Overheard:
         return self._source.counts
 
     @property
+    def touched(self) -> bool:
+        """Of the source."""
+        return self._source.touched
+
+    @property
     def warnings(self) -> Counter[str]:
         """Of the source."""
         return self._source.warnings

@@ -76,6 +76,8 @@ class Decoder:
         Reports, contacts and fingers so far.
     warnings : Counter of str
         Anomalies so far, by kind.
+    touched : bool
+        Whether the events fed last ended a report with at least one contact down.
     """
 
     def __init__(
@@ -98,6 +100,7 @@ class Decoder:
         self._replaced: list[Contact] = []  # contacts that another one has replaced within the report
         self._touching: bool | None = None  # BTN_TOUCH, None before its first event
         self._dropping = False
+        self.touched = False
         self._played = 0
         self._next_finger: int = after._next_finger if after else 0
         self._serials = count(FIRST_SERIAL)
@@ -124,6 +127,7 @@ class Decoder:
             If the last event is SYN_REPORT: fingers released, then fingers moved or begun; else None.
         """
         samples = None
+        self.touched = False
         x_code, y_code = self._x_code, self._y_code
         for kind, code, value, _ in events:
             samples = None
@@ -296,6 +300,7 @@ class Decoder:
             elif contact.moved or contact.finger is None:
                 changed.append(contact)
         if down:
+            self.touched = True
             counts = self.counts
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)

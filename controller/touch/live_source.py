@@ -32,10 +32,13 @@ class LiveSource:
         Reports, contacts and fingers since the start, reconnections included.
     silence : Silence
         To be set before a read by whoever waits for `fileno`.
+    touched : bool
+        See `TouchSource.touched`.
     """
 
     def __init__(self, reader: EventReader, board: Board) -> None:
         self.silence = Silence()
+        self.touched = False
         self._reader = reader
         self._board = board
         self._own_warnings: Counter[str] = Counter()
@@ -68,6 +71,7 @@ class LiveSource:
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report by `now_s`; see `TouchSource.read`."""
+        self.touched = False
         if self.silence.known:
             due_s = self._reader.next_time_s()
             if due_s is None or due_s > now_s:
@@ -78,7 +82,9 @@ class LiveSource:
         if self._reader.description is not self._description:
             self._decoder = self._renewed(self._decoder)
         time_s = self._clock.corrected_s(events[-1][3], now_s)
-        return self._decoder.feed_report(events, time_s) or ()
+        samples = self._decoder.feed_report(events, time_s)
+        self.touched = self._decoder.touched
+        return samples or ()
 
     def close(self) -> None:
         """Close the device."""

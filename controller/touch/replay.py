@@ -28,6 +28,8 @@ class RecordingSource:
     ----------
     counts : Counts
         Reports, contacts and fingers replayed so far.
+    touched : bool
+        See `TouchSource.touched`.
     """
 
     def __init__(self, recording: Recording, axes: Axes, start_s: float) -> None:
@@ -40,6 +42,7 @@ class RecordingSource:
         self._report = 0
         self._warnings = recording.warnings
         self._ended = not self._events
+        self.touched = False
         self._end_warnings: Counter[str] = Counter()
 
     @property
@@ -61,6 +64,7 @@ class RecordingSource:
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of the next report if it is due by `now_s`; see `TouchSource.read`."""
+        self.touched = False
         due_s = self.next_time_s()
         if due_s is None or due_s > now_s:
             return ()
@@ -72,7 +76,9 @@ class RecordingSource:
             return released
         start, self._next = self._next, self._report_ends[self._report] + 1
         self._report += 1
-        return self._decoder.feed_report(self._events[start : self._next], due_s) or ()
+        samples = self._decoder.feed_report(self._events[start : self._next], due_s)
+        self.touched = self._decoder.touched
+        return samples or ()
 
     def close(self) -> None:
         """End the replay."""

@@ -86,6 +86,10 @@ class TouchSource(Protocol):
         """Reports, contacts and fingers so far; the same object at any time."""
 
     @property
+    def touched(self) -> bool:
+        """Whether the last `read` took a report with at least one contact down, be it that none has moved."""
+
+    @property
     def warnings(self) -> Counter[str]:
         """Anomalies that were skipped or clamped so far, counted by kind (`reports.WARNINGS`)."""
 

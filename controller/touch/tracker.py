@@ -100,6 +100,8 @@ class Tracker:
     ----------
     counts : Counts
         Reports, contacts and fingers of the source.
+    touched : bool
+        Of the source: see `TouchSource.touched`.
     tracking : TrackerCounts
         Contacts held back, bridged and refused.
     rate : ReportRate
@@ -116,6 +118,7 @@ class Tracker:
         motion: type[Motion] = Motion,
     ) -> None:
         self.counts: Counts = source.counts
+        self.touched = False
         self.tracking = TrackerCounts()
         self.rate = ReportRate()
         self._source = source
@@ -131,7 +134,6 @@ class Tracker:
         self._fingers: dict[int, _Contact] = {}  # played, by number in the loop's samples
         self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
         self._lost: list[_Contact] = []
-        self._reports = self.counts.reports
         self._known_s = -inf  # time up to which all reports have been taken
         self._due_s = inf  # when a decision is due without a report
 
@@ -171,15 +173,13 @@ class Tracker:
             self._quiet.retry_s = inf
         samples = self._source.read(now_s)
         known_s = self._known_s = samples[0].time_s if samples else now_s  # more reports may follow this one
-        reports = self.counts.reports
-        reported = reports != self._reports
-        if not samples and not reported and now_s < self._due_s:
+        self.touched = touched = self._source.touched
+        if not samples and not touched and now_s < self._due_s:
             return ()
         out: list[TouchSample] = []
         for sample in samples:
             self._take(sample, out)
-        if reported:
-            self._reports = reports
+        if touched:
             self.rate.report(known_s)
             self._found_still(known_s)
         self._decide(known_s, out)

@@ -38,12 +38,13 @@ from controller.waveforms.design import Place, WaveformDesign
 Floats = NDArray[np.float64]
 
 LEVELS = 64  # to which relaxed levels are rounded before they become bits
-STEPS_BEFORE_WEIGHING = 10  # relaxation steps between two corrections of the weight of the amplitude
+STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude
 SAMPLES_AT_ONCE = 20  # after which the audible spectrum is brought up to date
 FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
 CALMER = 4.0  # an entry that switches too often is improved again, edges costing so many times as much
 CALMING_PASSES = 4
-CELLS_AT_ONCE = 32  # 120 MB of levels and gradients
+CELLS_AT_ONCE = 32  # at most, and as many as fit into
+WORKING_BYTES = 120e6  # of levels, gradients and modal forces
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,8 +55,9 @@ class Aim:
     ----------
     name : str
     contrast, silence, calm : float
-        Costs of the mean square field outside the focus, of the energy below 16 kHz and of the edges of all channels, each
-        relative to that of the plain waveform, where the plain waveform's amplitude is worth about `amplitude`.
+        Costs of the mean square field outside the focus (0: it is left alone, which saves most of the time), of the energy below
+        16 kHz and of the edges of all channels, each relative to that of the plain waveform, where the plain waveform's
+        amplitude is worth about `amplitude`.
     amplitude : float
         Worth of the amplitude that the relaxation begins with.
     steps : int
@@ -76,9 +78,9 @@ class Aim:
 AIMS = {
     aim.name: aim
     for aim in (
-        Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=60),
-        Aim("quiet", contrast=0.01, silence=5.0, calm=0.3, amplitude=0.45, steps=120),
-        Aim("balanced", contrast=0.1, silence=1.0, calm=0.2, amplitude=0.35, steps=100),
+        Aim("contrast", contrast=0.1, silence=0.05, calm=0.05, amplitude=0.12, steps=40),
+        Aim("quiet", contrast=0.0, silence=2.0, calm=0.2, amplitude=0.25, steps=250),
+        Aim("balanced", contrast=0.1, silence=1.0, calm=0.15, amplitude=0.35, steps=80),
     )
 }
 
@@ -130,6 +132,8 @@ class Descent:
         self._audible = AudibleForm(board, model, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
         self._prediction = Prediction(board, model)
+        cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)
+        self._at_once = max(1, min(CELLS_AT_ONCE, int(WORKING_BYTES / cell_bytes)))
 
     def design(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> WaveformDesign:
         """As `DesignMethod.design`, for one point at full amplitude."""
@@ -149,8 +153,8 @@ class Descent:
         """
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         found = np.empty((len(points), self._model.samples), np.uint32)
-        for first in range(0, len(points), CELLS_AT_ONCE):
-            found[first : first + CELLS_AT_ONCE] = self._some(points[first : first + CELLS_AT_ONCE])
+        for first in range(0, len(points), self._at_once):
+            found[first : first + self._at_once] = self._some(points[first : first + self._at_once])
         return found
 
     def _some(self, points_m: Floats) -> NDArray[np.uint32]:
@@ -204,13 +208,17 @@ class Descent:
         rate = 1 / (curvature * self._field.largest + 2 * cells.sound * self._audible.largest)
         aimed = cells.amplitude
         levels, ahead = cells.plain, cells.plain
+        pull = None if self._aim.contrast else self._field.gradient(cells.shapes)
         momentum = np.ones(len(aimed))
         for step in range(1, self._aim.steps + 1):
             ahead = np.rint(ahead * 1024) / 1024
-            modal = self._field.modal(ahead)
-            near, _ = self._field.near(modal, cells.places)
-            wanted = (cells.worth / aimed)[:, None] * cells.shapes - curvature[:, None] * (modal - near)
-            slope = self._field.gradient(wanted)
+            if pull is None:
+                modal = self._field.modal(ahead)
+                near, _ = self._field.near(modal, cells.places)
+                wanted = (cells.worth / aimed)[:, None] * cells.shapes - curvature[:, None] * (modal - near)
+                slope = self._field.gradient(wanted)
+            else:
+                slope = pull * (cells.worth / aimed)[:, None]
             forces = self._audible.forces(self._audible.spectrum(ahead - self._idle))
             slope -= (2 * cells.sound)[:, None] * self._audible.gradient(forces, 0, len(slope))
             slope *= rate[:, None]
@@ -224,7 +232,8 @@ class Descent:
             levels, momentum = stepped, np.where(restart, 1.0, following)
             if step % STEPS_BEFORE_WEIGHING == 0 and step < self._aim.steps:
                 reached = _dot(cells.shapes, self._field.modal(np.rint(levels * 1024) / 1024))
-                cells.worth *= np.where(reached > 0, aimed / np.maximum(reached, aimed / 2), 2.0) ** 2
+                short = np.where(reached > 0, aimed / np.maximum(reached, aimed / 2), 2.0)
+                cells.worth *= np.square(np.square(short))  # a power of four by itself need not be the same on all machines
         result: Floats = np.rint(levels * LEVELS) / LEVELS
         return result
 
@@ -233,13 +242,17 @@ class Descent:
 
         Everything is divided by the cost of half a squared mode, so that the field's part of the gain of a change d of a bit is
         d moves * (target - modal) - d^2 moves^2 / 2. What counts as the focus enters as it is at the beginning: its mean square
-        is convex, so that its tangent is below it, and what gains by the tangent gains at least as much.
+        is convex, so that its tangent is below it, and what gains by the tangent gains at least as much. Without a cost of the
+        field, only the amplitude is left of its part.
         """
-        share = np.array([place.share for place in cells.places])
-        scale = cells.field * share / 2
-        modal = self._field.modal(levels)
-        near, _ = self._field.near(modal, cells.places)
-        left = np.rint((cells.worth / cells.amplitude / scale)[:, None] * cells.shapes + near - modal)
+        if self._aim.contrast:
+            scale = cells.field * np.array([place.share for place in cells.places]) / 2
+            modal = self._field.modal(levels)
+            near, _ = self._field.near(modal, cells.places)
+            left = np.rint((cells.worth / cells.amplitude / scale)[:, None] * cells.shapes + near - modal)
+        else:
+            scale = cells.worth / cells.amplitude
+            left = cells.shapes.copy()
         sound, edge = (2 * cells.sound / scale)[:, None], (cells.edge / scale)[:, None]
         forces = self._audible.forces(self._audible.spectrum(levels - self._idle))
         own_curvature = sound[:, :, None] * self._audible.lags[0]
@@ -259,8 +272,9 @@ class Descent:
                 slope = left @ moves - sound * loud
                 slope -= edge * (2 - 2 * (before + after))  # edges of a 1 here, less those of a 0
                 change = changes[:, ahead]
-                _settle(levels[sample], slope, self._field.curvature[sample] + own_curvature, change)
-                if change.any():
+                curvature = self._field.curvature[sample] + own_curvature if self._aim.contrast else own_curvature
+                _settle(levels[sample], slope, curvature, change)
+                if self._aim.contrast and change.any():
                     left -= change @ moves.T
                 before = levels[sample]
             if changes.any():

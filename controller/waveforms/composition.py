@@ -65,7 +65,11 @@ class Composer:
         self._view = memoryview(self._words).toreadonly()
 
     def compose(self, points: Sequence[Point]) -> memoryview:
-        """Drive words that make every point jump at T.
+        """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
+
+        Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
+        amplitudes; some millimetres farther they may differ the more, the farther they are apart. No point gets more than it
+        asks for.
 
         Parameters
         ----------

@@ -44,6 +44,7 @@ def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
     assert told["optimised"] == optimised.told(BOARD, AIM)
     assert told["optimised"]["name"] == "contrast"
     assert bank_info(plain)["parameters"]["optimised"] is None
+    assert told["amplitude_of_plain"]["cells"] == 5
     assert 0.8 < told["amplitude_of_plain"]["least"] <= told["amplitude_of_plain"]["median"] < 1.3
     assert report.optimised == {"aim": "contrast", "amplitude_of_plain": told["amplitude_of_plain"]}
     assert 0 < report.optimise_seconds < report.seconds
@@ -105,6 +106,7 @@ def test_a_worker_of_another_version_is_refused():
         compute(task)
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_not_there_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(optimised, "FOUND_WITHIN_S", 0.05)
     with pytest.raises(BankError, match=r"--dask tcp://127\.0\.0\.1:1: no dask scheduler answers"):

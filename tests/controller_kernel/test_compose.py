@@ -74,6 +74,13 @@ on_cells = st.tuples(st.integers(-1, 5), st.integers(-1, 5), amplitudes).map(
         st.lists(st.one_of(places, on_cells), min_size=1, max_size=10),
         st.lists(st.one_of(places, on_cells).map(lambda point: (*point[:2], 1.0)), min_size=1, max_size=10),
         places.flatmap(lambda point: st.lists(st.just(point), min_size=1, max_size=10)),
+        places.flatmap(
+            lambda point: st.lists(
+                st.tuples(st.floats(-2e-3, 2e-3).map(lambda by_m: point[0] + by_m), st.just(point[1]), amplitudes),
+                min_size=2,
+                max_size=10,
+            )
+        ),
     ),
 )
 def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idle_word, block, bank, points):

@@ -31,7 +31,7 @@ def test_under_the_sanitizers_of_addresses_and_of_undefined_behaviour(tmp_path):
     subprocess.run([compiler, *options, *sanitizers, f"-I{headers}", SOURCE, "-o", library], check=True)
     runtime = subprocess.run([compiler, "-print-file-name=libasan.so"], capture_output=True, text=True, check=True).stdout.strip()
     environment = os.environ | {"LD_PRELOAD": runtime, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONMALLOC": "malloc"}
-    tests = [str(Path(__file__).with_name(name)) for name in ("test_compose.py", "test_compiled_frames.py")]
+    tests = [str(Path(__file__).with_name(name)) for name in ("test_compose.py", "test_quieten.py", "test_compiled_frames.py")]
     command = [sys.executable, "-c", RUNNER, str(library), *tests]
     run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, cwd=SOURCE.parents[2])
     assert run.returncode == 0, run.stdout[-4000:] + run.stderr[-4000:]

@@ -8,7 +8,8 @@ from scene.scenes import ALWAYS, BOARD, LIBRARY_SCENE, TEXTURE, TRAIN, at, press
 from controller.bank.grid import Grid
 from controller.scene.coverage import cells_needed
 from controller.scene.emission import spot_emission
-from controller.scene.scene import OUTSIDE, Scene, Spot, load_scene
+from controller.scene.region_lookup import OUTSIDE
+from controller.scene.scene import Scene, Spot, load_scene
 from controller.scene.scene_file import find_scene
 from controller.scene.shapes import Circle, Polygon, Rectangle
 from controller.service.scene_message import pack_scene, unpack_scene

@@ -23,7 +23,13 @@ def with_band(board, low_hz, high_hz, bit_clock_hz, **plate):
     return changed(board, waveform=waveform, plate=plate, limits={"max_edge_rate_hz": bit_clock_hz, "min_pulse_us": 0.4})
 
 
-BANDS = [(1e3, 5e3, 100e3), (20e3, 70e3, 500e3), (105e3, 125e3, 500e3), (200e3, 400e3, 2e6)]
+LONG = pytest.mark.stress
+BANDS = [
+    (1e3, 5e3, 100e3),
+    pytest.param((20e3, 70e3, 500e3), marks=LONG),
+    (105e3, 125e3, 500e3),
+    pytest.param((200e3, 400e3, 2e6), marks=LONG),
+]
 
 
 @pytest.mark.parametrize("band", BANDS, ids=lambda band: f"{band[0] / 1e3:g}-{band[1] / 1e3:g}_kHz")

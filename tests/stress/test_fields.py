@@ -7,7 +7,7 @@ from stress.boards import changed, scaled
 from controller.benchmark.focus_figures import focus_on
 from controller.fpga.capture import Capture
 from controller.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
-from controller.physics.plate import wavelength_m
+from controller.physics.plate import bending_wavelength_m
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 POINT = (0.08, 0.06)
@@ -40,13 +40,15 @@ def test_the_scale_of_the_shipped_boards_is_exactly_that_of_the_paper(board):
     assert LINE_M[-1] - LINE_M[0] == pytest.approx(12e-3)
 
 
-@pytest.mark.parametrize("thickness_mm", [0.1, 5.0, 20.0])
+@pytest.mark.parametrize(
+    "thickness_mm", [pytest.param(0.1, marks=pytest.mark.stress), 5.0, pytest.param(20.0, marks=pytest.mark.stress)]
+)
 def test_a_spot_is_as_wide_as_its_waves_and_measured_as_wide(board, thickness_mm):
     """A spot was never wider than 12 mm, and contrast began at 10 mm, on whatever plate."""
     larger = (thickness_mm / 0.5) ** 0.5  # the same modes at the same frequencies, only larger: k^2 goes with 1 / thickness
     panel = scaled(board, larger, thickness_mm)
     (row,), (small,) = (focus_on(some, [(POINT[0] * by, POINT[1] * by)])[1] for some, by in ((panel, larger), (board, 1.0)))
-    waves = wavelength_m(panel.plate, 45e3) / wavelength_m(board.plate, 45e3)
+    waves = bending_wavelength_m(panel.plate, 45e3) / bending_wavelength_m(board.plate, 45e3)
     assert waves == pytest.approx(larger, rel=1e-9)
     assert row["spot_mm"] == pytest.approx(small["spot_mm"] * larger, rel=1e-3)
     assert row["spot_mm"] != pytest.approx(small["spot_mm"] * larger * 1.01, rel=1e-3)

@@ -16,6 +16,7 @@ class ScriptedSource:
     def __init__(self, *reports):
         self.counts = Counts()
         self.warnings = Counter()
+        self.touched = False
         self._reports = list(reports)
         self._down = {}
 
@@ -26,6 +27,7 @@ class ScriptedSource:
         return self._reports[0][0] if self._reports else None
 
     def read(self, now_s):
+        self.touched = False
         if not self._reports or self._reports[0][0] > now_s:
             return ()
         time_s, contacts = self._reports.pop(0)
@@ -33,7 +35,7 @@ class ScriptedSource:
         gone = [self._down.pop(finger)._replace(contact=False) for finger in list(self._down) if finger not in there]
         changed = [contact for finger, contact in there.items() if self._down.get(finger) != contact]
         self._down.update(there)
-        self.counts.reports += bool(there)
+        self.touched = bool(there)
         return tuple(sample._replace(time_s=time_s) for sample in gone + changed)
 
     def close(self):

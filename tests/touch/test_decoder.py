@@ -54,6 +54,24 @@ def test_a_finger_at_rest_gives_no_samples_but_counts():
     assert counts(d) == (3, 1, 1)
 
 
+def test_a_report_with_a_contact_down_is_told_be_that_at_rest():
+    d = decoder()
+    for events, touched in (
+        ([(ID, 7), (X, 100), (Y, 200), REPORT], True),
+        ([(X, 110)], False),  # the rest of the report has yet to come
+        ([REPORT], True),
+        ([REPORT], True),
+        ([(DISTANCE, 3), REPORT], False),
+        ([(DISTANCE, 0), REPORT], True),
+        ([(ID, -1), REPORT], False),
+    ):
+        play(d, *events)
+        assert d.touched == touched
+    play(d, (ID, 8), (X, 100), (Y, 200), REPORT)
+    assert play(d, DROPPED, REPORT) == [(2, 10, 20, False)]
+    assert not d.touched
+
+
 def test_a_place_told_twice_in_one_report_has_moved_all_the_same():
     d = decoder()
     play(d, (ID, 7), (X, 100), (Y, 200), REPORT)

@@ -46,7 +46,10 @@ def replay(recording, start_s=0.0):
     reports = []
     while (due_s := played.next_time_s()) is not None:
         assert played.read(math.nextafter(due_s, -math.inf)) == ()
+        assert not played.touched
+        before = played.counts.reports
         reports.append(played.read(due_s))
+        assert played.touched == (played.counts.reports > before)
     return [sample for report in reports for sample in report], played
 
 

@@ -16,7 +16,7 @@ complete haptic-panel \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at bank baud bits board channel dask device figures ghosts help idle-figures json lag link no-chirps no-pictures no-timing optimise out pause-s pid pitch-mm plot power quick reference replay scene seconds seed speed targets version workers write)/' \
+        'c/--/(amplitude-figures at bank baud bits board channel dask device figures ghosts help idle-figures json lag link memory-mb no-chirps no-pictures no-timing optimise out pause-s pid pitch-mm plot power quick reference replay scene seconds seed speed targets version workers write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
