@@ -23,6 +23,24 @@ FLOOR = 1e-4  # errors below, and below zero, are drawn here
 MARKERS = "osD^v<>pPX*hd8H"
 LINES = ("-", "--", "-.", ":")
 FRONT: dict[str, Any] = {"color": "0.8", "lw": 6, "solid_capstyle": "round", "zorder": 0}
+FRONT_PAGE_TIME = (
+    "nearest entry",
+    "resident waveform",
+    "device, compiled kernel",
+    "device, NumPy twin",
+    "packed words, bilinear vote",
+    "baseband, 8 bits, bilinear",
+    "modal bank, baseband",
+    "4 bits, band 4 × 4",
+    "full field, float64",
+)
+FRONT_PAGE_MEMORY = (
+    "nearest entry",
+    "packed words, bilinear vote",
+    "device, compiled kernel",
+    "baseband, 8 bits, band 4 × 4",
+    "modal bank, baseband",
+)
 SHOWN_FINGERS = ("1", "2", "4", "10")
 TIME, MEMORY = "time of composing, processor (µs)", "memory for the whole plate (MB)"
 WIRE, HEAT = "bytes on the wire for an emission", "heat in the stages for an emission (mJ)"
@@ -79,16 +97,20 @@ def time_diagram(figures: Figures) -> Figure:
 
 
 def front_page_diagram(figures: Figures) -> Figure:
-    """One finger: error against time and against memory."""
-    figure = Figure(figsize=(13, 6), layout="constrained")
+    """One finger: error against time and against memory, of some methods that are named beside their curves."""
+    figure = Figure(figsize=(12, 5.6), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     family = "1 off grid"
-    _curves(left, figures, _cost("time", family), _main(family))
+    for ax, curves, x_of, label in (
+        (left, FRONT_PAGE_TIME, _cost("time", family), TIME),
+        (right, FRONT_PAGE_MEMORY, _cost("memory", "", 1e-6), MEMORY),
+    ):
+        shown = {**figures, "settings": [setting for setting in figures["settings"] if setting["curve"] in curves]}
+        _curves(ax, shown, x_of, _main(family), named=True)
+        ax.set(xlabel=label, ylim=(0.6 * FLOOR, 20))
+    left.set(ylabel=LOST)
     _marks(left, figures, 1)
-    left.set(xlabel=TIME, ylabel=LOST)
-    _curves(right, figures, _cost("memory", "", 1e-6), _main(family))
-    right.set(xlabel=MEMORY)
-    _key(figure, figures)
+    figure.suptitle(_told(figures), fontsize=8)
     return figure
 
 
@@ -250,8 +272,10 @@ def _curves(
     x_of: Callable[[Figures], float | None],
     y_of: Callable[[Figures], float | None],
     floor: float = FLOOR,
+    *,
+    named: bool = False,
 ) -> None:
-    """All curves of an axes, and the front."""
+    """All curves of an axes, and the front; beside each curve its letter, or its name."""
     letters = _letters(figures)
     everything: list[tuple[float, float]] = []
     for index, curve in enumerate(letters):
@@ -266,7 +290,10 @@ def _curves(
         for x, y, label in (points[0], points[-1])[-len(points) :]:  # between them they follow in order
             ax.annotate(label, (x, y), xytext=(3, -7), textcoords="offset points", fontsize=4.5, color="0.4")
         x, y, _ = points[-1]
-        ax.annotate(letters[curve], (x, y), xytext=(-9, 3), textcoords="offset points", fontsize=10, fontweight="bold")
+        if named:
+            ax.annotate(curve, (x, y), xytext=(2, 6), textcoords="offset points", fontsize=8, rotation=50, rotation_mode="anchor")
+        else:
+            ax.annotate(letters[curve], (x, y), xytext=(-9, 3), textcoords="offset points", fontsize=10, fontweight="bold")
         everything += [(x, y) for x, y, _ in points]
     front = [everything[index] for index in pareto_front([x for x, _ in everything], [y for _, y in everything])]
     if front:
@@ -298,11 +325,14 @@ def _key(figure: Figure, figures: Figures) -> None:
     ]
     handles.append(Line2D([], [], label="Pareto front", **FRONT))
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.suptitle(_told(figures), fontsize=8)
+
+
+def _told(figures: Figures) -> str:
     told = figures["environment"]
-    figure.suptitle(
+    return (
         f"{figures['board']}: {figures['modes']} modes, {figures['modes_in_band']} in the band; seed {figures['seed']}; "
-        f"{told['processor']}, one core; kernel {told['kernel']}; commit {told['commit']}",
-        fontsize=8,
+        f"{told['processor']}, one core; kernel {told['kernel']}; commit {told['commit']}"
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 from controller.benchmark.methods.candidate import Candidate, Place, Words, wire_bytes
 from controller.benchmark.methods.laboratory import Laboratory
@@ -42,11 +42,10 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
     model, board = laboratory.model, laboratory.board
     memory = model.modal_band.nbytes + model.forces.nbytes
     for name, design in DESIGNS.items():
-        method = design.make(board, model)
         yield Candidate(
             name,
             f"{model.modes} modes",
-            Designed(method),
+            Designed(partial(design.make, board, model)),
             memory,
             wire_bytes(board.waveform.samples),
             free_polarity=design.free_polarity,
@@ -57,10 +56,14 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
 
 
 class Designed:
-    """The drive words of a design method."""
+    """The drive words of a design method, which is made when it is first needed."""
 
-    def __init__(self, method: DesignMethod) -> None:
-        self._method = method
+    def __init__(self, make: Callable[[], DesignMethod]) -> None:
+        self._make = make
+
+    @cached_property
+    def _method(self) -> DesignMethod:
+        return self._make()
 
     def __call__(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> Words:
         """Drive words."""
