@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
@@ -35,6 +36,7 @@ from controller.waveform_design.plain import SignOfSum
 from controller.waveform_design.prediction import Prediction
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_JUDGED = 32  # at most, of an optimised bank: 10 ms each
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
@@ -100,6 +102,7 @@ def build_bank(
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
+    choice: dict[str, Any] | None = None,
     memory_mb: float | None = None,
     aim: Aim | None = None,
     workers: Workers = ALONE,
@@ -127,6 +130,8 @@ def build_bank(
         Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    choice : dict, optional
+        What `choice.choose` told; its `composes` says whether responses are written.
     memory_mb : float, optional
         Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
     aim : Aim, optional
@@ -143,6 +148,8 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    if choice is not None:
+        board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=choice["snap_mm"]))
     highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
@@ -160,6 +167,7 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
+        **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
         "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
         "optimised": aim and told(board, aim),
     }
@@ -206,7 +214,7 @@ def build_bank(
         optimised, optimise_seconds = None, 0.0
         if aim:
             before = time.perf_counter()
-            kept = kept_path(path, inputs_sha256)
+            kept = kept_path(path, _inputs_sha256(board, maker, {key: parameters[key] for key in WORDS_DEPEND_ON}))
             optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
             optimise_seconds = time.perf_counter() - before
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
@@ -257,7 +265,7 @@ def build_bank(
 
 
 def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
-    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    """Hash of the board's physics, the program and build parameters: all of them determine a bank."""
     told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()
 

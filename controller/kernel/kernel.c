@@ -54,6 +54,7 @@ enum {
 static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
+static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
 static const double ONES[MAX_FOCI] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 enum { SHARES_GIVEN = sizeof SHARES / sizeof *SHARES };
 
@@ -643,8 +644,10 @@ static int read_point(PyObject *points, Py_ssize_t index, double *read) {
         PyErr_SetString(PyExc_ValueError, "a place of the points to compose is not finite");
     else if (!(read[2] > 0 && read[2] <= 1))
         PyErr_SetString(PyExc_ValueError, "an amplitude of the points to compose is not above 0 and at most 1");
-    else
+    else {
+        if (read[2] < LEAST_AMPLITUDE) read[2] = LEAST_AMPLITUDE;
         return 1;
+    }
     return 0;
 }
 

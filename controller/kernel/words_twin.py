@@ -54,6 +54,7 @@ Numbers = NDArray[Any]
 CHANNELS: Final = 32
 REST_SAMPLES: Final = 8  # samples to a row of the rest outside the band
 MAX_FOCI: Final = 10
+LEAST_AMPLITUDE: Final = 1 / 1024  # less is no displacement either, and quotients of it would leave the range of floats
 MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
 MAX_BLOCK_SAMPLES: Final = 256
 LARGEST: Final = (1 << 31) - 1
@@ -138,7 +139,8 @@ def compose(
     response : buffer
         The responses: levels of 8 bits, then those of the rest outside the band, a mean over 8 samples each.
     points : sequence of (x_m, y_m, amplitude)
-        1 to `MAX_FOCI`; above 0 to 1. Points beyond the outermost cells take the nearest place among the cells.
+        1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the outermost cells take the
+        nearest place among the cells.
 
     Returns
     -------
@@ -171,7 +173,7 @@ def compose(
             return cell
         patches.append(patch)
     work = _work(room, bank)
-    work.compose(bank, patches, [amplitude for _, _, amplitude in points])
+    work.compose(bank, patches, [max(amplitude, LEAST_AMPLITUDE) for _, _, amplitude in points])
     work.pack(filled)
     return -1
 

@@ -93,3 +93,27 @@ class Composer:
         while (cell := kernel.compose(words, room, plan, entries, scales, self._good, bank.responses, points)) >= 0:
             bank.check_response(cell)
         return self._view
+
+    def keep_still(self, points: Sequence[Point], quiet: Sequence[Point]) -> None:
+        """Change the words that `compose` gave for these points, so that other places stay still near T.
+
+        Parameters
+        ----------
+        points : sequence of (x_m, y_m, amplitude)
+            As composed.
+        quiet : sequence of (x_m, y_m, amplitude)
+            At most `MAX_QUIET`, of any amplitude above 0; those without responses in the bank are left out.
+
+        Raises
+        ------
+        BankError
+            If a response is damaged.
+        ValueError
+            If there are too many places, or numbers that are not finite or beyond their range.
+        """
+        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
+        there = [place for place in quiet if bank.has_responses(place[0], place[1])]
+        if not there:
+            return
+        while (cell := kernel.quieten(words, room, plan, entries, scales, self._good, bank.responses, points, there)) >= 0:
+            bank.check_response(cell)

@@ -175,3 +175,16 @@ def test_refuses_to_write_what_the_header_cannot_hold():
     for header in (small_header(creator="x" * 65), small_header(parameters={"x": "y" * (1 << 20)})):
         with pytest.raises(ValueError, match=r"creator|parameters"):
             header.pack(header.sections())
+
+
+CHOICE = {"asked": {"max_error": 0.1}, "pitch_mm": 4, "snap_mm": 1.5, "composes": False}
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [None, 1, [], {}, CHOICE | {"asked": 1}, CHOICE | {"pitch_mm": "4"}, CHOICE | {"snap_mm": None}, CHOICE | {"composes": True}],
+)
+def test_what_was_chosen_is_whole_or_nothing(choice):
+    assert small_header(parameters={"composes": False, "choice": CHOICE}).choice == CHOICE
+    assert small_header(parameters={"composes": False, "choice": choice}).choice is None
+    assert small_header(parameters={"composes": False}).sections()[4].rows == 0
