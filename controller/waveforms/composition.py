@@ -43,8 +43,8 @@ class Composer:
         if bank.samples > MAX_SAMPLES:
             raise BankError(f"{bank.path}: waveforms of {bank.samples} samples cannot be composed, at most {MAX_SAMPLES}")
         grid = bank.grid
-        eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.REST_SAMPLES)
-        block_samples = min(max(kernel.REST_SAMPLES * eights, kernel.REST_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
+        eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
+        block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
         self._bank = bank
         entries, scales, self._good = bank.response_tables()
         self._plan = kernel.PLAN.pack(
@@ -68,8 +68,7 @@ class Composer:
         """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
 
         Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
-        amplitudes; some millimetres farther they may differ the more, the farther they are apart. No point gets more than it
-        asks for.
+        amplitudes. No point gets more than it asks for.
 
         Parameters
         ----------
