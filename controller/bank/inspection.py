@@ -171,6 +171,17 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
 
 
+def optimised_for(path: Path) -> str:
+    """What the entries of the bank at `path` were optimised for; empty: nothing, or there is no such bank that can be read."""
+    try:
+        with Bank.open(path) as bank:
+            told = bank.header.parameters.get("optimised")
+    except BankError:
+        return ""
+    name = told.get("name") if isinstance(told, dict) else None
+    return name if isinstance(name, str) and name.isprintable() else ""
+
+
 def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
     """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
     return bounds_of(board) | {"scene_crc32": zlib.crc32(scene_file.read_bytes())}

@@ -36,6 +36,7 @@ from controller.waveform_design.plain import SignOfSum
 from controller.waveform_design.prediction import Prediction
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
 CELLS_JUDGED = 32  # at most, of an optimised bank: 10 ms each
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
@@ -213,7 +214,7 @@ def build_bank(
         optimised, optimise_seconds = None, 0.0
         if aim:
             before = time.perf_counter()
-            kept = kept_path(path, inputs_sha256)
+            kept = kept_path(path, _inputs_sha256(board, maker, {key: parameters[key] for key in WORDS_DEPEND_ON}))
             optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
             optimise_seconds = time.perf_counter() - before
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
@@ -264,7 +265,7 @@ def build_bank(
 
 
 def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
-    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    """Hash of the board's physics, the program and build parameters: all of them determine a bank."""
     told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()
 

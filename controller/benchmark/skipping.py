@@ -32,7 +32,7 @@ from controller.fpga.capture import Capture
 from controller.loop.skips import ALL, EXACT, Skips
 from controller.metrics import Counters
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import load_scene
+from controller.scene.scene import Scene, load_scene
 from controller.simulation.simulated_run import Run, play
 from controller.touch import event_codes as ev
 from controller.touch.event_capture import recording_text
@@ -174,7 +174,7 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
             found["host_ms"] = min(found["host_ms"], _sum_ms("host", again.counters))
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     played = done.pop("words"), without.pop("words")
     return {
         "case": case.name,
@@ -190,13 +190,17 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
     }
 
 
+def _scene(board: Board, case: Case) -> Scene:
+    return load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+
+
 def _run(board: Board, bank_file: Path, case: Case, skips: Skips, *, whole: bool = False, checked: bool = False) -> tuple[Run, int]:
     """Play once from a bank that is opened for it: the run, and how many pages of the bank were read for it.
 
     `whole`: all of the bank is read first; `checked`: its entries have been checked beside the loop, as for the service.
     """
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     with Bank.open(bank_file, board) as bank:
         if checked:
             cells = np.flatnonzero(bank.cells).tolist()
@@ -315,7 +319,8 @@ def all_cases(
     found = []
     with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
         bank_file = Path(folder) / "whole plate.bank"
-        build_bank(board, bank_file, measure_sgemm=False)
+        spots = [spot for case in CASES for spot in _scene(board, case).spots]
+        build_bank(board, bank_file, spots=list(dict.fromkeys(spots)), measure_sgemm=False)
         for number, case in enumerate(CASES, start=1):
             found.append(skipping(board, bank_file, case, off, repeats))
             if progress:

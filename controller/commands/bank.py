@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import Fit, asked_of, bank_info, choice_of, fit, verify_bank, wrong_pitch
+from controller.bank.inspection import Fit, asked_of, bank_info, choice_of, fit, optimised_for, verify_bank, wrong_pitch
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
@@ -187,6 +187,11 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
+        if aim := optimised_for(path):
+            print(
+                f"haptic-panel: its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}",
+                file=sys.stderr,
+            )
         _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
     return Bank.open(path, board)
 
