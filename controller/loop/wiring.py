@@ -90,6 +90,7 @@ def assemble(
         clock_estimate,
         occupancy,
         source.predict,
+        down=source.down,
         slots=board.link.slots if slots is None else slots,
         timing=timing,
         counters=counters,
