@@ -20,7 +20,6 @@ module frame_decoder (
     output wire [7:0]  type_o,
     output wire [7:0]  sequence_o,
     output wire [15:0] argument_o,
-    output wire [191:0] words_o,        // first six of the payload, the first lowest
     output wire        landing_busy_o,  // as they were when the frame began
     output wire        landing_live_o,
     output wire [6:0]  payload_words_o,
@@ -35,7 +34,6 @@ module frame_decoder (
     reg        sync_good_q;
     reg [7:0]  type_q, sequence_q;
     reg [15:0] length_q, argument_q;
-    reg [191:0] words_q;
     reg        landing_busy_q, landing_live_q;
     reg [9:0]  count_q;                 // bytes so far, held at its highest: no frame is that long
     reg [31:0] recent_q;                // last four bytes
@@ -83,7 +81,6 @@ module frame_decoder (
                 default: ;
             endcase
         end
-        if (in_payload && word_number_q < 8'd6) words_q[{word_number_q[2:0], 5'd0} +: 32] <= recent_q;
 
         if (ahead_q[39:38] != 2'b10)  // long behind: it stays so
             ahead_q <= ahead_q - 40'sd65536 + (in_payload ? $signed({8'd0, bit_period_i}) : 40'sd0);
@@ -117,7 +114,6 @@ module frame_decoder (
             sequence_q     <= 8'd0;
             length_q       <= 16'd0;
             argument_q     <= 16'd0;
-            words_q        <= 192'd0;
             landing_busy_q <= 1'b0;
             landing_live_q <= 1'b0;
             ahead_q        <= 40'sd0;
@@ -134,7 +130,6 @@ module frame_decoder (
     assign type_o          = type_q;
     assign sequence_o      = sequence_q;
     assign argument_o      = argument_q;
-    assign words_o         = words_q;
     assign landing_busy_o  = landing_busy_q;
     assign landing_live_o  = landing_live_q;
     assign payload_words_o = length_q[8:2];

@@ -141,7 +141,6 @@ module haptic_core #(
     wire [7:0]   spi_refusal, spi_kind, spi_sequence, spi_word_number;
     wire [7:0]   uart_refusal, uart_kind, uart_sequence, uart_word_number, relay_word_number;
     wire [15:0]  spi_argument, uart_argument;
-    wire [191:0] spi_words, uart_words;
     wire [31:0]  spi_word, uart_word, relay_word;
     wire [6:0]   spi_payload_words, uart_payload_words;
     wire         landing_busy, landing_live;
@@ -153,7 +152,7 @@ module haptic_core #(
         .byte_valid_i(spi_byte_valid), .byte_i(spi_byte),
         .landing_busy_i(landing_busy), .landing_live_i(landing_live), .bit_period_i(bit_period),
         .accept_o(spi_accept), .refuse_o(spi_refuse), .refusal_o(spi_refusal),
-        .type_o(spi_kind), .sequence_o(spi_sequence), .argument_o(spi_argument), .words_o(spi_words),
+        .type_o(spi_kind), .sequence_o(spi_sequence), .argument_o(spi_argument),
         .landing_busy_o(spi_landing_busy), .landing_live_o(spi_landing_live), .payload_words_o(spi_payload_words), .fast_o(spi_fast),
         .word_valid_o(spi_word_valid), .word_number_o(spi_word_number), .word_o(spi_word), .load_word_o(spi_load_word)
     );
@@ -165,7 +164,7 @@ module haptic_core #(
         .byte_valid_i(relay_byte_valid), .byte_i(uart_byte),
         .landing_busy_i(1'b0), .landing_live_i(1'b0), .bit_period_i(32'd0),
         .accept_o(uart_accept), .refuse_o(uart_damaged), .refusal_o(uart_refusal),
-        .type_o(uart_kind), .sequence_o(uart_sequence), .argument_o(uart_argument), .words_o(uart_words),
+        .type_o(uart_kind), .sequence_o(uart_sequence), .argument_o(uart_argument),
         .landing_busy_o(), .landing_live_o(), .payload_words_o(uart_payload_words), .fast_o(),
         .word_valid_o(uart_word_valid), .word_number_o(uart_word_number), .word_o(uart_word), .load_word_o()
     );
@@ -183,11 +182,18 @@ module haptic_core #(
         .word_o(relay_word), .accept_o(relay_accept), .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live)
     );
 
+    wire         select            = spi_select || relay_begin;
+    wire         accept            = spi_accept || relay_accept;
+    wire         word_valid        = spi_word_valid || relay_word_valid;
+    wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
+    wire [31:0]  word              = from_uart ? relay_word : spi_word;
+
     // What the frame asks rests long before it is accepted: chosen a clock early, it begins no long path. It is chosen, and found
-    // out what it means, only in clocks in which it may have changed.
+    // out what it means, only in clocks in which it may have changed. Its first words are gathered as they come; every frame of the
+    // UART brings them again in its turn.
     reg  [7:0]   kind, sequence_number;
     reg  [15:0]  argument;
-    reg  [191:0] words;
+    reg  [191:0] words;                    // first six of the payload, the first lowest
     reg  [6:0]   payload_words;
     reg  [1:0]   taken_q;                  // the SPI's decoder took something in one clock ago, two: a word comes a clock later
     reg          returned_q, chosen_q;
@@ -200,15 +206,14 @@ module haptic_core #(
             kind            <= uart_kind;
             sequence_number <= uart_sequence;
             argument        <= uart_argument;
-            words           <= uart_words;
             payload_words   <= uart_payload_words;
         end else if (choose) begin
             kind            <= spi_kind;
             sequence_number <= spi_sequence;
             argument        <= spi_argument;
-            words           <= spi_words;
             payload_words   <= spi_payload_words;
         end
+        if (word_valid && word_number < 8'd6) words[{word_number[2:0], 5'd0} +: 32] <= word;
         if (rst_i) begin
             kind            <= `TYPE_NOP;
             sequence_number <= 8'd0;
@@ -221,11 +226,6 @@ module haptic_core #(
         end
     end
 
-    wire         select            = spi_select || relay_begin;
-    wire         accept            = spi_accept || relay_accept;
-    wire         word_valid        = spi_word_valid || relay_word_valid;
-    wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
-    wire [31:0]  word              = from_uart ? relay_word : spi_word;
     reg          load_word, play_word;
     always @* begin
         load_word = 1'b0;
@@ -251,7 +251,11 @@ module haptic_core #(
     wire [31:0] register_data, memory_data, crc_data, queue_data;
     reg  [31:0] read_data, spi_data_q, uart_data_q;
     reg         gap, read;
+`ifdef SYNTHESIS
+    wire        judge = 1'b1;              // on an FPGA it costs nothing to find out what has not changed
+`else
     wire        judge = chosen_q || accept;  // results hold in this clock
+`endif
     always @* begin
         read_result = `RESULT_OK;
         read_data   = 32'd0;
@@ -378,7 +382,7 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire [1:0]             head_start;
@@ -400,7 +404,7 @@ module haptic_core #(
         .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(slots_loaded), .checking_o(checking),
         .landing_o(landing), .chunks_o(chunks),
         .memory_result_o(memory_result), .memory_data_o(memory_data), .crc_result_o(crc_result), .crc_data_o(crc_data),
-        .play_i(playing), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
+        .play_i(playing), .play_read_i(play_read), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
         .play_within_i(read_within), .missing_o(missing), .play_data_o(play_data)
     );
 
@@ -444,7 +448,7 @@ module haptic_core #(
         .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
         .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
-        .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
+        .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),

@@ -1,6 +1,8 @@
 // SLOTS + 1 waveform buffers behind a map: a slot names a buffer, the odd one out is where uploads land.
 // Storing exchanges the two, so loading never touches what plays or waits to play. What has been stored is read
 // back from memory and its CRC taken, one word a clock; only a slot whose CRC matches counts as loaded.
+// All buffers share one address to read. The player has it in the clock in which it comes to a word, and keeps what it read. The check
+// reads two words at once, in the first of two clocks, or in the second if the player has the first; a READ has what is left.
 `default_nettype none
 `include "registers.vh"
 
@@ -43,8 +45,9 @@ module waveform_buffer #(
     output wire [31:0]            memory_data_o,
     output wire [7:0]             crc_result_o,
     output wire [31:0]            crc_data_o,
-    // player; data two clocks after its address
-    input  wire                   play_i,         // it reads
+    // player; data two clocks after play_read_i, until the next
+    input  wire                   play_i,         // it plays
+    input  wire                   play_read_i,    // pulse: it has come to another word; never in two clocks one behind the other
     input  wire [BUFFER_BITS-1:0] play_buffer_i,
     input  wire [9:0]             play_word_i,
     input  wire [2:0]             play_chunk_i,   // the same word within its chunk
@@ -54,13 +57,13 @@ module waveform_buffer #(
 );
     localparam SLOT_BITS = SLOTS > 1 ? $clog2(SLOTS) : 1;
 
-    reg [BUFFER_BITS-1:0] slot_buffer_q [0:SLOTS-1];
-    reg [9:0]             slot_words_q  [0:SLOTS-1];
-    reg [31:0]            slot_crc_q    [0:SLOTS-1];
-    reg [SLOTS-1:0]       intact_q;
+    // Of each slot and chunk, in memories without a reset: what they hold counts where the bit beside them is set
+    reg [BUFFER_BITS+9:0] slots [0:SLOTS-1];    // buffer, words
+    reg [31:0]            slot_crcs [0:SLOTS-1];
+    reg [SLOTS-1:0]       stored_q, intact_q;
     reg [BUFFER_BITS-1:0] landing_q;
-    reg [6:0]             chunk_words_q [0:7];  // 0: does not count
-    reg [7:0]             chunks_q;             // which do
+    reg [6:0]             chunk_words [0:7];
+    reg [7:0]             chunks_q;
 
     reg                   check_q;
     reg [SLOT_BITS-1:0]   check_slot_q;
@@ -68,32 +71,65 @@ module waveform_buffer #(
     reg [9:0]             check_word_q, check_words_q;
     reg [31:0]            expected_q;
     reg [2:0]             reading_q;            // of the three clocks a word takes
-    reg [31:0]            data_q;
-    reg [2:0]             settled_q;            // clocks for which the address of a READ has had its way, up to 4
+    reg                   owed_q;               // its pair is to be read in this clock, as the player had the one before
+    reg                   fetched_q, played_q;  // a clock ago a pair was read, for the check or a READ; for the player
+    reg                   play_odd_q;
+    reg [31:0]            even_q, odd_q, odd_later_q, play_data_q;
+    reg [2:0]             settled_q;            // clocks for which the address of a READ of memory has had its way, up to 4
 
-    // Memory: the player has the first word on a buffer's address, then the check, then a READ
     wire       read_memory = argument_i[15];
     wire [4:0] number      = read_memory ? argument_i[14:10] : argument_i[4:0];
     wire       slot_good   = (read_memory || argument_i[7:5] == 3'd0) && number < SLOTS[4:0];
     wire [SLOT_BITS-1:0]   slot        = slot_good ? number[SLOT_BITS-1:0] : {SLOT_BITS{1'b0}};
-    wire [BUFFER_BITS-1:0] slot_buffer = slot_buffer_q[slot];
-    wire [BUFFER_BITS-1:0] buffer      = check_q ? check_buffer_q : slot_buffer;
-    wire [9:0]             word        = check_q ? check_word_q : argument_i[9:0];
+    reg [BUFFER_BITS-1:0] slot_buffer;
+    reg [9:0]             slot_words;
+    always @* begin
+        {slot_buffer, slot_words} = {BUFFER_BITS+10{1'b0}};
+        if (judge_i || read_memory)
+            {slot_buffer, slot_words} = stored_q[slot] ? slots[slot] : {{BUFFER_BITS-SLOT_BITS{1'b0}}, slot, 10'd0};
+    end
     wire [2:0]             chunk       = argument_i[2:0];
     wire                   count_good  = load_live_i ? !chunks_q[chunk] : !load_busy_i;
     wire                   write       = write_i && !load_busy_i && count_good;
     wire [9:0]  write_word = {chunk, 7'd0} - {6'd0, chunk, 1'b0} - {7'd0, chunk} + {3'd0, write_word_i};
-    wire [31:0] read_data [0:SLOTS];
+
+    wire                   reading     = check_q && check_word_q != check_words_q;
+    wire                   check_reads = (reading && !check_word_q[0]) || owed_q;
+    wire                   fetch       = (check_q ? check_reads : read_memory) && !play_read_i;
+    wire [31:0]            even, odd;
+    waveform_memory #(.BUFFERS(SLOTS + 1), .BUFFER_BITS(BUFFER_BITS)) waveform_memory (
+        .clk_i(clk_i),
+        .write_i(write), .write_buffer_i(landing_q), .write_word_i(write_word), .write_data_i(write_data_i),
+        .read_i(fetch || play_read_i),
+        .read_buffer_i(play_read_i ? play_buffer_i : check_q ? check_buffer_q : slot_buffer),
+        .read_pair_i(play_read_i ? play_word_i[9:1] : check_q ? check_word_q[9:1] : argument_i[9:1]),
+        .even_o(even), .odd_o(odd)
+    );
+
+    always @(posedge clk_i) begin
+        if (play_read_i || played_q) begin
+            played_q <= play_read_i;
+            if (play_read_i) play_odd_q <= play_word_i[0];
+            if (played_q)    play_data_q <= play_odd_q ? odd : even;
+        end
+        if (check_q || read_memory || fetched_q) begin
+            owed_q      <= check_q && check_reads && play_read_i;
+            fetched_q   <= fetch;
+            odd_later_q <= odd_q;
+            if (fetched_q) begin
+                even_q <= even;
+                odd_q  <= odd;
+            end
+        end
+        if (rst_i) begin
+            owed_q    <= 1'b0;
+            fetched_q <= 1'b0;
+            played_q  <= 1'b0;
+        end
+    end
 
     genvar index;
     generate
-        for (index = 0; index <= SLOTS; index = index + 1) begin : buffers
-            buffer_memory buffer_memory (
-                .clk_i(clk_i),
-                .write_i(write), .here_i(landing_q == index), .write_word_i(write_word), .write_data_i(write_data_i),
-                .read_word_i(play_i && play_buffer_i == index ? play_word_i : word), .read_data_o(read_data[index])
-            );
-        end
         for (index = 0; index < 16; index = index + 1) begin : loaded
             if (index < SLOTS) begin : present
                 assign loaded_o[index] = intact_q[index];
@@ -108,7 +144,7 @@ module waveform_buffer #(
     reg [9:0]  left_q;               // words of the waveform from that chunk on
     reg        whole_q;              // so far
     reg        complete_q;
-    wire [6:0] there = chunk_words_q[look_q];
+    wire [6:0] there = chunks_q[look_q] ? chunk_words[look_q] : 7'd0;
     always @(posedge clk_i) begin
         if (look_i) begin
             look_q  <= look_q + 3'd1;
@@ -131,53 +167,53 @@ module waveform_buffer #(
     // Book-keeping
     wire store_slot = slot_good && argument_i[15:8] == 8'd0;
     reg  chunk_good, length_good, load_good, store_good, checking;
-    reg  [9:0] slot_words;
     always @* begin
-        {chunk_good, length_good, load_good, store_good, checking, slot_words} = 15'd0;
+        {chunk_good, length_good, load_good, store_good, checking} = 5'd0;
         if (judge_i) begin
             chunk_good  = argument_i < {12'd0, `CHUNKS};
             length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
             load_good   = chunk_good && !load_busy_i && count_good;
             store_good  = store_slot && length_good && !check_q && !live_i && complete_q;
             checking    = check_q && check_slot_q == slot;
-            slot_words  = slot_words_q[slot];
         end
     end
 
-    wire        reading  = check_q && check_word_q != check_words_q;
     wire        checked  = check_q && !reading && reading_q == 3'd0;
+    reg         odd_now_q;               // the word whose CRC is taken in this clock is an odd one
+    reg  [31:0] data;
+    always @* begin
+        data = 32'd0;
+        if (check_q || read_memory) data = (check_q ? odd_now_q : argument_i[0]) ? odd_later_q : even_q;
+    end
     wire [31:0] crc;
     crc32_word crc32_slot (
-        .clk_i(clk_i), .rst_i(rst_i), .clear_i(store_i && store_good), .valid_i(reading_q[2]), .word_i(data_q), .crc_o(crc)
+        .clk_i(clk_i), .rst_i(rst_i), .clear_i(store_i && store_good), .valid_i(reading_q[2]), .word_i(data), .crc_o(crc)
     );
 
-    always @(posedge clk_i) begin : book
-        integer piece;
-        data_q <= read_data[buffer];
-        reading_q <= {reading_q[1:0], reading};
+    always @(posedge clk_i) begin
+        if (store_i && store_good) slots[slot] <= {landing_q, word0_i[9:0]};
+        if (checked)               slot_crcs[check_slot_q] <= crc;
+        if (load_i && load_good)   chunk_words[chunk] <= load_words_i;
+    end
+
+    always @(posedge clk_i) begin
+        if (check_q)      reading_q <= {reading_q[1:0], reading};
+        if (reading_q[2]) odd_now_q <= !odd_now_q;
         if (reading) check_word_q <= check_word_q + 10'd1;
         if (checked) begin
-            check_q                  <= 1'b0;
-            slot_crc_q[check_slot_q] <= crc;
-            intact_q[check_slot_q]   <= crc == expected_q;
+            check_q                <= 1'b0;
+            intact_q[check_slot_q] <= crc == expected_q;
         end
 
-        if (write) begin
-            chunk_words_q[chunk] <= 7'd0;
-            chunks_q[chunk]      <= 1'b0;
-        end
-        if (load_i && load_good) begin
-            chunk_words_q[chunk] <= load_words_i;
-            chunks_q[chunk]      <= load_words_i != 7'd0;
-        end
+        if (write)               chunks_q[chunk] <= 1'b0;
+        if (load_i && load_good) chunks_q[chunk] <= load_words_i != 7'd0;
         if (store_i && store_good) begin
-            slot_buffer_q[slot] <= landing_q;
-            slot_words_q[slot]  <= word0_i[9:0];
-            intact_q[slot]      <= 1'b0;
-            landing_q           <= slot_buffer;
-            chunks_q            <= 8'd0;
-            for (piece = 0; piece < 8; piece = piece + 1) chunk_words_q[piece] <= 7'd0;
+            stored_q[slot] <= 1'b1;
+            intact_q[slot] <= 1'b0;
+            landing_q      <= slot_buffer;
+            chunks_q       <= 8'd0;
             check_q        <= 1'b1;
+            odd_now_q      <= 1'b0;
             check_slot_q   <= slot;
             check_buffer_q <= landing_q;
             check_word_q   <= 10'd0;
@@ -185,18 +221,14 @@ module waveform_buffer #(
             expected_q     <= word1_i;
         end
 
-        if (check_q || (play_i && play_buffer_i == slot_buffer)) settled_q <= 3'd0;
+        if (!read_memory)                                             settled_q <= 3'd0;
+        else if (check_q || (play_i && play_buffer_i == slot_buffer)) settled_q <= 3'd0;
         else if (settled_q != 3'd4) settled_q <= settled_q + 3'd1;
 
         if (rst_i) begin
             landing_q <= SLOTS[BUFFER_BITS-1:0];
             chunks_q  <= 8'd0;
-            for (piece = 0; piece < 8; piece = piece + 1) chunk_words_q[piece] <= 7'd0;
-            for (piece = 0; piece < SLOTS; piece = piece + 1) begin
-                slot_buffer_q[piece] <= piece[BUFFER_BITS-1:0];
-                slot_words_q[piece]  <= 10'd0;
-                slot_crc_q[piece]    <= 32'd0;
-            end
+            stored_q       <= {SLOTS{1'b0}};
             intact_q       <= {SLOTS{1'b0}};
             check_q        <= 1'b0;
             check_slot_q   <= {SLOT_BITS{1'b0}};
@@ -205,7 +237,7 @@ module waveform_buffer #(
             check_words_q  <= 10'd0;
             expected_q     <= 32'd0;
             reading_q      <= 3'd0;
-            data_q         <= 32'd0;
+            odd_now_q      <= 1'b0;
             settled_q      <= 3'd0;
         end
     end
@@ -230,10 +262,10 @@ module waveform_buffer #(
     assign load_result_o   = load_result;
     assign store_result_o  = store_result;
     assign memory_result_o = memory_result;
-    assign memory_data_o   = data_q;
+    assign memory_data_o   = data;
     assign crc_result_o    = crc_result;
     assign chunks_o        = chunks_q;
-    assign crc_data_o      = slot_crc_q[slot];
+    assign crc_data_o      = slot_crcs[slot];
     assign slot_good_o     = store_slot;
     assign slot_buffer_o   = slot_buffer;
     assign slot_words_o    = slot_words;
@@ -241,8 +273,8 @@ module waveform_buffer #(
     assign slot_checking_o = checking;
     assign checking_o      = check_q;
     assign landing_o       = landing_q;
-    assign missing_o       = play_within_i >= chunk_words_q[play_chunk_i];
-    assign play_data_o     = read_data[play_buffer_i];
+    assign missing_o       = !chunks_q[play_chunk_i] || play_within_i >= chunk_words[play_chunk_i];
+    assign play_data_o     = play_data_q;
 endmodule
 
 `default_nettype wire

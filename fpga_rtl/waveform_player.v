@@ -38,6 +38,7 @@ module waveform_player #(
     input  wire [BUFFER_BITS-1:0] landing_i,
     output wire                   landing_used_o,  // and not live
     output wire                   live_o,          // what plays is still arriving
+    output wire                   read_o,          // pulse: it has come to another word, and reads it
     output wire [BUFFER_BITS-1:0] read_buffer_o,
     output wire [9:0]             read_word_o,
     output wire [2:0]             read_chunk_o,
@@ -81,6 +82,7 @@ module waveform_player #(
     reg [15:0]            rest_q;
     reg                   resting_q;       // rest_q is not 0
     reg                   underrun_q;
+    reg                   read_q;
 
     reg [63:0]            ahead_q;         // what now_i will be when a play decided on in the next clock is on the pins
     reg                   due_q, missed_q; // the time of the head has come; has passed
@@ -165,6 +167,7 @@ module waveform_player #(
             resting_q <= rest_q != 16'd1;
         end
         underrun_q <= playing_q && live_q && missing_i;
+        read_q     <= start || boundary;
 
         if (begins) begin
             buffer_q     <= head_buffer_i;
@@ -246,6 +249,7 @@ module waveform_player #(
             rest_q          <= 16'd0;
             resting_q       <= 1'b0;
             underrun_q      <= 1'b0;
+            read_q          <= 1'b0;
             ahead_q         <= 64'd6;
             due_q           <= 1'b0;
             missed_q        <= 1'b0;
@@ -267,6 +271,7 @@ module waveform_player #(
     assign pop_o           = begins || missed;
     assign landing_used_o  = running && buffer_q == landing_i && !live_q;
     assign live_o          = running && live_q;
+    assign read_o          = read_q;
     assign read_buffer_o   = buffer_q;
     assign read_word_o     = word_q;
     assign read_chunk_o    = chunk_q;

@@ -24,7 +24,7 @@ MAGIC = b"HPNLBANK"
 VERSION = 4
 PAGE = 4096
 LINE = 64  # responses start on a cache line
-REST_SAMPLES = 8  # of which the rest of a response, outside the band, is kept as the mean
+REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
 SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
 MODELLED = "modelled"  # build parameter `responses`: they come from a model, not from measurements
@@ -104,6 +104,23 @@ class Header:
         return round_up(FIXED.size + SECTIONS * SECTION.size + len(self._json()) + CRC.size, PAGE)
 
     @property
+    def composes(self) -> bool:
+        """Whether there are responses, from which other places, less amplitude and several points at once are composed."""
+        return self.parameters.get("composes") is not False
+
+    @property
+    def choice(self) -> dict[str, Any] | None:
+        """What was chosen with the bank, and what for (`bank_builder/choice.py`); None if nothing was."""
+        choice = self.parameters.get("choice")
+        if not isinstance(choice, dict) or not isinstance(choice.get("asked"), dict):
+            return None
+        whole = (
+            all(type(choice.get(name)) in {int, float} for name in ("pitch_mm", "snap_mm"))
+            and choice.get("composes") is self.composes
+        )
+        return choice if whole else None
+
+    @property
     def rest_rows(self) -> int:
         """Rows of the rest of a response: one for each `REST_SAMPLES` samples."""
         return -(-self.samples // REST_SAMPLES)
@@ -118,7 +135,7 @@ class Header:
             ("checksums", self.entries, 8, 8),
             ("scale", self.entries, 4, 4),
             ("drive", self.entries, drive_bytes, round_up(drive_bytes, PAGE)),
-            ("response", self.entries, response_bytes, round_up(response_bytes, LINE)),
+            ("response", self.entries if self.composes else 0, response_bytes, round_up(response_bytes, LINE)),
             ("points", self.compositions, COMPOSITION.size, COMPOSITION.size),
             ("composed", self.compositions, drive_bytes, round_up(drive_bytes, PAGE)),
         ):

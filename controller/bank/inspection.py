@@ -84,6 +84,8 @@ def verify_bank(path: Path, progress: Callable[[int, int], None] | None = None) 
 
 def _check_rows(bank: Bank, section: Section, progress: Callable[[int, int], None]) -> None:
     """Check every row of a section against its CRC-32, and that the padding between rows is zero."""
+    if not section.rows:
+        return
     if section.name == "composed":
         names, crcs = [f"composition {row}" for row in range(section.rows)], [crc for _, crc in bank.compositions.values()]
     else:
@@ -169,8 +171,45 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
     return Fit(f"it lacks {missing} cells" if missing else "", cells | there)
 
 
+def optimised_for(path: Path) -> str:
+    """What the entries of the bank at `path` were optimised for; empty: nothing, or there is no such bank that can be read."""
+    try:
+        with Bank.open(path) as bank:
+            told = bank.header.parameters.get("optimised")
+    except BankError:
+        return ""
+    name = told.get("name") if isinstance(told, dict) else None
+    return name if isinstance(name, str) and name.isprintable() else ""
+
+
+def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
+    """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
+    return bounds_of(board) | {"scene_crc32": zlib.crc32(scene_file.read_bytes())}
+
+
+def bounds_of(board: Board) -> dict[str, Any]:
+    """The bounds of a board whose bank is chosen."""
+    return {"max_error": board.compose.max_error, "max_time_us": board.compose.max_time_us}
+
+
+def choice_of(path: Path) -> dict[str, Any] | None:
+    """What was chosen with the bank at `path`; None if there is no such bank, or nothing was."""
+    try:
+        with Bank.open(path) as bank:
+            return bank.header.choice
+    except BankError:
+        return None
+
+
 def wrong_pitch(bank: Bank, board: Board) -> str:
-    """How the grid of a bank differs from that of a board; empty: it does not."""
+    """How the grid of a bank differs from that of a board, or the bounds it was chosen for from the board's; empty: they do not."""
+    if board.compose.method == "auto":
+        choice = bank.header.choice
+        if choice and bounds_of(board).items() <= choice["asked"].items():
+            return ""
+        return f"it was not chosen for {', '.join(f'compose.{name} = {value:g}' for name, value in bounds_of(board).items())}"
+    if not bank.composes:
+        return "it holds no responses, as compose.method = auto chose"
     if bank.grid == Grid.of(board.plate, board.bank.pitch_mm * 1e-3):
         return ""
     return f"its cells are {bank.grid.pitch_m * 1e3:g} mm apart, bank.pitch_mm of the board is {board.bank.pitch_mm:g}"

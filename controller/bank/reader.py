@@ -56,6 +56,7 @@ class Bank:
         self.sections = sections
         self.grid = header.grid
         self.samples = header.samples
+        self.composes = header.composes
         opened = os.fstat(fd)
         self.file_bytes = opened.st_size
         self._written_ns = opened.st_mtime_ns
@@ -129,6 +130,11 @@ class Bank:
     def cells(self) -> NDArray[np.bool_]:
         """Which cells have an entry, (grid.cells,)."""
         return np.array(self._entry_of) >= 0
+
+    def snap_m(self, board: Board) -> float:
+        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
+        choice = self.header.choice if board.compose.method == "auto" else None
+        return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
 
     @property
     def worst_edges(self) -> tuple[int, int]:
@@ -324,6 +330,11 @@ class Bank:
         """
         return self._entry_of, self._scale_of, self._response_good
 
+    def has_responses(self, x_m: float, y_m: float) -> bool:
+        """Whether the cells around the point (x_m, y_m) have entries."""
+        cells, weights = self.grid.corners(x_m, y_m)
+        return all(not weight or self._entry_of[cell] >= 0 for cell, weight in zip(cells, weights, strict=True))
+
     def check_response(self, cell: int) -> None:
         """Map the responses and check a cell's, if that was not done.
 
@@ -355,6 +366,10 @@ class Bank:
         entry = self._entry_of[cell] if 0 <= cell < len(self._entry_of) else -1
         if entry < 0:
             raise self._missing(cell)
+        if not self.composes:
+            raise BankError(
+                f"{self.path}: holds no responses, so only its cells are played, one at a time; rebuild it: {self.rebuild}"
+            )
         if not self._response_good[entry]:
             self._read_ahead(cell)
             start = entry * self._response_stride

@@ -98,7 +98,8 @@ class BankWriter:
         words : (samples,) uint32 array
             Drive words.
         response : (samples + rest_rows, 32) int8 array
-            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`.
+            Response in drive order, then its rest outside the band, in steps of `scale_m_per_v`. Not written where the header says
+            that there are none.
         scale_m_per_v : float
             m per V of one step.
         """
@@ -114,9 +115,10 @@ class BankWriter:
         levels = np.ascontiguousarray(response).data.cast("B")
         frames = bytearray(self._sections["drive"].row_bytes)
         crc = pack_loads(frames, 0, np.ascontiguousarray(words).data.cast("B"))
-        self._checksums[entry] = crc, zlib.crc32(levels)
+        kept = (("drive", memoryview(frames)), ("response", levels))[: 1 + self._header.composes]
+        self._checksums[entry] = crc, zlib.crc32(levels) if self._header.composes else 0
         with self._disk_errors():
-            for name, row in (("drive", memoryview(frames)), ("response", levels)):
+            for name, row in kept:
                 section = self._sections[name]
                 _write(self._fd, row, section.offset + entry * section.stride)
         self._scale[entry] = scale_m_per_v

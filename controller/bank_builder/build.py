@@ -11,18 +11,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import MODELLED, REST_SAMPLES, Header, creator
+from controller.bank.file_format import MODELLED, Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
 from controller.bank.writer import BankWriter
 from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
-from controller.bank_builder.optimised import ALONE, Workers, kept_path, optimised_words, remove_kept, told
+from controller.bank_builder.optimised import ALONE, Words, Workers, kept_path, optimised_words, remove_kept, told
 from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
@@ -31,8 +32,12 @@ from controller.physics.memory import cell_bytes, entries_bytes, require
 from controller.physics.plate import mode_cut_hz
 from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
+from controller.waveform_design.plain import SignOfSum
+from controller.waveform_design.prediction import Prediction
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
+WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
+CELLS_JUDGED = 32  # at most, of an optimised bank: 10 ms each
 CELLS_PER_BLOCK = 512  # at least one row of the grid; 74 MB of responses at 1000 samples
 # (rows, inner, columns): large squares, and the shapes of the response step itself
 SGEMM_SHAPES = ((1024, 1024, 1024), (1536, 1536, 1536), (1000, 1900, 512), (1000, 1900, 2048))
@@ -97,6 +102,7 @@ def build_bank(
     measure_sgemm: bool = True,
     highest_hz: float | None = None,
     overwrite: bool = False,
+    choice: dict[str, Any] | None = None,
     memory_mb: float | None = None,
     aim: Aim | None = None,
     workers: Workers = ALONE,
@@ -124,6 +130,8 @@ def build_bank(
         Modes above are left out; `mode_cut_hz` by default.
     overwrite : bool
         Replace a file at `path` even if it is no bank: for paths that this software chooses itself.
+    choice : dict, optional
+        What `choice.choose` told; its `composes` says whether responses are written.
     memory_mb : float, optional
         Memory that the build may take, in MB of 10^6 bytes, `DEFAULT_MB` by default; the bank is the same whatever it is.
     aim : Aim, optional
@@ -140,6 +148,8 @@ def build_bank(
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
+    if choice is not None:
+        board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=choice["snap_mm"]))
     highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
@@ -157,6 +167,7 @@ def build_bank(
         "responses": MODELLED,
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
+        **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
         "spots_sha256": hashlib.sha256(repr([(*spot[:3], *spot[4:]) for spot in spots]).encode()).hexdigest(),
         "optimised": aim and told(board, aim),
     }
@@ -167,7 +178,7 @@ def build_bank(
         "content_sha256": "0" * 64,
         "channel_edges": 0,
         "all_edges": 0,
-        "amplitude_of_plain": aim and _spread([0.0]),
+        "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
         "interpolation_error": {},
     }
     composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
@@ -203,10 +214,9 @@ def build_bank(
         optimised, optimise_seconds = None, 0.0
         if aim:
             before = time.perf_counter()
-            kept = kept_path(path, inputs_sha256)
+            kept = kept_path(path, _inputs_sha256(board, maker, {key: parameters[key] for key in WORDS_DEPEND_ON}))
             optimised = optimised_words(board, highest_hz, aim, numbers, points_m, kept, workers, progress=progress)
             optimise_seconds = time.perf_counter() - before
-        shares = []  # of the amplitude that the plain entry has
         room = np.empty((max(map(len, blocks)), header.samples + header.rest_rows, CHANNELS), np.float32)
         for block in blocks:
             places_m = points_m[block.start : block.stop]
@@ -217,8 +227,7 @@ def build_bank(
             for index, entry in zip(block, entries, strict=True):
                 cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
                 if optimised is not None:
-                    plain, words = words, optimised[index]
-                    shares.append(_amplitude(entry, words, board.idle_word) / (_amplitude(entry, plain, board.idle_word) or 1.0))
+                    words = optimised[index]
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
@@ -231,7 +240,7 @@ def build_bank(
             content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
         if optimised is not None:
-            parameters["amplitude_of_plain"] = _spread(shares)
+            parameters["amplitude_of_plain"] = _amplitude_of_plain(board, model, points_m, optimised)
         parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
     remove_kept(path)
     seconds = time.perf_counter() - started
@@ -256,19 +265,23 @@ def build_bank(
 
 
 def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
-    """Hash of all that determines a bank: the board's physics, the program and the build parameters."""
+    """Hash of the board's physics, the program and build parameters: all of them determine a bank."""
     told = json.dumps({"board_digest": board.digest().hex(), "creator": maker, **parameters}, sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()
 
 
-def _amplitude(entry: NDArray[np.float32], words: NDArray[np.uint32], idle_word: int) -> float:
-    """Displacement by drive words at a cell, in m per V, from its response and the rest of that outside the band."""
-    whole = entry[: len(words)] + np.repeat(entry[len(words) :], REST_SAMPLES, axis=0)[: len(words)]
-    return float(np.sum(whole * (channel_bits(words) - channel_bits(np.array([idle_word], np.uint32)).astype(np.float32))))
-
-
-def _spread(shares: list[float]) -> dict[str, float]:
-    return {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+def _amplitude_of_plain(board: Board, model: ResponseModel, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
+    """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
+    some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_JUDGED).round().astype(int))
+    plain, prediction = SignOfSum(board, model), Prediction(board, model)
+    shares = [
+        float(
+            prediction.at_focus(words[index], points_m[index])[0] / (plain.design([(*points_m[index], 1.0)]).displacement_m[0] or 1)
+        )
+        for index in some.tolist()
+    ]
+    found = {name: round(float(find(shares)), 3) for name, find in (("least", np.min), ("median", np.median), ("most", np.max))}
+    return {"cells": len(some), **found}
 
 
 def _blocks(numbers: NDArray[np.intp], cells_per_row: int, most: int) -> list[range]:

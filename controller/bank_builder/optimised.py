@@ -12,6 +12,7 @@ import fcntl
 import glob
 import os
 import struct
+import threading
 import zlib
 from collections.abc import Generator, Iterator
 from dataclasses import asdict, dataclass
@@ -35,8 +36,10 @@ Words = NDArray[np.uint32]
 
 METHOD_CODE = ("exact.py", "field_form.py", "audible_form.py", "descent.py")
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
+CELLS_OF_A_STRANGER = 8  # some seconds of work
 FOUND_WITHIN_S = 30.0  # a scheduler on another machine
 LOST_WORKERS = 10  # that one group of cells may have had; more, and it is taken to be the cause
+ONE_AT_A_TIME = threading.Lock()  # in a process: the response model has one workspace, and a dask worker may have several threads
 RECORD = struct.Struct("<I")  # cell; then its words; then the CRC-32 of both
 
 
@@ -89,7 +92,7 @@ def compute(task: Task) -> Words:
     """Drive words of a task's cells: (cell, sample)."""
     if task.maker != creator():
         raise BankError(f"a worker has another version than asked for: {creator()}, not {task.maker}: install the same on all")
-    with threadpool_limits(1, "blas"):
+    with ONE_AT_A_TIME, threadpool_limits(1, "blas"):
         return _method(task.board, task.highest_hz, task.aim).entries(task.points_m)
 
 
@@ -177,8 +180,11 @@ def optimised_words(
 
 def _groups(indices: list[int], workers: Workers) -> list[list[int]]:
     """Groups of cells, each a task: large enough for fast products, and several for each worker."""
-    size = min(CELLS_AT_ONCE, -(-len(indices) // (TASKS_PER_WORKER * workers.processes)))
-    return [indices[first : first + size] for first in range(0, len(indices), max(size, 1))]
+    if workers.address:  # who knows how many there are
+        size = CELLS_OF_A_STRANGER
+    else:
+        size = max(1, min(CELLS_AT_ONCE, -(-len(indices) // (TASKS_PER_WORKER * workers.processes))))
+    return [indices[first : first + size] for first in range(0, len(indices), size)]
 
 
 def _computed(tasks: list[Task], workers: Workers) -> Generator[tuple[int, Words]]:

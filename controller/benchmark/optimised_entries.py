@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -19,7 +20,8 @@ from tqdm import tqdm
 
 from controller.bank.grid import Grid
 from controller.bank.packing import drive_words, edges
-from controller.benchmark.focus_figures import emit
+from controller.benchmark.focus_figures import emit, random_points
+from controller.benchmark.plot_optimised import plot_optimised
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.physics.audible import surface_energy
@@ -27,6 +29,7 @@ from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin
 from controller.waveform_design.descent import AIMS, Descent
+from controller.waveform_design.plain import SignOfSum
 
 DRIFTS = (0.0, 0.001, 0.005)
 Figures = dict[str, Any]
@@ -90,6 +93,17 @@ def figures(board: Board, cells: int, seed: int) -> Figures:
     }
 
 
+def picture(board: Board, path: Path) -> None:
+    """Draw the plate at T with a focus away from patches and edges: plain, and for most contrast."""
+    x_m, y_m = random_points(board, 1, 1, board.plate.width_m / 3)[0].tolist()
+    model, twin = ResponseModel(board, mode_cut_hz(board.waveform)), PlateTwin(board)
+    fields = []
+    for name, method in (("plain", SignOfSum(board, model)), ("contrast", Descent(board, model, AIMS["contrast"]))):
+        field = emit(twin, method.design([(x_m, y_m, 1.0)]).words)
+        fields.append((f"{name}: {field.focus_metrics(x_m, y_m).contrast:.0f} outside the circle", field))
+    plot_optimised(path, board, (x_m, y_m), fields)
+
+
 def _summary(rows: NDArray[np.float64], of_plain: NDArray[np.float64]) -> Figures:
     told: Figures = {}
     count = len(DRIFTS)
@@ -145,7 +159,11 @@ def main() -> None:
     parser.add_argument("--cells", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--json", action="store_true")
+    parser.add_argument("--plot", type=Path, metavar="F", help="draw the plate at T instead, to a .png, .svg or .pdf")
     options = parser.parse_args()
+    if options.plot:
+        picture(load_board(find_board(options.board)), options.plot)
+        return
     told = figures(load_board(find_board(options.board)), options.cells, options.seed)
     print(json.dumps(told) if options.json else table(told))  # noqa: T201
 

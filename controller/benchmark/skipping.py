@@ -1,6 +1,6 @@
 """What the loop leaves out in six scenes, and what that saves: each is played as on the device, and again without skipping.
 
-    python -m controller.benchmark.skipping
+    haptic-panel benchmark skipping
 
 Loop, tracker, scheduler and session are the device's, on the simulated clock; the FPGA is its model. Without skipping everything is
 composed for the place itself, sent again, emission by emission, with the outputs on all the time, from a bank that was read whole.
@@ -10,10 +10,7 @@ finger moves, each emission has the same bits.
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
-import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
@@ -24,20 +21,18 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.benchmark.power import half_charge_j
-from controller.board.board import Board, load_board
+from controller.board.board import Board
 from controller.board.lookup import find_board
-from controller.errors import ControllerError
 from controller.fpga.capture import Capture
 from controller.loop.skips import ALL, EXACT, Skips
 from controller.metrics import Counters
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import load_scene
+from controller.scene.scene import Scene, load_scene
 from controller.simulation.simulated_run import Run, play
 from controller.touch import event_codes as ev
 from controller.touch.event_capture import recording_text
@@ -176,10 +171,10 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
     for _ in range(repeats):  # in turns; the least of each counts
         for found, skips in ((done, ALL), (without, fewer)):
             again, _ = _run(board, bank_file, case, skips, checked=True)
-            found["host_ms"] = min(found["host_ms"], _sum_ms("host", again.counters))
+            found["host_ms"] = min(found["host_ms"], _typical_ms("host", again.counters))
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     played = done.pop("words"), without.pop("words")
     return {
         "case": case.name,
@@ -195,13 +190,17 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
     }
 
 
+def _scene(board: Board, case: Case) -> Scene:
+    return load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+
+
 def _run(board: Board, bank_file: Path, case: Case, skips: Skips, *, whole: bool = False, checked: bool = False) -> tuple[Run, int]:
     """Play once from a bank that is opened for it: the run, and how many pages of the bank were read for it.
 
     `whole`: all of the bank is read first; `checked`: its entries have been checked beside the loop, as for the service.
     """
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     with Bank.open(bank_file, board) as bank:
         if checked:
             cells = np.flatnonzero(bank.cells).tolist()
@@ -256,18 +255,18 @@ def figures(board: Board, bank_file: Path, case: Case, skips: Skips) -> dict[str
         "pages_of_the_bank": pages,
         "samples_without_work": counters.skipped.outside_region + counters.skipped.between_emissions,
         "replaced_by_newer": counters.skipped.merged,
-        "host_ms": _sum_ms("host", counters),
-        "wire_before_a_start_ms": _sum_ms("wire", counters) / max(counters.emissions, 1),
+        "host_ms": _typical_ms("host", counters),
+        "wire_before_a_start_ms": _typical_ms("wire", counters) / max(counters.emissions, 1),
         "outputs_on_s": on_s,
         "stages_mj": edges * half_charge_j(board.driver) * 1e3,
         "words": _words(board, run.capture),
     }
 
 
-def _sum_ms(stage: str, counters: Counters) -> float:
-    """Time of a stage of all emissions, within 0.8 %."""
-    both = (getattr(stages, stage).buckets_us() for stages in (counters.upload_latency, counters.resident_latency))
-    return math.fsum(upper_us * count for buckets in both for upper_us, count in buckets) * 1e-3
+def _typical_ms(stage: str, counters: Counters) -> float:
+    """Time of a stage of all emissions: the median of uploads and of resident plays, times their numbers."""
+    both = (getattr(stages, stage) for stages in (counters.upload_latency, counters.resident_latency))
+    return math.fsum(found.percentiles_ns([0.5])[0] * found.count for found in both if found.count) * 1e-6
 
 
 def _words(board: Board, capture: Capture) -> NDArray[np.uint32]:
@@ -305,37 +304,25 @@ def table(found: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run from the command line (`sys.argv` by default); the exit code: 1 if bits differ that must be equal."""
-    parser = argparse.ArgumentParser(prog="python -m controller.benchmark.skipping", description=__doc__.partition("\n")[0])
-    parser.add_argument("--board", default="simulated", metavar="B", help="name, or folder with a board.toml (default: simulated)")
-    parser.add_argument(
-        "--no-skip",
-        nargs="+",
-        default=[],
-        choices=[field.name for field in fields(Skips)],
-        metavar="WHAT",
-        help="switch off only this in the runs compared with: %(choices)s (default: everything)",
-    )
-    parser.add_argument("--repeats", type=int, default=REPEATS, metavar="N", help="runs of each, for the least host time")
-    parser.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
-    options = parser.parse_args(arguments)
-    try:
-        board = load_board(find_board(options.board))
-        with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
-            bank_file = Path(folder) / "whole plate.bank"
-            build_bank(board, bank_file, progress=True, measure_sgemm=False)
-            found = [
-                skipping(board, bank_file, case, options.no_skip, max(options.repeats, 1))
-                for case in tqdm(CASES, desc="scenes", disable=None)
-            ]
-    except ControllerError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return error.exit_code
-    said = json.dumps({"board": board.name, "cases": found}) if options.json else "\n\n".join(map(table, found))
-    sys.stdout.write(f"{said}\n")
-    return int(any(case["must_be_exact"] and not case["exact_bits"] for case in found))
+def all_cases(
+    board: Board, off: Sequence[str] = (), repeats: int = REPEATS, progress: Callable[[int, int], None] | None = None
+) -> dict[str, Any]:
+    """Play all cases from a bank that is built for it; `cases`: what `skipping` found, for each.
 
-
-if __name__ == "__main__":
-    raise SystemExit(main())
+    Parameters
+    ----------
+    board, off, repeats
+        As for `skipping`.
+    progress : callable, optional
+        Called with the number of cases done and of all cases.
+    """
+    found = []
+    with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
+        bank_file = Path(folder) / "whole plate.bank"
+        spots = [spot for case in CASES for spot in _scene(board, case).spots]
+        build_bank(board, bank_file, spots=list(dict.fromkeys(spots)), measure_sgemm=False)
+        for number, case in enumerate(CASES, start=1):
+            found.append(skipping(board, bank_file, case, off, repeats))
+            if progress:
+                progress(number, len(CASES))
+    return {"board": board.name, "cases": found}

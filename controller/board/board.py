@@ -17,7 +17,7 @@ from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, in_system_folder
-from controller.board.panel import CHANNELS, Actuator, Bank, Driver, Limits, Plate, Waveform
+from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
 from controller.board.records import Record, load_toml
 from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
@@ -47,6 +47,8 @@ class Board(Record, frozen=True):
         The waveform of one emission.
     bank
         The bank of precomputed waveforms.
+    compose
+        Left out: as `bank` says.
     touch
         The touch panel.
     link
@@ -80,6 +82,7 @@ class Board(Record, frozen=True):
     realtime: Realtime = Realtime()
     application_socket: ApplicationSocket | None = None
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
+    compose: Compose = Compose()
     folder: Path = msgspec.field(default_factory=Path)
 
     def __post_init__(self) -> None:

@@ -175,6 +175,26 @@ class Bank(Record, frozen=True):
     coarse: bool = False
 
 
+class Compose(Record, frozen=True):
+    """How waveforms for places between cells come about: as `bank` says, or as `bank build` chooses for the scene.
+
+    Attributes
+    ----------
+    method
+        `bank`: `bank.pitch_mm` and `bank.snap_mm` as they are; `auto`: `bank build` chooses both, and whether the bank holds
+        responses at all, so that the bank is the smallest that keeps the two bounds.
+    max_error
+        Bound of the amplitude that a finger loses, at the worst sampled place of the scene, alone.
+    max_time_us
+        Bound of the host's time for the words of the largest emission that the scene can ask for, with the compiled kernel on
+        the machine of the benchmark.
+    """
+
+    method: Literal["bank", "auto"] = "bank"
+    max_error: Annotated[float, Meta(gt=0, le=1)] = 0.1
+    max_time_us: Annotated[float, Meta(gt=0, le=10e3)] = 500.0
+
+
 class Limits(Record, frozen=True):
     """Limits of what the panel plays, and the resistor ratings they follow from. The FPGA enforces those of time and edges.
 

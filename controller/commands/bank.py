@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, fit, verify_bank, wrong_pitch
+from controller.bank.inspection import Fit, asked_of, bank_info, choice_of, fit, optimised_for, verify_bank, wrong_pitch
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
@@ -57,6 +58,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     build.add_argument("--workers", type=int, metavar="N", help="processes that optimise (default: one for each core)")
     build.add_argument("--dask", metavar="ADDRESS", help="optimise on the workers of this dask scheduler, tcp://HOST:PORT")
     build.set_defaults(command=bank_build)
+    choices = actions.add_parser("choices", parents=[common], help="what pitch and memory cost a scene, and what auto would choose")
+    choices.add_argument("--scene", metavar="S", help="the scene (default: the board's own)")
+    choices.set_defaults(command=bank_choices)
     for name, action, text in (
         ("info", bank_describe, "describe what a bank holds and what it was computed from"),
         ("verify", bank_verify, "check every bit of a bank"),
@@ -77,20 +81,45 @@ def bank_build(options: argparse.Namespace) -> int:
     scene = load_scene(scene_file, board) if scene_file else None
     if options.pitch_mm is not None and not options.pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {options.pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
-    pitch_m = (board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm) * 1e-3
     if options.optimise is None and (options.workers is not None or options.dask is not None):
         raise UsageError("--workers and --dask are of use with --optimise: a plain bank takes seconds")
     if options.workers is not None and (options.workers < 1 or options.dask is not None):
         raise UsageError("--workers: 1 or more processes of this computer, and not with --dask")
-    own = bank_path(board, pitch_m)
+    choice = None
+    if board.compose.method == "auto" and options.pitch_mm is None:
+        scene_file = scene_file or find_scene(board)
+        scene = scene or load_scene(scene_file, board)
+        choice = _choose(board, scene, scene_file)
+        print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
+    pitch_m = _pitch_m(board, choice) if options.pitch_mm is None else options.pitch_mm * 1e-3
+    own = bank_path(board, None if choice else pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
     name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
-    report = _build(board, path, pitch_m, cells, name, spots, measure=True, options=options)
+    report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
         print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
     return 0
+
+
+def bank_choices(options: argparse.Namespace) -> int:
+    """Show the settings of a bank on the front of error, time and bytes for a scene, and which of them `auto` chooses."""
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene)
+    show(options, _choose(board, load_scene(scene_file, board), scene_file), _choices_table)
+    return 0
+
+
+def _choices_table(choice: dict[str, Any]) -> str:
+    lines = [f"{'pitch (mm)':>10}  {'cells within (mm)':>17}  {'loses at most':>13}  {'lone finger (us)':>16}  {'MB':>6}"]
+    for pitch_mm, snap_mm, error, lone_us, size in choice["front"]:
+        chosen = (pitch_mm, snap_mm) == (choice["pitch_mm"], choice["snap_mm"] if choice["composes"] else None)
+        played = "no responses" if snap_mm is None else f"{snap_mm:g}"
+        lines.append(
+            f"{pitch_mm:>10g}  {played:>17}  {100 * error:>11.1f} %  {lone_us:>16.2f}  {size / 1e6:>6.1f}{'  <- auto' * chosen}"
+        )
+    return "\n".join([*lines, choice["why"]])
 
 
 def bank_describe(options: argparse.Namespace) -> int:
@@ -147,12 +176,23 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
             bank.close()
             raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
         return bank
-    pitch_m = board.bank.pitch_mm * 1e-3
-    found = fit(path, board, _cells(board, pitch_m, scene))
+    choice, found = None, None
+    if board.compose.method == "auto":
+        there = choice_of(path)
+        choice = there if there and there["asked"] == asked_of(board, scene_file) else _choose(board, scene, scene_file)
+        if there and any(there[name] != choice[name] for name in ("pitch_mm", "snap_mm", "composes")):
+            found = Fit(f"{scene_file.name} needs {choice['why'].partition(':')[0]}", _cells(board, _pitch_m(board, choice), scene))
+    pitch_m = _pitch_m(board, choice)
+    found = found or fit(path, board, _cells(board, pitch_m, scene))
     if found.reason:
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
-        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, measure=False)
+        if aim := optimised_for(path):
+            print(
+                f"haptic-panel: its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}",
+                file=sys.stderr,
+            )
+        _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
     return Bank.open(path, board)
 
 
@@ -167,6 +207,34 @@ def _bank_file(options: argparse.Namespace) -> Path:
     return path
 
 
+def _choose(board: Board, scene: Scene, scene_file: Path) -> dict[str, Any]:
+    """What `compose.method = "auto"` chooses for a scene."""
+    with _builder_installed(bank_path(board)):
+        from threadpoolctl import threadpool_limits
+
+        from controller.bank_builder.choice import choose
+    with threadpool_limits(1, "blas"):
+        return choose(board, scene, scene_file, MET_AHEAD_M)
+
+
+@contextlib.contextmanager
+def _builder_installed(path: Path) -> Iterator[None]:
+    """Around imports of what builds banks; BankError where it is not installed, as on a device."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        from controller.service.installation import missing_package
+
+        missing = missing_package(error.name)
+        if missing is None:
+            raise
+        raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
+
+
+def _pitch_m(board: Board, choice: dict[str, Any] | None) -> float:
+    return float(choice["pitch_mm"] if choice else board.bank.pitch_mm) * 1e-3
+
+
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
     return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
 
@@ -178,24 +246,18 @@ def _build(
     cells: NDArray[np.bool_] | None,
     scene: str | None,
     spots: Sequence[Spot],
+    choice: dict[str, Any] | None = None,
     *,
     measure: bool,
     options: argparse.Namespace | None = None,
 ) -> BuildReport:
     """Build a bank; `options`: of `bank build`, where it says how."""
-    try:
+    with _builder_installed(path):
         from controller.bank_builder.build import build_bank
         from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
         from controller.bank_builder.optimised import ALONE, Workers
         from controller.waveform_design.descent import AIMS
-    except ModuleNotFoundError as error:
-        from controller.service.installation import missing_package
-
-        missing = missing_package(error.name)
-        if missing is None:
-            raise
-        raise BankError(f"{path}: cannot be built here: {missing}; or build it on another computer and copy it there") from error
-    own_path = path == bank_path(board, pitch_m)
+    own_path = path == bank_path(board, None if choice else pitch_m)
     refuse_coarse(board, pitch_m)
     aim, workers = None, ALONE
     if options and options.optimise:
@@ -213,6 +275,7 @@ def _build(
             overwrite=own_path,
             aim=aim,
             workers=workers,
+            choice=choice,
             memory_mb=options.memory_mb if options else None,
         )
     except KeyboardInterrupt:

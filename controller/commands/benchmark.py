@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from controller.commands.output import Declare
 
 RESULTS = "work_precision.json"
+SKIPS = ("idle", "resident", "repeated", "ahead", "near", "cells", "together")  # fields of `loop.skips.Skips`
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
@@ -34,6 +35,22 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     benchmark.add_argument("--no-timing", action="store_true", help="errors only, without times")
     benchmark.add_argument("--no-pictures", action="store_true", help="figures only, without diagrams")
     benchmark.set_defaults(command=run)
+    skips = benchmark.add_subparsers(title="actions", metavar="ACTION").add_parser(
+        "skipping",
+        parents=[common],
+        help="what the loop leaves out in six scenes, and what that saves",
+        description="Play six scenes on the simulated panel with all skipping and without, and print what that saves.",
+    )
+    skips.add_argument(
+        "--no-skip",
+        nargs="+",
+        default=[],
+        choices=SKIPS,
+        metavar="WHAT",
+        help=f"leave only this undone in the runs compared with: {', '.join(SKIPS)} (default: all of it)",
+    )
+    skips.add_argument("--repeats", type=_natural, default=5, metavar="N", help="runs of each for the least host time (default: 5)")
+    skips.set_defaults(command=skipping)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -58,6 +75,15 @@ def run(options: argparse.Namespace) -> int:
         draw_all(folder, figures)
     show(options, figures, benchmark_table)
     return 0
+
+
+def skipping(options: argparse.Namespace) -> int:
+    """Print what skipping saves; 1 if it changes output bits that it must not change."""
+    from controller.benchmark.skipping import all_cases, table
+
+    found = all_cases(load_board(find_board(options.board)), options.no_skip, options.repeats, progress_bar("scenes"))
+    show(options, found, lambda figures: "\n\n".join(map(table, figures["cases"])))
+    return int(any(case["must_be_exact"] and not case["exact_bits"] for case in found["cases"]))
 
 
 def _natural(text: str) -> int:

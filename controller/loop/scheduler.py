@@ -280,6 +280,8 @@ class Scheduler:
         here, then = locate(finger, now_s), locate(finger, now_s + report_s)
         if active is None or here is None or then is None:
             return None
+        if len(self._active) > 1 and active.region != OUTSIDE and self.scene.regions[active.region].quiet:
+            return None  # where the others will be kept still is not known
         step_m = math.dist(here, then)
         if step_m < MIN_STEP_M:
             return None

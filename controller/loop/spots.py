@@ -9,7 +9,7 @@ from typing import Final
 from controller.clocks import FPGA_NEVER, FpgaTime
 from controller.loop.batching import select_batch
 from controller.scene.emission import Emission, spot_emission
-from controller.scene.scene import Spot
+from controller.scene.scene import Scene, Spot
 
 ROUNDING_S: Final = 1e-9  # a beat reached exactly is reached
 
@@ -69,3 +69,18 @@ def common_period_s(spots: Sequence[Spot]) -> float | None:
         return None
     _, rest = select_batch([spot_emission(spot, FpgaTime(0.0), 0) for spot in spots], 0.0)
     return None if rest else 1 / spots[0].rate_hz
+
+
+def needs_responses(scene: Scene) -> bool:
+    """Whether a scene can ask for more than entries of cells and what its spots play together: composing, on the device.
+
+    Otherwise each emission for a finger is alone and at full amplitude, and all spots have one period. What a command may ask for
+    is another matter.
+    """
+    for region in scene.regions:
+        trains = (*region.press, *region.release, *region.enter, *region.leave)
+        if region.felt and not region.alternate:
+            return True
+        if any(train.amplitude != 1 or train.envelope for train in trains) or any(step.amplitude != 1 for step in region.spacings):
+            return True
+    return bool(scene.spots) and common_period_s(scene.spots) is None

@@ -10,9 +10,11 @@ from pathlib import Path
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.errors import BankError
+from controller.loop.spots import needs_responses
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
+from controller.waveforms.selection import lattice_key
 
 
 def prepare(board: Board, name: str, bank_file: Path) -> Scene:
@@ -54,11 +56,21 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
         If the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
+    if not bank.composes and (needs_responses(scene) or not _spots_composed(bank, scene)):
+        raise BankError(
+            f"{bank.path}: holds no responses, from which {called} needs waveforms composed; rebuild it: {bank.rebuild}"
+        )
     bank.check_frames(cells)
-    if responses:
+    if responses and bank.composes:
         for cell in cells:
             bank.response(cell)
     return len(cells)
+
+
+def _spots_composed(bank: Bank, scene: Scene) -> bool:
+    """Whether a cell or a ready composition of the bank serves what the spots of one period play together."""
+    spots = [(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots]
+    return not spots or (len(spots) == 1 and spots[0][2] == 1) or lattice_key(spots) in bank.compositions
 
 
 def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:

@@ -219,7 +219,7 @@ class SceneChanger:
             return PreparedScene(ticket, said)
         try:
             bank = Bank.open(self._bank.path, self._board)
-            selection = Selection(bank, self._board.bank.snap_mm * 1e-3, self._board.idle_word)
+            selection = Selection(bank, bank.snap_m(self._board), self._board.idle_word)
             selection.prepare()
         except ControllerError as error:
             return PreparedScene(ticket, None, reason=str(error))

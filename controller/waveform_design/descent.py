@@ -43,7 +43,8 @@ SAMPLES_AT_ONCE = 20  # after which the audible spectrum is brought up to date
 FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
 CALMER = 4.0  # an entry that switches too often is improved again, edges costing so many times as much
 CALMING_PASSES = 4
-CELLS_AT_ONCE = 32  # 120 MB of levels and gradients
+CELLS_AT_ONCE = 32  # at most, and as many as fit into
+WORKING_BYTES = 120e6  # of levels, gradients and modal forces
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,6 +132,8 @@ class Descent:
         self._audible = AudibleForm(board, model, SAMPLES_AT_ONCE)
         self._late = np.ascontiguousarray(self._audible.lags[:0:-1]).reshape(-1, CHANNELS)  # longest lag first
         self._prediction = Prediction(board, model)
+        cell_bytes = 8.0 * CHANNELS * (3 * model.modes + 8 * model.samples)
+        self._at_once = max(1, min(CELLS_AT_ONCE, int(WORKING_BYTES / cell_bytes)))
 
     def design(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> WaveformDesign:
         """As `DesignMethod.design`, for one point at full amplitude."""
@@ -150,8 +153,8 @@ class Descent:
         """
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         found = np.empty((len(points), self._model.samples), np.uint32)
-        for first in range(0, len(points), CELLS_AT_ONCE):
-            found[first : first + CELLS_AT_ONCE] = self._some(points[first : first + CELLS_AT_ONCE])
+        for first in range(0, len(points), self._at_once):
+            found[first : first + self._at_once] = self._some(points[first : first + self._at_once])
         return found
 
     def _some(self, points_m: Floats) -> NDArray[np.uint32]:

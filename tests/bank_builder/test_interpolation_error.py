@@ -9,26 +9,26 @@ from controller.bank.inspection import bank_info
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.bank_builder.interpolation_error import interpolation_error, interpolation_warning, refuse_coarse
-from controller.board.board import load_board
-from controller.board.lookup import find_board
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 from controller.waveform_design.plain import SignOfSum
 from controller.waveform_design.prediction import Prediction
 from controller.waveforms.composition import Composer
+from tests.small_plate import small_board
 
 
 @pytest.fixture(scope="module")
 def board():
-    return load_board(find_board("simulated"))
+    return small_board()
 
 
 @pytest.fixture(scope="module")
 def thick(board):
-    """Four times as thick, so that waves are twice as long, and about four times as large: as many modes."""
-    discs = [msgspec.structs.replace(disc, x_mm=2 * disc.x_mm, y_mm=2 * disc.y_mm) for disc in board.actuators]
-    plate = msgspec.structs.replace(board.plate, thickness_mm=2.0, length_mm=420.0, width_mm=296.0)
-    return msgspec.structs.replace(board, name="thick", plate=plate, actuators=discs)
+    """Four times as thick, so that waves are twice as long, on four times the area: as many modes."""
+    replace = msgspec.structs.replace
+    patches = [replace(patch, x_mm=2 * patch.x_mm, y_mm=2 * patch.y_mm, size_mm=2 * patch.size_mm) for patch in board.actuators]
+    plate = replace(board.plate, thickness_mm=2.0, length_mm=140.0, width_mm=100.0)
+    return replace(board, name="thick", plate=plate, actuators=patches)
 
 
 @pytest.fixture(scope="module")
@@ -80,27 +80,27 @@ def test_the_bank_tells_its_error_and_composing_from_it_loses_as_much(board, mod
     """The error is that of the device's own arithmetic: 8 bits of response and weights in 256ths change it by less than 1 %."""
     grid = Grid.of(board.plate, 5e-3)
     cells = np.zeros((grid.ny, grid.nx), bool)
-    cells[10:12, 20:22] = True
+    cells[3:5, 5:7] = True
     report = build_bank(board, tmp_path / "bank", 5e-3, cells.ravel(), measure_sgemm=False)
     told = bank_info(tmp_path / "bank")["parameters"]["interpolation_error"]
     assert told == report.interpolation_error
     assert told["places"] == 48
     judged = interpolation_error(board, model, grid, cells.ravel())
     assert judged.summary() == told
-    x_m, y_m = grid.place(10 * grid.nx + 20)
+    x_m, y_m = grid.place(3 * grid.nx + 5)
     place = (x_m + 2.5e-3, y_m + 2.5e-3)
     prediction = Prediction(board, model)
     exact_m = SignOfSum(board, model).design([(*place, 1.0)]).displacement_m[0]
     with Bank.open(tmp_path / "bank", board) as bank:
         words = np.frombuffer(Composer(bank, board.idle_word).compose([(*place, 1.0)]), np.uint32)
     lost = 1 - prediction.at_focus(words, [place])[0] / exact_m
-    assert lost == pytest.approx(judged.interpolated.max(), abs=0.02)
+    assert lost == pytest.approx(judged.interpolated.max(), abs=0.05)
 
 
 def test_cells_with_nothing_between_them_have_no_error(board, model):
     grid = Grid.of(board.plate, 10e-3)
     lone = np.zeros(grid.cells, bool)
-    lone[[40, 80]] = True
+    lone[[2, 20]] = True
     summary = interpolation_error(board, model, grid, lone).summary()
     assert summary == {}
     assert interpolation_warning(summary) == ""

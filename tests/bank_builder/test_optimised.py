@@ -1,17 +1,21 @@
 import dataclasses
 import os
 import signal
+from pathlib import Path
+from types import SimpleNamespace
 
+import msgspec
 import numpy as np
 import pytest
 from small_plate import small_board
 
 from controller.bank.file_format import creator
-from controller.bank.inspection import bank_info, verify_bank
+from controller.bank.inspection import bank_info, optimised_for, verify_bank
 from controller.bank.reader import Bank
 from controller.bank_builder import optimised
 from controller.bank_builder.build import build_bank
 from controller.bank_builder.optimised import Workers, compute
+from controller.commands import bank as bank_commands
 from controller.errors import BankError, UsageError
 from controller.waveform_design.descent import AIMS
 
@@ -44,11 +48,26 @@ def test_only_the_drive_words_differ_and_the_bank_says_what_for(banks):
     assert told["optimised"] == optimised.told(BOARD, AIM)
     assert told["optimised"]["name"] == "contrast"
     assert bank_info(plain)["parameters"]["optimised"] is None
+    assert told["amplitude_of_plain"]["cells"] == 5
     assert 0.8 < told["amplitude_of_plain"]["least"] <= told["amplitude_of_plain"]["median"] < 1.3
     assert report.optimised == {"aim": "contrast", "amplitude_of_plain": told["amplitude_of_plain"]}
     assert 0 < report.optimise_seconds < report.seconds
     assert told["inputs_sha256"] != bank_info(plain)["parameters"]["inputs_sha256"]
     assert not list(path.parent.glob(".*"))
+
+
+def test_who_replaces_an_optimised_bank_by_a_plain_one_is_told(banks, monkeypatch, capsys):
+    path = banks[1]
+    assert [optimised_for(file) for file in (*banks[:2], path / "none")] == ["", "contrast", ""]
+    board = msgspec.structs.replace(BOARD, bank=msgspec.structs.replace(BOARD.bank, pitch_mm=PITCH_M * 1e3))
+    monkeypatch.setattr(bank_commands, "bank_path", lambda _board: path)
+    monkeypatch.setattr(bank_commands, "_cells", lambda *_: np.ones(CELLS, bool))
+    monkeypatch.setattr(bank_commands, "_build", lambda *_, **__: None)
+    options, scene = SimpleNamespace(bank=None), SimpleNamespace(spots=())
+    bank_commands.open_bank(options, board, scene, Path("scene.toml")).close()
+    said = capsys.readouterr().err
+    assert "lacks 19 cells" in said
+    assert said.endswith("--optimise contrast\n")
 
 
 def test_an_interrupted_build_leaves_the_old_bank_and_goes_on_where_it_was(banks, tmp_path, monkeypatch):

@@ -1,15 +1,17 @@
 """Each switch of `Skips` leaves its work undone, and only that; what is said to be exact changes no output bit."""
 
 import json
-from dataclasses import replace
+import shutil
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
 from controller.benchmark import skipping
-from controller.benchmark.skipping import CASES, NONE, Case, Contact, exact_bits, figures, main
-from controller.board.lookup import find_board
-from controller.loop.skips import ALL
+from controller.benchmark.skipping import CASES, NONE, Case, Contact, exact_bits, figures
+from controller.cli import main
+from controller.commands.benchmark import SKIPS
+from controller.loop.skips import ALL, Skips
 
 OF = {case.name: case for case in CASES}
 SHORT_S = 0.52  # ends in the middle of a beat of the spots
@@ -20,6 +22,12 @@ def no_reference(monkeypatch):
     monkeypatch.setattr("controller.simulation.simulated_run.REFERENCE_ROUNDS", 1)
 
 
+@pytest.fixture(scope="module")
+def skipped():
+    """Figures of cases with all skipping, by name."""
+    return {}
+
+
 def short(name):
     """A case whose fingers are lifted early."""
     case = OF[name]
@@ -28,6 +36,10 @@ def short(name):
 
 KEYBOARD = replace(OF["keyboard"], contacts=OF["keyboard"].contacts[:8])
 STILL = (KEYBOARD, OF["idle"], short("four always-on spots"))
+
+
+def test_the_command_names_every_switch():
+    assert tuple(field.name for field in fields(Skips)) == SKIPS
 
 
 def test_the_cases_that_say_so_have_fingers_that_do_not_move():
@@ -59,8 +71,10 @@ def test_without_any_skipping_everything_is_composed_and_sent_for_itself(board, 
     ],
     ids=lambda value: value if isinstance(value, str) else value.name,
 )
-def test_a_switch_ends_what_it_is_named_for(board, bank_file, off, case, figure):
-    assert figures(board, bank_file, case, ALL)[figure] > 0
+def test_a_switch_ends_what_it_is_named_for(board, bank_file, off, case, figure, skipped):
+    if case.name not in skipped:
+        skipped[case.name] = figures(board, bank_file, case, ALL)
+    assert skipped[case.name][figure] > 0
     assert figures(board, bank_file, case, replace(ALL, **{off: False}))[figure] == 0
 
 
@@ -79,17 +93,16 @@ def test_outputs_that_stay_armed_need_heartbeats(board, bank_file):
     assert np.array_equal(done["words"], without["words"])
 
 
-def test_the_command_prints_every_case_and_fails_if_bits_differ_that_must_not(capsys, tmp_path, monkeypatch):
-    text = (find_board("simulated") / "board.toml").read_text().replace("pitch_mm = 2.5", "pitch_mm = 30")
-    (tmp_path / "board.toml").write_text(text.replace('"scene.toml"', f'"{find_board("simulated") / "scene.toml"}"'))
-    (tmp_path / "demo.evemu").write_bytes((find_board("simulated") / "demo.evemu").read_bytes())
-    on_a_cell = Case("one tap", "plate", (Contact(0.0, 0.1, lambda _: (90.0, 74.0)),), True)
+def test_the_command_prints_every_case_and_fails_if_bits_differ_that_must_not(capsys, bank_file, monkeypatch):
+    monkeypatch.setattr(skipping, "build_bank", lambda _board, path, **_: shutil.copy(bank_file, path))
+    on_a_cell = Case("one tap", "plate", (Contact(0.0, 0.1, lambda _: (100.0, 74.0)),), True)
     monkeypatch.setattr(skipping, "CASES", (on_a_cell,))
-    arguments = ["--board", str(tmp_path), "--repeats", "1"]
-    assert main(arguments) == 0
+    assert main(["benchmark", "skipping", "--repeats", "1"]) == 0
     assert "output bits, exact skipping against none: equal (must be equal)" in capsys.readouterr().out
     monkeypatch.setattr(skipping, "EXACT", ("cells",))
-    assert main([*arguments, "--json", "--no-skip", "cells"]) == 1, "a cell's own words are not the composed ones"
+    assert main(["benchmark", "skipping", "--repeats", "1", "--json", "--no-skip", "cells"]) == 1, (
+        "a cell's own words are not the composed ones"
+    )
     told = json.loads(capsys.readouterr().out)["cases"][0]
     assert told["switched_off"] == ["cells"]
     assert not told["exact_bits"]

@@ -23,7 +23,7 @@ TOP = Design(
     "top",
     (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v"),
     HERE / "ulx3s.cpp",
-    ("--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
+    ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
 PS = 10**12
 

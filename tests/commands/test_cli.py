@@ -368,6 +368,28 @@ def test_a_changed_pitch_of_the_board_is_told_by_the_service_and_not_passed_over
     assert re.search(r"NOT OK  bank +.*its cells are 10 mm apart", out)
 
 
+def test_run_plays_from_the_bank_that_auto_chose_and_chooses_again_for_other_bounds(capsys, small_board, monkeypatch):
+    monkeypatch.setattr("controller.bank_builder.choice.PITCHES_MM", (3.0, 4.0))
+    file = small_board / "board.toml"
+    text = file.read_text()
+    path = bank_path(load_board(small_board))
+    path.unlink(missing_ok=True)
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\n')
+    out, err = printed(capsys, "run", "--board", small_board, "--speed", "max", "--json")
+    assert "building the bank" in err
+    assert json.loads(out)["focus"]["exact_share"]["worst"] > 1 - 0.1
+    choice = json.loads(printed(capsys, "bank", "info", path, "--json").out)["parameters"]["choice"]
+    assert choice["pitch_mm"] == 4.0
+    assert choice["why"].startswith("responses every 4 mm, cells within 1 mm of a lone finger: the smallest of")
+    assert "building the bank" not in printed(capsys, "run", "--board", small_board, "--speed", "max").err
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\nmax_error = 0.01\n')
+    out, _ = printed(capsys, "bank", "choices", "--board", small_board)
+    assert re.search(r"^ +3 +0.* <- auto$", out, re.MULTILINE)
+    file.write_text(f'{text}\n[compose]\nmethod = "auto"\nmax_error = 0.001\nmax_time_us = 1\n')
+    said = told_off(capsys, "run", "--board", small_board, "--speed", "max")
+    assert "compose.max_error = 0.001 and compose.max_time_us = 1 cannot both be kept for scene.toml" in said
+
+
 def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys, small_board):
     path = bank_path(load_board(small_board))
     path.unlink(missing_ok=True)

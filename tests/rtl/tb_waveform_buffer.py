@@ -14,6 +14,7 @@ from controller.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLO
 CHECK_TICKS = 5  # and one for each word, from a STORE until its slot's CRC is known
 LOOK_TICKS = 16  # a STORE and the chunks before it are there at least so long before it is accepted
 SETTLE_TICKS = 4  # a READ of memory needs so many in which nobody else has the buffer
+READ_TICKS = 2  # from the tick in which the player asks for a word to the first in which it has it; it asks no sooner for another
 
 
 def crc_of(words):
@@ -112,7 +113,8 @@ class Bench:
 
     def begin(self):
         self.tick, self.held, self.reference = 0, 0, Reference(int(self.dut.SLOTS.value))
-        self.played = [(0, None)] * 2  # the player's buffer and what it read from it, in the last two ticks
+        self.asked = None  # what the player asked for last: playing, buffer, word
+        self.asked_tick, self.coming, self.has = -READ_TICKS, None, None  # when; what it will have; what it has
 
     @classmethod
     async def ready(cls, dut):
@@ -130,8 +132,13 @@ class Bench:
                 getattr(dut, f"{name}_i").value = value
             dut.write_i.value, dut.load_i.value, dut.store_i.value = write is not None, load, store
             dut.write_word_i.value, dut.write_data_i.value = write or (random.randrange(125), random.getrandbits(32))
+            asked = s["play"] and (s["play_buffer"], s["play_word"])
+            reads = bool(s["play"]) and asked != self.asked
+            dut.play_read_i.value = reads
             await settled()
             reference.at(self.tick)
+            if self.tick == self.asked_tick + READ_TICKS:
+                self.has = self.coming
             self.compare()
             argument = s["argument"]
             before = self.player_reads()
@@ -150,11 +157,14 @@ class Bench:
             self.results = {name: self.seen(name) for name in ("load", "store", "memory", "crc")}
             self.data = {name: getattr(dut, f"{name}_data_o").value for name in ("memory", "crc")}
             after = self.player_reads()  # what is written in the very clock in which it is read is neither
-            self.played = [self.played[1], (s["play_buffer"], before if before == after else None)]
+            if reads:
+                assert self.tick >= self.asked_tick + READ_TICKS, "the player comes to no word so soon"
+                self.asked_tick, self.coming = self.tick, before if before == after else None
+            self.asked = asked
             self.tick += 1
             self.held += 1
             await clocks(dut)
-            dut.write_i.value = dut.load_i.value = dut.store_i.value = 0
+            dut.write_i.value = dut.load_i.value = dut.store_i.value = dut.play_read_i.value = 0
             write, load, store = None, False, False
 
     def compare(self):
@@ -183,9 +193,8 @@ class Bench:
             expected["memory_result_o"] = reference.memory_result(self.tick, argument)
             if expected["memory_result_o"] is Result.OK:
                 expected["memory_data_o"] = reference.memory[slot.buffer][argument & 0x3FF]
-        buffer, word = self.played[0]
-        if word is not None and self.played[1][0] == s["play_buffer"] == buffer:
-            expected["play_data_o"] = word
+        if self.has is not None:
+            expected["play_data_o"] = self.has
         pairs = {name: (int(getattr(dut, name).value), int(value)) for name, value in expected.items()}
         wrong = {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
         assert not wrong, f"tick {self.tick}: seen and expected differ in {wrong} with {s}"
@@ -249,11 +258,11 @@ class Bench:
         return (result, int(self.data[name])) if result is Result.OK else result
 
     async def play(self, buffer, first, length):
-        """What the player reads, a word a clock."""
+        """What the player reads, a word every two clocks."""
         for word in range(first, first + length):
             self.ask(play=1, play_buffer=buffer, play_word=word)
-            await self.step()
-        await self.step(2)
+            await self.step(READ_TICKS)
+        await self.step(READ_TICKS)
         self.ask(play=0)
 
     async def reset(self):
@@ -362,7 +371,7 @@ async def loads_and_plays_go_on_while_a_check_runs_and_do_not_disturb_it(dut):
     if bench.slots > 1:
         for word in range(60):
             bench.ask(play=1, play_buffer=buffer, play_word=word)
-            await bench.step()
+            await bench.step(READ_TICKS + random.randrange(3))
         assert await bench.read_crc(0) == (Result.OK, crc_of(first)), "that of another slot is known"
         bench.ask(play=0)
     assert dut.checking_o.value == 1
@@ -424,6 +433,7 @@ async def reading_waits_for_the_player_and_never_disturbs_it(dut):
     bench.ask(argument=READ_MEMORY | 7, play=1, play_buffer=buffer)
     for word in range(20):
         bench.ask(play_word=word)  # each step compares what the player gets
+        await bench.step()
         assert await bench.peek("memory") is Result.BUSY
     bench.ask(play=0)
     results = []
@@ -431,8 +441,10 @@ async def reading_waits_for_the_player_and_never_disturbs_it(dut):
         results.append(await bench.peek("memory"))
     assert results == [Result.BUSY] * 4 + [(Result.OK, words[7])] * 4
     bench.ask(play=1, play_buffer=(buffer + 1) % (bench.slots + 1))
-    for _ in range(8):
-        assert await bench.peek("memory") == (Result.OK, words[7]), "another buffer is of no account"
+    for word in range(8):
+        bench.ask(play_word=word)
+        for _ in range(READ_TICKS):
+            assert await bench.peek("memory") == (Result.OK, words[7]), "another buffer is of no account"
     bench.ask(play=0, play_buffer=buffer)
     await bench.step(5)
 
@@ -469,6 +481,7 @@ async def random_uploads_reads_and_plays_go_as_the_reference_says(dut):
         reference = bench.reference
         checked = reference.check[0].buffer if reference.check else None
         others = [buffer for buffer in range(bench.slots + 1) if buffer != checked]
+        await bench.step(READ_TICKS)
         bench.ask(play=random.getrandbits(1), play_buffer=random.choice(others), play_word=random.randrange(160))
         bench.ask(play_chunk=random.randrange(8), play_within=random.randrange(125))
         match random.randrange(6):

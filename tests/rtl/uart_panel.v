@@ -35,7 +35,7 @@ module uart_panel #(
         .landing_busy_i(1'b0), .landing_live_i(1'b0), .bit_period_i(32'd0),
         .accept_o(accept_o), .refuse_o(refuse_o), .refusal_o(refusal),
         .type_o(), .sequence_o(sequence_number), .argument_o(),
-        .words_o(), .landing_busy_o(), .landing_live_o(), .payload_words_o(), .fast_o(),
+        .landing_busy_o(), .landing_live_o(), .payload_words_o(), .fast_o(),
         .word_valid_o(), .word_number_o(), .word_o(write_data_o), .load_word_o(write_o)
     );
     /* verilator lint_on PINCONNECTEMPTY */

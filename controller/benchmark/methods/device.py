@@ -84,7 +84,7 @@ class TwinComposer:
     def __init__(self, bank: Bank, idle_word: int) -> None:
         grid, (entries, scales, self._good) = bank.grid, bank.response_tables()
         self._bank = bank
-        block = kernel.REST_SAMPLES * round(BLOCK_S * bank.header.bit_clock_hz / kernel.REST_SAMPLES)
+        block = kernel.GROUP_SAMPLES * round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
         stride = bank.sections["response"].stride
         self._plan = kernel.PLAN.pack(
             bank.samples, stride, grid.nx, grid.ny, len(scales), idle_word, block, grid.pitch_m, grid.x0_m, grid.y0_m
