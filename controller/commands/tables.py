@@ -172,13 +172,14 @@ def benchmark_table(figures: dict[str, Any]) -> str:
     ]
     for fingers in dict.fromkeys(row["fingers"] for row in figures["baselines"]):
         family = f"{fingers} off grid"
+        error = "bound_loss" if fingers == 1 else "felt_loss"
         lines += [
             "",
             f"{f'{fingers} fingers, front of time':<34}{'setting':<18}{'median':>9}{'p99 µs':>9}{'MB':>8}{'lost':>9}{'worst':>9}",
         ]
         for index in figures["fronts"][f"time, {family}"]:
             setting = figures["settings"][index]
-            time_us, lost = setting["time_us"][str(fingers)], setting["families"][family]["bound_loss"]
+            time_us, lost = setting["time_us"][str(fingers)], setting["families"][family][error]
             values = (time_us["median_us"], time_us["p99_us"])
             lines.append(
                 f"{setting['curve']:<34}{setting['setting']:<18}"
