@@ -100,7 +100,7 @@ def work_precision(
     """
     told = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)
-    places = [place for scene in drawn for place in scene.expected]
+    places = [place for scene in drawn for place in (*scene.expected, scene.quiet)]
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         laboratory = Laboratory(board, Path(folder), places)
         try:

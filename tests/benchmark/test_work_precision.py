@@ -145,14 +145,15 @@ def test_the_command_writes_figures_and_says_where_it_cannot(coarse, monkeypatch
 
 def test_every_method_gives_words(small_board, tmp_path):
     places = [(0.0417, 0.0332), (0.0603, 0.0471)]
-    laboratory = Laboratory(small_board, tmp_path, places)
+    quiet = (0.05, 0.02)
+    laboratory = Laboratory(small_board, tmp_path, [*places, quiet])
     try:
         methods = [method for method in registry.all_candidates(laboratory) if not method.slow]
         laboratory.prepare(places)
         assert len({(method.curve, method.setting) for method in methods}) == len(methods)
         for method in methods:
             points = [(*place, 1.0) for place in places[: method.most_fingers]]
-            words = method.words_of(method.run(points, (0.05, 0.02)))
+            words = method.words_of(method.run(points, quiet))
             assert words.dtype == "u4"
             assert 0 < len(words) <= small_board.waveform.samples
             assert method.memory_bytes > 0
