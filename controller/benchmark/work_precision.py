@@ -213,7 +213,7 @@ def _errors(
         for scene in some:
             able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
             words = [methods[index].words_of(methods[index].run(_full(scene), scene.quiet)) for index in able]
-            judged = judge.errors(scene, words, [methods[index].free_polarity for index in able])
+            judged = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
             for index, errors in zip(able, judged, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
             bar.step()
