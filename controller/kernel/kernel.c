@@ -788,7 +788,7 @@ enum {
     WEIGHT_BITS = 20,
     STEPS_PER_BLOCK = 16,
 };
-static const double FLOOR = 0.25, RIDGE = 0.03, PI = 3.141592653589793;
+static const double FLOOR = 0.25, RIDGE = 0.2, PI = 3.141592653589793;
 
 /* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
 struct still {

@@ -11,8 +11,8 @@ margin is above zero.
 
 How much a weight moves the displacements follows from the density of margins at zero, which is next to the inverse of their mean
 size in the same block of samples and the same channel. So the weights are the solution of nine equations, whose matrix is taken
-to depend on the distance of two times only, with 3 % on its diagonal against noise. Four sweeps over the places, each measured
-again, as the density is not known better.
+to depend on the distance of two times only, with a fifth more on its diagonal, as it is known roughly. Four sweeps over the
+places, each measured again.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
 WEIGHT_BITS: Final = 20
 FLOOR: Final = 0.25  # of the mean size of all margins: smaller ones count as this
-RIDGE: Final = 0.03
+RIDGE: Final = 0.2
 PI: Final = 3.141592653589793
 
 

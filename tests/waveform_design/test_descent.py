@@ -115,6 +115,15 @@ def test_products_of_rounded_numbers_do_not_depend_on_the_order_of_the_sum():
     assert not np.array_equal(a / 3 @ b, a[:, order] / 3 @ b[order]), "the machine's order does show in others"
 
 
+def test_an_entry_keeps_about_the_amplitude_of_the_plain_one_or_is_that_one():
+    """In a band of few modes plain bits hardly move a point near the edge, and others move it ten times as much."""
+    board = msgspec.structs.replace(BOARD, waveform=msgspec.structs.replace(BOARD.waveform, band_low_hz=1e3, band_high_hz=5e3))
+    model = ResponseModel(board)
+    near_edge_m = np.array([(0.002, 0.002)])
+    plain = drive_words(model.drive_order_responses(near_edge_m, dtype=np.float64)[0], board.idle_word)
+    assert np.array_equal(Descent(board, model, AIMS["contrast"]).entries(near_edge_m)[0], plain)
+
+
 ELSEWHERE = """
 import sys, threadpoolctl
 import numpy as np
