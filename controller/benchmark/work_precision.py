@@ -132,7 +132,7 @@ def work_precision(
                 building = building_figures(board, judge, [scene for scene in drawn if scene.family == "1 off grid"])
         finally:
             laboratory.close()
-    settings = [_setting(method, index, found[index], times) for index, method in enumerate(methods)]
+    settings = [_setting(method, index, found[index], times, baselines) for index, method in enumerate(methods)]
     return {
         "version": SCHEMA_VERSION,
         "board": board.name,
@@ -213,7 +213,7 @@ def _errors(
         for scene in some:
             able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
             words = [methods[index].words_of(methods[index].run(_full(scene), scene.quiet)) for index in able]
-            judged = judge.errors(scene, words, [methods[index].free_polarity for index in able])
+            judged = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
             for index, errors in zip(able, judged, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
             bar.step()
@@ -246,13 +246,25 @@ def _call(method: Candidate, scene: Scene) -> Callable[[], object]:
     return lambda: method.run(points, quiet)
 
 
-def _setting(method: Candidate, index: int, errors: dict[str, list[Errors]], times: dict[int, dict[int, Timing]]) -> Figures:
+def _setting(
+    method: Candidate,
+    index: int,
+    errors: dict[str, list[Errors]],
+    times: dict[int, dict[int, Timing]],
+    baselines: Sequence[Figures],
+) -> Figures:
+    time_us = {}
+    for count, timings in times.items():
+        if index in timings:
+            timing = timings[index]
+            over = {row["name"]: timing.median_us / max(row["median_us"], 1e-3) for row in baselines if row["fingers"] == count}
+            time_us[str(count)] = {**asdict(timing), "over": over}
     return {
         "curve": method.curve,
         "setting": method.setting,
         "memory_bytes": method.memory_bytes,
         "wire_bytes": method.wire_bytes,
-        "time_us": {str(count): asdict(timings[index]) for count, timings in times.items() if index in timings},
+        "time_us": time_us,
         "families": {family: _summary(some) for family, some in errors.items()},
     }
 

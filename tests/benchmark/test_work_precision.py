@@ -19,6 +19,7 @@ from controller.benchmark.work_precision import Effort, cost, front, work_precis
 from controller.benchmark.work_precision_diagrams import DIAGRAMS, draw_all
 from controller.cli import main
 from controller.commands import benchmark as command
+from controller.commands.tables import benchmark_table
 from controller.errors import ConfigError
 
 SCHEMA = json.loads(Path(__file__).with_name("work_precision.schema.json").read_text())
@@ -160,6 +161,15 @@ def test_every_method_gives_words(small_board, tmp_path):
             assert method.wire_bytes in {72} or method.wire_bytes > 4 * len(words)
     finally:
         laboratory.close()
+
+
+def test_the_table_has_the_front_of_each_number_of_fingers(figures):
+    text = benchmark_table(figures)
+    for fingers in ("1", "10"):
+        front = [figures["settings"][index]["curve"] for index in figures["fronts"][f"time, {fingers} off grid"]]
+        part = text.partition(f"{fingers} fingers, front")[2].partition("fingers, front")[0]
+        assert [line[:34].strip() for line in part.splitlines()[1:] if line.startswith(tuple(front))] == front
+    assert "plain C composes 1000 samples, not 250" in text  # what is left out, and why
 
 
 def test_jobs_take_turns():

@@ -76,7 +76,7 @@ def test_the_largest_plate_that_is_allowed_is_refused_in_one_line_where_it_has_t
         focus_on(panel_of(board, (4000.0, 3000.0, 5.0)), [(1.0, 1.0)])
 
 
-def nodal_points(board, thick):
+def nodal_points(board):
     """On lines where a mode has no displacement, in the very middle, on patches, on and next to the edge."""
     length, width = board.plate.length_m, board.plate.width_m
     lines = [(length / m, width / n) for m, n in itertools.product((2, 3, 7), (2, 5))]
@@ -88,25 +88,29 @@ def nodal_points(board, thick):
         (np.nextafter(length, 0), width / 2),
         (length - 1e-9, width - 1e-9),
     ]
-    return lines + patches + [(float(x), float(y)) for x, y in edge][: None if thick else 3]
+    return lines + patches + [(float(x), float(y)) for x, y in edge]
 
 
-def test_foci_on_nodal_lines_patches_and_next_to_the_edge_are_numbers_and_no_surprise(board):
+@pytest.mark.parametrize("every", [5, pytest.param(1, marks=LONG)])
+def test_foci_on_nodal_lines_patches_and_next_to_the_edge_are_numbers_and_no_surprise(board, every):
     """The reference is the best there is: nobody gets more in the band, wherever the point lies."""
     thick = changed(board, plate={"thickness_mm": 5.0})
     twin = PlateTwin(thick)
-    for point in nodal_points(thick, True):
+    for point in nodal_points(thick)[::every]:
         field, (row,) = focus_on(thick, [point])
         assert math.isfinite(row["amplitude_um"])
         assert math.isfinite(row["contrast"])
         assert np.isfinite(field.around(point)).all()
         assert abs(row["relative_amplitude"]) == pytest.approx(1, abs=1e-5) or row["amplitude_um"] == 0, point
         assert 0 <= row["spot_mm"] <= 1e3 * (twin.scale.line_m[-1] - twin.scale.line_m[0])
-    assert np.isfinite(twin.exact_amplitudes(tuple(nodal_points(thick, True))[:10])).all()
+    assert np.isfinite(twin.exact_amplitudes(tuple(nodal_points(thick))[:10:every])).all()
 
 
-@pytest.mark.parametrize("count", [2, 10])
-@pytest.mark.parametrize("apart_m", [0.0, 5e-324, 1e-18, 1e-12, 1e-9, 1e-6])
+APART_M = [1e-9, *(pytest.param(apart_m, marks=LONG) for apart_m in (0.0, 5e-324, 1e-18, 1e-12, 1e-6))]
+
+
+@pytest.mark.parametrize("count", [pytest.param(2, marks=LONG), 10])
+@pytest.mark.parametrize("apart_m", APART_M)
 def test_fingers_that_coincide_share_what_one_would_have(board, count, apart_m):
     thick = changed(board, plate={"thickness_mm": 5.0})
     twin = PlateTwin(thick)
@@ -136,7 +140,8 @@ def test_a_focus_at_a_denormal_place_is_nothing_and_no_division_by_zero(board):
     assert (row["amplitude_um"], row["relative_amplitude"], row["contrast"]) == (0, 0, 0)
 
 
-@pytest.mark.parametrize("drift", [0.005, *(pytest.param(drift, marks=LONG) for drift in (-0.02, -0.005, 0.02))])
+@LONG
+@pytest.mark.parametrize("drift", [-0.02, -0.005, 0.005, 0.02])
 def test_a_plate_that_has_drifted_gets_less_and_one_that_has_not_gets_all(board, drift):
     """Frequencies higher by the drift (Young's modulus by twice that): the words of the plate as it was, played on it.
 
