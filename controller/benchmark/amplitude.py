@@ -21,7 +21,8 @@ from controller.bank_builder.build import build_bank
 from controller.benchmark.focus_figures import emit, random_points, spread
 from controller.board.board import Board
 from controller.physics.plate_twin import PlateTwin
-from controller.waveforms.composition import Composer
+from controller.waveforms.design import DesignMethod
+from controller.waveforms.device_composition import DeviceComposition
 from controller.waveforms.selection import REUSE_RADIUS_M
 
 Floats = NDArray[np.float64]
@@ -67,7 +68,7 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
         pitch_m = board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m
         build_bank(board, path, pitch_m, _cells(board, places, pitch_m), measure_sgemm=False)
         with Bank.open(path, board) as bank:
-            composer, twin = Composer(bank, board.idle_word), PlateTwin(board)
+            composer, twin = DeviceComposition(board, bank), PlateTwin(board)
             return {
                 "seed": seed,
                 "scenes": scenes,
@@ -97,11 +98,11 @@ def _cells(board: Board, places: Floats, pitch_m: float) -> NDArray[np.bool_]:
     return cells
 
 
-def _words(composer: Composer, scene: list[tuple[float, float, float]]) -> Words:
-    return np.frombuffer(composer.compose(scene), WORD).astype(np.uint32)
+def _words(composer: DesignMethod, scene: list[tuple[float, float, float]]) -> Words:
+    return composer.design(scene).words
 
 
-def _mixed(composer: Composer, twin: PlateTwin, scenes: list[list[tuple[float, float, float]]]) -> Figures:
+def _mixed(composer: DesignMethod, twin: PlateTwin, scenes: list[list[tuple[float, float, float]]]) -> Figures:
     """Requested and reached amplitudes of fingers that are composed together."""
     asked: list[float] = []
     got: list[float] = []
@@ -114,7 +115,7 @@ def _mixed(composer: Composer, twin: PlateTwin, scenes: list[list[tuple[float, f
     return {"error_percent": percent, "asked": asked, "got": [float(share) for share in got]}
 
 
-def _single(composer: Composer, twin: PlateTwin, points: Floats, amplitude: float) -> Figures:
+def _single(composer: DesignMethod, twin: PlateTwin, points: Floats, amplitude: float) -> Figures:
     """One finger: contrast and spot relative to full amplitude; edges, including those from and to the idle word."""
     idle = np.array([twin.board.idle_word], np.uint32)
     contrast, spot, busiest, together = [], [], [], []
@@ -130,7 +131,7 @@ def _single(composer: Composer, twin: PlateTwin, points: Floats, amplitude: floa
     return {name: spread(values) for name, values in figures.items()}
 
 
-def _between_cells(bank: Bank, composer: Composer, twin: PlateTwin, points: Floats, beside: Floats) -> Figures:
+def _between_cells(bank: Bank, composer: DesignMethod, twin: PlateTwin, points: Floats, beside: Floats) -> Figures:
     """Relative amplitude at points anywhere between cells, at full amplitude."""
     interpolated, nearest, near = [], [], []
     for (x_m, y_m), (other_x_m, other_y_m) in zip(points.tolist(), beside.tolist(), strict=True):
