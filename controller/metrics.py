@@ -180,6 +180,7 @@ class Counters:
     prefetched: int = 0  # waveforms uploaded for a predicted emission of a moving finger
     prefetch_wasted: int = 0  # of these, those that were not played so far
     composed_beforehand: int = 0  # of `uploads`: waveforms of several points that the bank has ready
+    kept_still: int = 0  # of `uploads`: waveforms that keep other fingers still
     near: int = 0  # of `resident`: played with the waveform of a place near by
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again

@@ -78,7 +78,7 @@ AXES = "A: 2f 0 9 0 0 0\nA: 35 0 2100 0 0 0\nA: 36 0 1480 0 0 0\nA: 39 0 65535 0
 
 def evemu(*reports):
     """Recording text of `(time_s, {slot: (x_mm, y_mm) or None})` reports; a slot that was away begins a new contact."""
-    lines, down, ids = [AXES], set(), iter(range(1000))
+    lines, down, ids = [AXES], set(), iter(range(65536))
     for time_s, slots in reports:
         for slot, place in slots.items():
             events = [(3, 0x2F, slot)]

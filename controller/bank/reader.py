@@ -330,6 +330,11 @@ class Bank:
         """
         return self._entry_of, self._scale_of, self._response_good
 
+    def has_responses(self, x_m: float, y_m: float) -> bool:
+        """Whether the cells around the point (x_m, y_m) have entries."""
+        cells, weights = self.grid.corners(x_m, y_m)
+        return all(not weight or self._entry_of[cell] >= 0 for cell, weight in zip(cells, weights, strict=True))
+
     def check_response(self, cell: int) -> None:
         """Map the responses and check a cell's, if that was not done.
 

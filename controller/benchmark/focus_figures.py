@@ -219,12 +219,13 @@ def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: f
     rows = []
     for x_m, y_m in points_m:
         judged = field.focus_metrics(x_m, y_m, points_m)
+        reference_m = twin.reference_amplitude(x_m, y_m)
         rows.append(
             {
                 "x_mm": x_m * 1e3,
                 "y_mm": y_m * 1e3,
                 "amplitude_um": judged.amplitude_m * 1e6,
-                "relative_amplitude": judged.amplitude_m / twin.reference_amplitude(x_m, y_m),
+                "relative_amplitude": judged.amplitude_m / reference_m if reference_m else 0.0,  # so near the edge nothing moves
                 "contrast": judged.contrast,
                 "contrast_all": judged.contrast_all,
                 "spot_mm": judged.spot_m * 1e3,

@@ -103,10 +103,11 @@ class Judge:
         -------
         list of dict
             `loss`: 1 - A / A_ref, mean over the points. `worst_loss`: that of the worst one. `bound_loss`: 1 - share of the worst
-            one in the band over the bound of all words. `amplitude_over_unfiltered`: A over half the supply times sum |h|, mean.
-            `quiet`: largest displacement of the finger that shall feel nothing within 25 us of T, over the mean |A|. `contrast`:
-            of the worst point, over the rms outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz (`physics.audible`).
-            `crest_m`: distance of the crest, largest of the points. `stage_j`: heat in the drivers' series resistors.
+            one in the band over the bound of all words. `felt_loss`: 1 - A / A_ref of the worst one over the best that any of
+            `words` reaches. `amplitude_over_unfiltered`: A over half the supply times sum |h|, mean. `quiet`: largest displacement
+            of the finger that shall feel nothing within 25 us of T, over the mean |A|. `contrast`: of the worst point, over the rms
+            outside 10 mm of all. `audible_m2_per_s`: energy below 16 kHz (`physics.audible`). `crest_m`: distance of the crest,
+            largest of the points. `stage_j`: heat in the drivers' series resistors.
         """
         plate = self._plates[scene.detuning]
         reference = plate.reference(scene.points)
@@ -125,6 +126,7 @@ class Judge:
                     "loss": float(1 - share.mean()),
                     "worst_loss": float(1 - share.min()),
                     "bound_loss": float(1 - (np.abs(in_band) if free else in_band).min() / reference.bound),
+                    "felt_loss": float(share.min()),  # for now: what the others reach is not known yet
                     "amplitude_over_unfiltered": float((share * reference.unfiltered_share).mean()),
                     "quiet": float(np.abs(np.tensordot(quiet, volts, 2)).max()) / max(mean_m, STILL_M),
                     "contrast": _contrast(field, scene, amplitude),
@@ -133,6 +135,9 @@ class Judge:
                     "stage_j": heat,
                 }
             )
+        most = max((errors["felt_loss"] for errors in found), default=0.0)
+        for errors in found:
+            errors["felt_loss"] = 1 - errors["felt_loss"] / most if most > 0 else 1.0
         return found
 
 

@@ -32,7 +32,7 @@ from controller.fpga.capture import Capture
 from controller.loop.skips import ALL, EXACT, Skips
 from controller.metrics import Counters
 from controller.scene.coverage import cells_needed
-from controller.scene.scene import load_scene
+from controller.scene.scene import Scene, load_scene
 from controller.simulation.simulated_run import Run, play
 from controller.touch import event_codes as ev
 from controller.touch.event_capture import recording_text
@@ -171,10 +171,10 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
     for _ in range(repeats):  # in turns; the least of each counts
         for found, skips in ((done, ALL), (without, fewer)):
             again, _ = _run(board, bank_file, case, skips, checked=True)
-            found["host_ms"] = min(found["host_ms"], _sum_ms("host", again.counters))
+            found["host_ms"] = min(found["host_ms"], _typical_ms("host", again.counters))
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     played = done.pop("words"), without.pop("words")
     return {
         "case": case.name,
@@ -190,13 +190,17 @@ def skipping(board: Board, bank_file: Path, case: Case, off: Sequence[str] = (),
     }
 
 
+def _scene(board: Board, case: Case) -> Scene:
+    return load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+
+
 def _run(board: Board, bank_file: Path, case: Case, skips: Skips, *, whole: bool = False, checked: bool = False) -> tuple[Run, int]:
     """Play once from a bank that is opened for it: the run, and how many pages of the bank were read for it.
 
     `whole`: all of the bank is read first; `checked`: its entries have been checked beside the loop, as for the service.
     """
     board = msgspec.structs.replace(board, idle_disarm_s=board.idle_disarm_s or IDLE_DISARM_S)
-    scene = load_scene(find_board("simulated") / f"{case.scene}.toml", board)
+    scene = _scene(board, case)
     with Bank.open(bank_file, board) as bank:
         if checked:
             cells = np.flatnonzero(bank.cells).tolist()
@@ -251,18 +255,18 @@ def figures(board: Board, bank_file: Path, case: Case, skips: Skips) -> dict[str
         "pages_of_the_bank": pages,
         "samples_without_work": counters.skipped.outside_region + counters.skipped.between_emissions,
         "replaced_by_newer": counters.skipped.merged,
-        "host_ms": _sum_ms("host", counters),
-        "wire_before_a_start_ms": _sum_ms("wire", counters) / max(counters.emissions, 1),
+        "host_ms": _typical_ms("host", counters),
+        "wire_before_a_start_ms": _typical_ms("wire", counters) / max(counters.emissions, 1),
         "outputs_on_s": on_s,
         "stages_mj": edges * half_charge_j(board.driver) * 1e3,
         "words": _words(board, run.capture),
     }
 
 
-def _sum_ms(stage: str, counters: Counters) -> float:
-    """Time of a stage of all emissions, within 0.8 %."""
-    both = (getattr(stages, stage).buckets_us() for stages in (counters.upload_latency, counters.resident_latency))
-    return math.fsum(upper_us * count for buckets in both for upper_us, count in buckets) * 1e-3
+def _typical_ms(stage: str, counters: Counters) -> float:
+    """Time of a stage of all emissions: the median of uploads and of resident plays, times their numbers."""
+    both = (getattr(stages, stage) for stages in (counters.upload_latency, counters.resident_latency))
+    return math.fsum(found.percentiles_ns([0.5])[0] * found.count for found in both if found.count) * 1e-6
 
 
 def _words(board: Board, capture: Capture) -> NDArray[np.uint32]:
@@ -315,7 +319,8 @@ def all_cases(
     found = []
     with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
         bank_file = Path(folder) / "whole plate.bank"
-        build_bank(board, bank_file, measure_sgemm=False)
+        spots = [spot for case in CASES for spot in _scene(board, case).spots]
+        build_bank(board, bank_file, spots=list(dict.fromkeys(spots)), measure_sgemm=False)
         for number, case in enumerate(CASES, start=1):
             found.append(skipping(board, bank_file, case, off, repeats))
             if progress:

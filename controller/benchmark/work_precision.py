@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from controller.bank.packing import CHANNELS
 from controller.benchmark.baselines import Baselines
+from controller.benchmark.building import building_figures
 from controller.benchmark.environment import environment
 from controller.benchmark.fingers_scenes import FINGERS, Scene, scenes
 from controller.benchmark.interleaved import Timing, interleaved
@@ -31,7 +32,6 @@ from controller.kernel import Point
 Figures = dict[str, Any]
 Progress = Callable[[int, int], None]
 SCHEMA_VERSION = 1
-LONGEST_S = 2.0  # of timing a method for one number of fingers, beyond its first turns
 PLACES_AT_ONCE = 40  # whose cells are held: 0.3 GB
 BETTER_HIGH = {"contrast", "amplitude_over_unfiltered"}  # the worst of these is the smallest
 AXES = ("time", "memory", "wire", "stage energy")
@@ -51,16 +51,22 @@ class Effort:
         Scenes of each number of fingers on which methods are timed.
     turns : int
         Calls of each method for each of them.
+    longest_s : float
+        Of timing a method for one number of fingers, beyond its first turns.
+    slow_methods : bool
+        Whether methods that take tenths of a second take part.
     """
 
     each: int
     random_scenes: int
     timed_scenes: int
     turns: int
+    longest_s: float
+    slow_methods: bool
 
 
-QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=15)
-FULL = Effort(each=10, random_scenes=100, timed_scenes=5, turns=60)
+QUICK = Effort(each=2, random_scenes=4, timed_scenes=2, turns=8, longest_s=0.2, slow_methods=False)
+FULL = Effort(each=4, random_scenes=100, timed_scenes=3, turns=25, longest_s=0.5, slow_methods=True)
 
 
 def work_precision(
@@ -92,12 +98,13 @@ def work_precision(
     dict
         Plain values, as `tests/benchmark/work_precision.schema.json` says.
     """
+    told = environment()  # first: the load of the machine is still that of others
     drawn = scenes(board, seed, effort.each, effort.random_scenes)
-    places = [place for scene in drawn for place in scene.expected]
+    places = [place for scene in drawn for place in (*scene.expected, scene.quiet)]
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         laboratory = Laboratory(board, Path(folder), places)
         try:
-            methods = candidates(laboratory)
+            methods = [method for method in candidates(laboratory) if effort.slow_methods or not method.slow]
             judge = Judge(board, {scene.detuning for scene in drawn})
             finger_counts = [count for count in FINGERS if any(scene.family == f"{count} off grid" for scene in drawn)]
             steps = len(drawn) + (len(finger_counts) * effort.turns if timing else 0)
@@ -106,6 +113,7 @@ def work_precision(
             times: dict[int, dict[int, Timing]] = {}
             baselines: list[Figures] = []
             left_out: list[str] = []
+            building: list[Figures] = []
             rates: Figures = {}
             if timing:
                 machine = Baselines(board, laboratory.bank(board.bank.pitch_mm * 1e-3), Path(folder))
@@ -119,17 +127,18 @@ def work_precision(
                 }
                 for count in finger_counts:
                     timed = [scene for scene in drawn if scene.family == f"{count} off grid"][: effort.timed_scenes]
-                    times[count], besides = _times(laboratory, machine, methods, count, timed, effort.turns, bar)
+                    times[count], besides = _times(laboratory, machine, methods, count, timed, effort, bar)
                     baselines += besides
+                building = building_figures(board, judge, [scene for scene in drawn if scene.family == "1 off grid"])
         finally:
             laboratory.close()
-    settings = [_setting(method, index, found[index], times) for index, method in enumerate(methods)]
+    settings = [_setting(method, index, found[index], times, baselines) for index, method in enumerate(methods)]
     return {
         "version": SCHEMA_VERSION,
         "board": board.name,
         "seed": seed,
         "effort": asdict(effort),
-        "environment": environment(),
+        "environment": told,
         "modes": judge.modes,
         "modes_in_band": judge.modes_in_band,
         "scenes": {family: sum(scene.family == family for scene in drawn) for family in dict.fromkeys(s.family for s in drawn)},
@@ -137,6 +146,7 @@ def work_precision(
         "baselines": baselines,
         "left_out": left_out,
         "machine": rates,
+        "building": building,
         "fronts": {
             f"{axis}, {family}": front(settings, axis, family)
             for axis in AXES
@@ -159,8 +169,14 @@ def cost(setting: Figures, axis: str, family: str) -> float | None:
     return timing and float(timing["median_us"])
 
 
-def front(settings: Sequence[Figures], axis: str, family: str, error: str = "bound_loss") -> list[int]:
-    """Indices of the settings on the Pareto front of a cost and the median of an error, by ascending cost."""
+def main_error(family: str) -> str:
+    """The error by which methods are compared first: of one finger in the band, of several what the worst one feels."""
+    return "bound_loss" if family.startswith("1 ") else "felt_loss"
+
+
+def front(settings: Sequence[Figures], axis: str, family: str) -> list[int]:
+    """Indices of the settings on the Pareto front of a cost and the median of the main error, by ascending cost."""
+    error = main_error(family)
     judged = [index for index, setting in enumerate(settings) if family in setting["families"]]
     costs = [(index, cost(settings[index], axis, family)) for index in judged]
     costly = [(index, value) for index, value in costs if value is not None]
@@ -197,7 +213,7 @@ def _errors(
         for scene in some:
             able = [index for index, method in enumerate(methods) if len(scene.points) <= method.most_fingers]
             words = [methods[index].words_of(methods[index].run(_full(scene), scene.quiet)) for index in able]
-            judged = judge.errors(scene, words, [methods[index].free_polarity for index in able])
+            judged = judge.errors(scene, words, [methods[index].free_polarity and len(scene.points) > 1 for index in able])
             for index, errors in zip(able, judged, strict=True):
                 found[index].setdefault(scene.family, []).append(errors)
             bar.step()
@@ -210,7 +226,7 @@ def _times(
     methods: Sequence[Candidate],
     fingers: int,
     timed: Sequence[Scene],
-    turns: int,
+    effort: Effort,
     bar: _Bar,
 ) -> tuple[dict[int, Timing], list[Figures]]:
     """Times of methods, by their index, and of the baselines, all taking turns."""
@@ -218,7 +234,7 @@ def _times(
     able = [index for index, method in enumerate(methods) if fingers <= method.most_fingers]
     jobs: list[list[Callable[[], object]]] = [[_call(methods[index], scene) for scene in timed] for index in able]
     besides = machine.jobs([_full(scene) for scene in timed])
-    timings = interleaved([*jobs, *(job.calls for job in besides)], turns, LONGEST_S, bar.step)
+    timings = interleaved([*jobs, *(job.calls for job in besides)], effort.turns, effort.longest_s, bar.step)
     rows = [
         {"name": job.name, "fingers": fingers, **asdict(timing)} for job, timing in zip(besides, timings[len(able) :], strict=True)
     ]
@@ -230,13 +246,25 @@ def _call(method: Candidate, scene: Scene) -> Callable[[], object]:
     return lambda: method.run(points, quiet)
 
 
-def _setting(method: Candidate, index: int, errors: dict[str, list[Errors]], times: dict[int, dict[int, Timing]]) -> Figures:
+def _setting(
+    method: Candidate,
+    index: int,
+    errors: dict[str, list[Errors]],
+    times: dict[int, dict[int, Timing]],
+    baselines: Sequence[Figures],
+) -> Figures:
+    time_us = {}
+    for count, timings in times.items():
+        if index in timings:
+            timing = timings[index]
+            over = {row["name"]: timing.median_us / max(row["median_us"], 1e-3) for row in baselines if row["fingers"] == count}
+            time_us[str(count)] = {**asdict(timing), "over": over}
     return {
         "curve": method.curve,
         "setting": method.setting,
         "memory_bytes": method.memory_bytes,
         "wire_bytes": method.wire_bytes,
-        "time_us": {str(count): asdict(timings[index]) for count, timings in times.items() if index in timings},
+        "time_us": time_us,
         "families": {family: _summary(some) for family, some in errors.items()},
     }
 

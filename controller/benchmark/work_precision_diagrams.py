@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from controller.benchmark.pareto import pareto_front
-from controller.benchmark.work_precision import cost
+from controller.benchmark.work_precision import cost, main_error
 from controller.errors import ConfigError
 
 Figures = dict[str, Any]
@@ -23,10 +23,28 @@ FLOOR = 1e-4  # errors below, and below zero, are drawn here
 MARKERS = "osD^v<>pPX*hd8H"
 LINES = ("-", "--", "-.", ":")
 FRONT: dict[str, Any] = {"color": "0.8", "lw": 6, "solid_capstyle": "round", "zorder": 0}
+FRONT_PAGE_TIME = (
+    "nearest entry",
+    "resident waveform",
+    "device, compiled kernel",
+    "device, NumPy twin",
+    "packed words, bilinear vote",
+    "baseband, 8 bits, bilinear",
+    "modal bank, baseband",
+    "4 bits, band 4 × 4",
+    "full field, float64",
+)
+FRONT_PAGE_MEMORY = (
+    "nearest entry",
+    "packed words, bilinear vote",
+    "device, compiled kernel",
+    "baseband, 8 bits, band 4 × 4",
+    "modal bank, baseband",
+)
 SHOWN_FINGERS = ("1", "2", "4", "10")
 TIME, MEMORY = "time of composing, processor (µs)", "memory for the whole plate (MB)"
 WIRE, HEAT = "bytes on the wire for an emission", "heat in the stages for an emission (mJ)"
-LOST = "amplitude lost by the worst finger\n(1 − A / bound, in the band)"
+LOST = "amplitude lost by the worst finger: 1 − A / bound"
 
 
 def draw_all(folder: Path, figures: Figures) -> list[Path]:
@@ -71,7 +89,7 @@ def time_diagram(figures: Figures) -> Figure:
     shown = [count for count in SHOWN_FINGERS if f"{count} off grid" in figures["scenes"]]
     for count, ax in zip(shown, figure.subplots(2, 2).flat, strict=False):
         family = f"{count} off grid"
-        _curves(ax, figures, _cost("time", family), _median(family, "bound_loss"))
+        _curves(ax, figures, _cost("time", family), _main(family))
         _marks(ax, figures, int(count))
         ax.set(xlabel=TIME, ylabel=LOST, title=f"{count} finger{'s' * (count != '1')} between cells")
     _key(figure, figures)
@@ -79,16 +97,20 @@ def time_diagram(figures: Figures) -> Figure:
 
 
 def front_page_diagram(figures: Figures) -> Figure:
-    """One finger: error against time and against memory."""
-    figure = Figure(figsize=(13, 6), layout="constrained")
+    """One finger: error against time and against memory, of some methods that are named beside their curves."""
+    figure = Figure(figsize=(12, 5.6), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     family = "1 off grid"
-    _curves(left, figures, _cost("time", family), _median(family, "bound_loss"))
+    for ax, curves, x_of, label in (
+        (left, FRONT_PAGE_TIME, _cost("time", family), TIME),
+        (right, FRONT_PAGE_MEMORY, _cost("memory", "", 1e-6), MEMORY),
+    ):
+        shown = {**figures, "settings": [setting for setting in figures["settings"] if setting["curve"] in curves]}
+        _curves(ax, shown, x_of, _main(family), named=True)
+        ax.set(xlabel=label, ylim=(0.6 * FLOOR, 20))
+    left.set(ylabel=LOST)
     _marks(left, figures, 1)
-    left.set(xlabel=TIME, ylabel=LOST)
-    _curves(right, figures, _cost("memory", "", 1e-6), _median(family, "bound_loss"))
-    right.set(xlabel=MEMORY)
-    _key(figure, figures)
+    figure.suptitle(_told(figures), fontsize=8)
     return figure
 
 
@@ -96,7 +118,7 @@ def memory_diagram(figures: Figures) -> Figure:
     """Error against memory, for 1 and 4 fingers."""
     figure = Figure(figsize=(14, 6.5), layout="constrained")
     for count, ax in zip(("1", "4"), figure.subplots(1, 2), strict=True):
-        _curves(ax, figures, _cost("memory", "", 1e-6), _median(f"{count} off grid", "bound_loss"))
+        _curves(ax, figures, _cost("memory", "", 1e-6), _main(f"{count} off grid"))
         ax.set(xlabel=MEMORY, ylabel=LOST, title=f"{count} finger{'s' * (count != '1')} between cells")
     _key(figure, figures)
     return figure
@@ -107,10 +129,10 @@ def wire_and_heat_diagram(figures: Figures) -> Figure:
     figure = Figure(figsize=(14, 6.5), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
     family = "1 off grid"
-    _curves(left, figures, _cost("wire", ""), _median(family, "bound_loss"))
+    _curves(left, figures, _cost("wire", ""), _main(family))
     left.set(xlabel=WIRE, ylabel=LOST, title="1 finger between cells")
     heat = _median(family, "stage_j", 1e3)
-    _curves(right, figures, heat, _median(family, "bound_loss"))
+    _curves(right, figures, heat, _main(family))
     right.set(xlabel=HEAT, title="1 finger between cells")
     _key(figure, figures)
     return figure
@@ -126,7 +148,7 @@ def errors_diagram(figures: Figures) -> Figure:
         ("1 / contrast (rms outside 10 mm over A)", _inverse_contrast),
         ("energy below 16 kHz ((m/s)² s)", _median(family, "audible_m2_per_s")),
         ("distance of the crest (mm)", _median(family, "crest_m", 1e3)),
-        ("1 − A / A_ref at ±0.5 % drift (left: one sign)", _median("1 at +0.5 % drift", "loss")),
+        ("1 − A / A_ref at +0.5 % drift", _median("1 at +0.5 % drift", "loss")),
     ]
     for (label, error), ax in zip(panels, figure.subplots(2, 3).flat, strict=True):
         floor = 1e-12 if "energy" in label else FLOOR
@@ -145,7 +167,8 @@ def scenes_diagram(figures: Figures) -> Figure:
         if best is None or _typical(setting) < _typical(best):
             finest[setting["curve"]] = setting
     letters = _letters(figures)
-    figure = Figure(figsize=(13, 0.55 * len(families) + 3), layout="constrained")
+    order = {curve: index for index, curve in enumerate(letters)}
+    figure = Figure(figsize=(13, 0.75 * len(families) + 3), layout="constrained")
     ax = figure.subplots()
     for row, family in enumerate(families):
         for place, (curve, setting) in enumerate(finest.items()):
@@ -153,18 +176,43 @@ def scenes_diagram(figures: Figures) -> Figure:
             if found is None:
                 continue
             y = row + 0.35 - 0.7 * place / max(len(finest) - 1, 1)
-            median, worst = (max(found["worst_loss"][kind], FLOOR) for kind in ("median", "worst"))
+            median, worst = (max(found[main_error(family)][kind], FLOOR) for kind in ("median", "worst"))
             ax.plot([median, worst], [y, y], color="0.6", lw=0.8, zorder=1)
-            ax.plot(median, y, MARKERS[place % len(MARKERS)], color="black", mfc="white", ms=4, zorder=2)
+            ax.plot(median, y, **{**_style(order[curve]), "ms": 4, "ls": ""}, zorder=2)
             ax.annotate(letters[curve], (worst, y), xytext=(3, 0), textcoords="offset points", va="center", fontsize=5.5)
         ax.axhline(row + 0.5, color="0.85", lw=0.6)
     ax.set_yticks(range(len(families)), families)
     ax.invert_yaxis()
     ax.set(
         xscale="log",
-        xlabel="1 − A / A_ref of the worst finger: marker median, end of the line worst scene; best setting of each method",
+        xlabel=f"{LOST}; marker: median, end of the line: worst scene; best setting of each method",
     )
     _key(figure, figures)
+    return figure
+
+
+def building_diagram(figures: Figures) -> Figure:
+    """Loss against the time of building a bank's responses."""
+    of_pitch = {
+        setting["setting"]: setting["families"]["1 off grid"]["bound_loss"]["median"]
+        for setting in figures["settings"]
+        if setting["curve"] == "8 bits, bilinear"
+    }
+    figure = Figure(figsize=(8.5, 6), layout="constrained")
+    ax = figure.subplots()
+    for index, curve in enumerate(dict.fromkeys(row["curve"] for row in figures["building"])):
+        points = []
+        for row in figures["building"]:
+            loss = of_pitch.get(row["setting"]) if row["loss"] is None else row["loss"]
+            if row["curve"] == curve and loss is not None:
+                points.append((row["seconds"], max(loss, FLOOR), row["setting"]))
+        ax.plot([x for x, _, _ in points], [y for _, y, _ in points], **_style(index), label=curve)
+        for x, y, label in points:
+            ax.annotate(label, (x, y), xytext=(5, 3), textcoords="offset points", fontsize=6)
+    ax.set(xscale="log", yscale="log", xlabel="processor time of the responses of the whole grid (s)", ylabel=LOST)
+    ax.set_title("1 finger; modes and precision at its very place, pitch between cells (8 bits, bilinear)", fontsize=9)
+    ax.grid(which="major", color="0.9", lw=0.6)
+    ax.legend(fontsize=8)
     return figure
 
 
@@ -181,6 +229,10 @@ def _cost(axis: str, family: str, factor: float = 1.0) -> Callable[[Figures], fl
         return None if value is None else factor * value
 
     return found
+
+
+def _main(family: str) -> Callable[[Figures], float | None]:
+    return _median(family, main_error(family))
 
 
 def _inverse_contrast(setting: Figures) -> float | None:
@@ -220,8 +272,10 @@ def _curves(
     x_of: Callable[[Figures], float | None],
     y_of: Callable[[Figures], float | None],
     floor: float = FLOOR,
+    *,
+    named: bool = False,
 ) -> None:
-    """All curves of an axes, and the front."""
+    """All curves of an axes, and the front; beside each curve its letter, or its name."""
     letters = _letters(figures)
     everything: list[tuple[float, float]] = []
     for index, curve in enumerate(letters):
@@ -236,7 +290,10 @@ def _curves(
         for x, y, label in (points[0], points[-1])[-len(points) :]:  # between them they follow in order
             ax.annotate(label, (x, y), xytext=(3, -7), textcoords="offset points", fontsize=4.5, color="0.4")
         x, y, _ = points[-1]
-        ax.annotate(letters[curve], (x, y), xytext=(-9, 3), textcoords="offset points", fontsize=10, fontweight="bold")
+        if named:
+            ax.annotate(curve, (x, y), xytext=(2, 6), textcoords="offset points", fontsize=8, rotation=50, rotation_mode="anchor")
+        else:
+            ax.annotate(letters[curve], (x, y), xytext=(-9, 3), textcoords="offset points", fontsize=10, fontweight="bold")
         everything += [(x, y) for x, y, _ in points]
     front = [everything[index] for index in pareto_front([x for x, _ in everything], [y for _, y in everything])]
     if front:
@@ -268,15 +325,18 @@ def _key(figure: Figure, figures: Figures) -> None:
     ]
     handles.append(Line2D([], [], label="Pareto front", **FRONT))
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.suptitle(_told(figures), fontsize=8)
+
+
+def _told(figures: Figures) -> str:
     told = figures["environment"]
-    figure.suptitle(
+    return (
         f"{figures['board']}: {figures['modes']} modes, {figures['modes_in_band']} in the band; seed {figures['seed']}; "
-        f"{told['processor']}, one core; kernel {told['kernel']}; commit {told['commit']}",
-        fontsize=8,
+        f"{told['processor']}, one core; kernel {told['kernel']}; commit {told['commit']}"
     )
 
 
-TIMED = ("time", "errors", "front_page")  # those that need times
+TIMED = ("time", "errors", "front_page", "building")  # those that need times
 DIAGRAMS: dict[str, Callable[[Figures], Figure]] = {
     "front_page": front_page_diagram,
     "time": time_diagram,
@@ -284,4 +344,5 @@ DIAGRAMS: dict[str, Callable[[Figures], Figure]] = {
     "wire_and_heat": wire_and_heat_diagram,
     "errors": errors_diagram,
     "scenes": scenes_diagram,
+    "building": building_diagram,
 }

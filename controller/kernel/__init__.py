@@ -23,6 +23,7 @@ from controller.kernel.twin import (
     unpack_loads,
 )
 from controller.kernel.words_twin import (
+    GROUP_SAMPLES,
     MAX_BLOCK_SAMPLES,
     MAX_FOCI,
     MAX_SAMPLES,
@@ -35,6 +36,7 @@ from controller.kernel.words_twin import (
 
 __all__ = [
     "COMPILED",
+    "GROUP_SAMPLES",
     "MAX_BLOCK_SAMPLES",
     "MAX_FOCI",
     "MAX_QUIET",

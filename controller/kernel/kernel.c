@@ -34,7 +34,8 @@
 
 enum {
     CHANNELS = 32,
-    REST_SAMPLES = 8,
+    REST_SAMPLES = 4,
+    GROUP_SAMPLES = 8,
     MAX_FOCI = 10,
     MAX_SAMPLES = 2000,
     MAX_BLOCK_SAMPLES = 256,
@@ -46,12 +47,13 @@ enum {
     PRODUCT_BITS = 30,
     BALANCING_ROUNDS = 2,
     THRESHOLD_BITS = 24,
-    MAX_ROUNDS = 5,
+    MAX_ROUNDS = 6,
     MAX_LOWERINGS = 3,
-    ROW = REST_SAMPLES * CHANNELS, /* values that are worked on at a time */
+    ROW = GROUP_SAMPLES * CHANNELS, /* values that are worked on at a time */
+    RESTS = GROUP_SAMPLES / REST_SAMPLES * CHANNELS, /* and their rest outside the band */
     LINE_BYTES = 64,
 };
-static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, OWN_LEVEL = 1.0 / 16;
+static const double TOLERANCE = 0.01, MAX_CORRECTION = 2.0, TOO_MUCH = 1.03, ONE_PLACE = 0.5, RATIO_SLOPE = 30.0, OWN_LEVEL = 1.0 / 16;
 static const double THRESHOLDS[] = {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0};
 static const double SHARES[] = {1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067};
 static const double LEAST_AMPLITUDE = 1.0 / 1024; /* words_twin.py */
@@ -78,7 +80,7 @@ struct patch {
 /* Values lie in the order of channels 0, 2, .., 14, 1, 3, .., 15 and the same from 16 on: as 16 bytes fall into halves of 16 bits. */
 struct work {
     int count;
-    int64_t values, rest_rows, block_rows, blocks; /* values of a response in the band; rows of eight samples, in a block too; blocks */
+    int64_t values, rests, rows, block_rows, blocks; /* values of a response in the band, outside it; rows of eight samples, in a block too; blocks */
     uint32_t idle_word;
     int16_t *response[MAX_FOCI], *rest[MAX_FOCI]; /* in the band, with room for a whole last row; outside it */
     int32_t *strength, *threshold; /* of each block and channel */
@@ -222,13 +224,13 @@ INLINE void add_up(int count, int16_t *const *response, const int16_t *weight, i
 
 /* Where sums are above their threshold: -1, else 0. */
 APART void compare(int16_t *restrict above, const int32_t *restrict sum, const int32_t *restrict threshold) {
-    for (int sample = 0; sample < REST_SAMPLES; sample++)
+    for (int sample = 0; sample < GROUP_SAMPLES; sample++)
         for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(sum[CHANNELS * sample + i] > threshold[i]);
 }
 
 /* The same for a single point, whose sum is its response times a weight: against thresholds divided by that. */
 APART void compare_one(int16_t *restrict above, const int16_t *restrict response, const int16_t *restrict threshold) {
-    for (int sample = 0; sample < REST_SAMPLES; sample++)
+    for (int sample = 0; sample < GROUP_SAMPLES; sample++)
         for (int i = 0; i < CHANNELS; i++) above[CHANNELS * sample + i] = (int16_t)-(response[CHANNELS * sample + i] > threshold[i]);
 }
 
@@ -299,11 +301,11 @@ enum { WRITE = 1, MEASURE = 2, STRENGTH = 4 };
 /* Where the weighted sum is above its threshold: the words, what they give at each point, the strength of the sum. */
 static void pass(struct work *work, const int16_t *weight, int to_do) {
     int32_t sum[ROW];
-    int16_t above[ROW], count[CHANNELS];
+    int16_t above[ROW], count[RESTS];
     int64_t in_band[MAX_FOCI] = {0}, outside[MAX_FOCI] = {0};
-    for (int64_t row = 0; row < work->rest_rows; row++) {
+    for (int64_t row = 0; row < work->rows; row++) {
         int64_t at = row * ROW, left = (work->values - at) / CHANNELS, block = row / work->block_rows * CHANNELS;
-        int samples = left < REST_SAMPLES ? (int)left : REST_SAMPLES;
+        int samples = left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES;
         if (work->count > 1 || to_do & STRENGTH) add_up(work->count, work->response, weight, at, sum);
         if (to_do & STRENGTH) add_strength(work->strength + block, sum, samples);
         if (!(to_do & (WRITE | MEASURE))) continue;
@@ -313,10 +315,13 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
             compare_one(above, work->response[0] + at, work->threshold_of_one + block);
         if (to_do & WRITE) write_words(work, at, samples, above);
         if (!(to_do & MEASURE)) continue;
-        add_samples(count, above, samples);
+        for (int part = 0; part < GROUP_SAMPLES / REST_SAMPLES; part++) {
+            int behind = samples - part * REST_SAMPLES;
+            add_samples(count + part * CHANNELS, above + part * REST_SAMPLES * CHANNELS, behind < REST_SAMPLES ? behind : REST_SAMPLES);
+        }
         for (int i = 0; i < work->count; i++) {
             in_band[i] -= inner_product(work->response[i] + at, above, samples * CHANNELS);
-            outside[i] -= inner_product(work->rest[i] + row * CHANNELS, count, CHANNELS);
+            outside[i] -= inner_product(work->rest[i] + row * RESTS, count, RESTS);
         }
     }
     for (int i = 0; i < work->count; i++) {
@@ -326,7 +331,7 @@ static void pass(struct work *work, const int16_t *weight, int to_do) {
 }
 
 static void set_threshold(struct work *work, double threshold) {
-    double scale = threshold / (double)(work->block_rows * REST_SAMPLES) * (1 << THRESHOLD_BITS);
+    double scale = threshold / (double)(work->block_rows * GROUP_SAMPLES) * (1 << THRESHOLD_BITS);
     int64_t whole = scale < INT32_MAX ? (int64_t)nearest(scale) : INT32_MAX;
     for (int64_t i = 0; i < work->blocks * CHANNELS; i++) {
         int64_t scaled = work->strength[i] * whole >> (THRESHOLD_BITS - STRENGTH_SHIFT);
@@ -340,7 +345,8 @@ static void set_threshold(struct work *work, double threshold) {
 /* Words that give what is wanted; `weight` are whole weights next to what is asked times `first_unit`, of whose sum the strength is. */
 static void solve(struct work *work, const double *asked, int16_t *weight, double first_unit) {
     int count = work->count;
-    double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], gain = 0;
+    double now[MAX_FOCI], before[MAX_FOCI], residual[MAX_FOCI], residual_before[MAX_FOCI], scaled[MAX_FOCI], best[MAX_FOCI];
+    double gain = 0, least_error = INFINITY;
     double unit = first_unit, first_norm = sqrt(product(asked, asked, count));
     memcpy(now, asked, sizeof now);
     memcpy(before, asked, sizeof before);
@@ -360,6 +366,19 @@ static void solve(struct work *work, const double *asked, int16_t *weight, doubl
         if (reached) return;
         if (gain == 0) gain = product(work->measured, now, count) / (norm * norm);
         if (!(gain > 0)) return;
+        double error = 0;
+        for (int i = 0; i < count; i++) {
+            double off = work->wanted[i] > 0 ? fabs(work->wanted[i] - work->measured[i]) / work->wanted[i] : 0;
+            if (off > error) error = off;
+        }
+        if (turn < MAX_ROUNDS && error < least_error) {
+            least_error = error;
+            memcpy(best, now, sizeof best);
+        }
+        if (turn == MAX_ROUNDS - 1 && error > least_error) {
+            memcpy(now, best, sizeof now);
+            continue;
+        }
         if (turn >= MAX_ROUNDS - 1) {
             double most = 0, least = INFINITY;
             for (int i = 0; i < count; i++) {
@@ -430,7 +449,7 @@ static void ask_alike(const struct work *work, int64_t (*gram)[MAX_FOCI], double
                 double together = (double)gram[i][j] / sqrt(size[i] * size[j]);
                 if ((work->divisor[i] < 0) != (work->divisor[j] < 0)) together = -together;
                 if (!(together > 0)) continue;
-                double room = together < ONE_PLACE ? ONE_PLACE / together : 1;
+                double room = together < ONE_PLACE ? 1 + (ONE_PLACE - together) * RATIO_SLOPE : 1;
                 if (asked[j] * room < asked[i]) asked[i] = asked[j] * room, changed = 1;
                 if (asked[i] * room < asked[j]) asked[j] = asked[i] * room, changed = 1;
             }
@@ -511,13 +530,17 @@ static void balance(struct work *work) {
 
 /* Displacements at less than full amplitude, from those at full amplitude, which were measured. */
 static void set_wanted(struct work *work, const double *asked) {
+    if (work->count == 1) {
+        work->wanted[0] = asked[0] * work->measured[0];
+        return;
+    }
     double level = product(work->balance, work->in_band, work->count) / product(work->balance, ONES, work->count);
     double nearly = level * OWN_LEVEL;
     for (int i = 0; i < work->count; i++) {
         double own = work->in_band[i] - level;
         if (own > nearly) own = nearly;
         if (own < -nearly) own = -nearly;
-        work->wanted[i] = asked[i] * (work->measured[i] - own);
+        work->wanted[i] = asked[i] * (work->in_band[i] - own);
     }
 }
 
@@ -533,8 +556,10 @@ static void compose_points(struct work *work, const struct patch *patches, doubl
     for (int i = 0; i < work->count; i++) {
         int64_t norm = interpolate(work->idle_word, patches + i, 0, work->values, work->response[i]);
         work->divisor[i] = norm ? (double)norm : INFINITY;
-        memset(work->response[i] + work->values, 0, (size_t)(work->rest_rows * ROW - work->values) * sizeof(int16_t));
-        if (!full) interpolate(work->idle_word, patches + i, work->values, work->rest_rows * CHANNELS, work->rest[i]);
+        memset(work->response[i] + work->values, 0, (size_t)(work->rows * ROW - work->values) * sizeof(int16_t));
+        if (full) continue;
+        interpolate(work->idle_word, patches + i, work->values, work->rests, work->rest[i]);
+        memset(work->rest[i] + work->rests, 0, (size_t)(work->rows * RESTS - work->rests) * sizeof(int16_t));
     }
     memset(work->threshold, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold);
     memset(work->threshold_of_one, 0, (size_t)(work->blocks * CHANNELS) * sizeof *work->threshold_of_one);
@@ -611,9 +636,9 @@ static int valid(const struct plan *plan) {
         return 0;
     }
     int64_t block = plan->block_samples;
-    if (block < REST_SAMPLES || block > MAX_BLOCK_SAMPLES || block % REST_SAMPLES) {
+    if (block < GROUP_SAMPLES || block > MAX_BLOCK_SAMPLES || block % GROUP_SAMPLES) {
         PyErr_Format(
-            PyExc_ValueError, "blocks of %lld samples: not %d to %d, in eights", (long long)block, (int)REST_SAMPLES, (int)MAX_BLOCK_SAMPLES);
+            PyExc_ValueError, "blocks of %lld samples: not %d to %d, in eights", (long long)block, (int)GROUP_SAMPLES, (int)MAX_BLOCK_SAMPLES);
         return 0;
     }
     int64_t values = (plan->samples + (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES) * CHANNELS;
@@ -659,20 +684,21 @@ static Py_ssize_t room_needed(int64_t samples) {
 static void lay_out(struct work *work, const struct plan *plan, int count, uint8_t *room, void *words) {
     work->count = count;
     work->values = plan->samples * CHANNELS;
-    work->rest_rows = (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES;
-    work->block_rows = plan->block_samples / REST_SAMPLES;
-    work->blocks = (work->rest_rows + work->block_rows - 1) / work->block_rows;
+    work->rests = (plan->samples + REST_SAMPLES - 1) / REST_SAMPLES * CHANNELS;
+    work->rows = (plan->samples + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    work->block_rows = plan->block_samples / GROUP_SAMPLES;
+    work->blocks = (work->rows + work->block_rows - 1) / work->block_rows;
     work->idle_word = (uint32_t)plan->idle_word;
     work->words = words;
     room += -(uintptr_t)room % LINE_BYTES;
     for (int i = 0; i < count; i++) {
         work->response[i] = (int16_t *)room;
-        work->rest[i] = work->response[i] + work->rest_rows * ROW;
-        room += work->rest_rows * (ROW + CHANNELS) * (int64_t)sizeof(int16_t);
+        work->rest[i] = work->response[i] + work->rows * ROW;
+        room += work->rows * (ROW + RESTS) * (int64_t)sizeof(int16_t);
     }
     int64_t before = (plan->samples + 2 * SKETCH_STEP - 1) / (2 * SKETCH_STEP), all = (plan->samples + SKETCH_STEP - 1) / SKETCH_STEP;
-    work->sketch_before = (before + REST_SAMPLES - 1) / REST_SAMPLES;
-    work->sketch_rows = work->sketch_before + (all - before + REST_SAMPLES - 1) / REST_SAMPLES;
+    work->sketch_before = (before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
+    work->sketch_rows = work->sketch_before + (all - before + GROUP_SAMPLES - 1) / GROUP_SAMPLES;
     for (int i = 0; i < count; i++, room += work->sketch_rows * ROW * (int64_t)sizeof(int16_t)) work->sketch[i] = (int16_t *)room;
     work->strength = (int32_t *)room;
     work->threshold = work->strength + work->blocks * CHANNELS;
@@ -762,7 +788,7 @@ enum {
     WEIGHT_BITS = 20,
     STEPS_PER_BLOCK = 16,
 };
-static const double FLOOR = 0.25, RIDGE = 0.03, PI = 3.141592653589793;
+static const double FLOOR = 0.25, RIDGE = 0.2, PI = 3.141592653589793;
 
 /* A place that shall stay still: its response between zeros, as it is met at other times; the factors of its equations. */
 struct still {
@@ -772,10 +798,10 @@ struct still {
 };
 
 struct quiet {
-    int64_t values, rest_rows, block_rows, blocks, step;
+    int64_t values, rows, rest_rows, block_rows, blocks, step; /* rows of eight samples, and of the rest */
     int32_t *sum, *strength;
     int64_t *weight;
-    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over eight samples */
+    int16_t *above, *count; /* where bits deviate: -1, else 0; and sums of these over the samples of a row of the rest */
     struct still place[MAX_QUIET];
     double unit;
     int64_t spent;
@@ -791,7 +817,7 @@ APART void add_shifted(int32_t *restrict sum, const int16_t *restrict a, const i
 static void take_bits(struct quiet *quiet, const uint32_t *words, uint32_t idle_word) {
     int channel[CHANNELS];
     for (int i = 0; i < CHANNELS; i++) channel[i] = i / 16 * 16 + i % 8 * 2 + i / 8 % 2;
-    memset(quiet->above, 0, (size_t)(quiet->rest_rows * ROW) * sizeof *quiet->above);
+    memset(quiet->above, 0, (size_t)(quiet->rows * ROW) * sizeof *quiet->above);
     for (int64_t sample = 0; sample < quiet->values / CHANNELS; sample++) {
         uint32_t deviates = words[sample] ^ idle_word;
         for (int i = 0; i < CHANNELS; i++) quiet->above[sample * CHANNELS + i] = (int16_t) - (int16_t)(deviates >> channel[i] & 1);
@@ -807,7 +833,7 @@ APART void set_margins(int32_t *restrict sum, const int16_t *restrict above) {
 }
 
 static void count_bits(struct quiet *quiet) {
-    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * ROW, REST_SAMPLES);
+    for (int64_t row = 0; row < quiet->rest_rows; row++) add_samples(quiet->count + row * CHANNELS, quiet->above + row * REST_SAMPLES * CHANNELS, REST_SAMPLES);
 }
 
 /* Inner product of the counts and a rest that is met so many rows later. */
@@ -824,7 +850,7 @@ static void prepare_still(struct quiet *quiet, struct still *still) {
         int64_t total = 0;
         for (int64_t block = 0; block < quiet->blocks; block++) {
             int32_t sum[CHANNELS] = {0};
-            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * REST_SAMPLES;
+            int64_t at = block * quiet->block_rows * ROW, left = (quiet->values - at) / CHANNELS, most = quiet->block_rows * GROUP_SAMPLES;
             add_shifted(sum, still->response + at, still->response + at - lag * quiet->step * CHANNELS, (int)(left < most ? left : most));
             for (int i = 0; i < CHANNELS; i++) total += sum[i] * quiet->weight[block * CHANNELS + i];
         }
@@ -870,7 +896,7 @@ static void correct(struct quiet *quiet, const struct still *still) {
     }
     if (quiet->spent + weights > CORRECTION_WEIGHT_SUM) return;
     quiet->spent += weights;
-    for (int64_t at = 0; at < quiet->rest_rows * ROW; at += ROW) {
+    for (int64_t at = 0; at < quiet->rows * ROW; at += ROW) {
         for (int j = 0; j < TIMES; j += 2) {
             const int16_t *one = still->response + at - (j - TIMES / 2) * quiet->step * CHANNELS;
             const int16_t *other = j + 1 < TIMES ? one - quiet->step * CHANNELS : one;
@@ -878,12 +904,13 @@ static void correct(struct quiet *quiet, const struct still *still) {
         }
         compare_nothing(quiet->above + at, quiet->sum + at);
     }
-    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rest_rows * ROW - quiet->values) * sizeof *quiet->above);
+    memset(quiet->above + quiet->values, 0, (size_t)(quiet->rows * ROW - quiet->values) * sizeof *quiet->above);
 }
 
 static void keep_still(struct work *work, const struct patch *patches, const struct patch *places, int count, int64_t step) {
-    struct quiet quiet = {.values = work->values, .rest_rows = work->rest_rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
-    int64_t padded = quiet.rest_rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
+    struct quiet quiet = {.values = work->values, .rows = work->rows, .block_rows = work->block_rows, .blocks = work->blocks, .step = step};
+    quiet.rest_rows = work->rests / CHANNELS;
+    int64_t padded = quiet.rows * ROW, reach = TIMES * step * CHANNELS, total = 0;
     int16_t weight[MAX_FOCI];
     double share[MAX_FOCI], shares = 0;
     uint8_t *room = (uint8_t *)work->strength; /* behind the responses */
@@ -906,9 +933,9 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     double share_unit = MARGIN_WEIGHT_SUM / shares;
     for (int i = 0; i < work->count; i++) weight[i] = (int16_t)nearest(share[i] * share_unit);
     memset(quiet.strength, 0, (size_t)(quiet.blocks * CHANNELS) * sizeof *quiet.strength);
-    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+    for (int64_t row = 0; row < quiet.rows; row++) {
         add_up(work->count, work->response, weight, row * ROW, quiet.sum + row * ROW);
-        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, REST_SAMPLES);
+        add_strength(quiet.strength + row / quiet.block_rows * CHANNELS, quiet.sum + row * ROW, GROUP_SAMPLES);
         set_margins(quiet.sum + row * ROW, quiet.above + row * ROW);
     }
     for (int64_t i = 0; i < quiet.blocks * CHANNELS; i++) total += quiet.strength[i];
@@ -918,7 +945,7 @@ static void keep_still(struct work *work, const struct patch *patches, const str
         double strength = (double)quiet.strength[i];
         quiet.weight[i] = (int64_t)nearest(scale / (strength > floor ? strength : floor));
     }
-    quiet.unit = PI * scale / (double)(quiet.block_rows * REST_SAMPLES);
+    quiet.unit = PI * scale / (double)(quiet.block_rows * GROUP_SAMPLES);
     for (int i = 0; i < count; i++) {
         struct still *still = quiet.place + i;
         memset(next, 0, (size_t)(padded + 2 * reach) * sizeof *next);
@@ -932,9 +959,9 @@ static void keep_still(struct work *work, const struct patch *patches, const str
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (int i = 0; i < count; i++)
             if (quiet.place[i].solvable) correct(&quiet, quiet.place + i);
-    for (int64_t row = 0; row < quiet.rest_rows; row++) {
+    for (int64_t row = 0; row < quiet.rows; row++) {
         int64_t left = (quiet.values - row * ROW) / CHANNELS;
-        write_words(work, row * ROW, left < REST_SAMPLES ? (int)left : REST_SAMPLES, quiet.above + row * ROW);
+        write_words(work, row * ROW, left < GROUP_SAMPLES ? (int)left : GROUP_SAMPLES, quiet.above + row * ROW);
     }
 }
 

@@ -11,8 +11,8 @@ margin is above zero.
 
 How much a weight moves the displacements follows from the density of margins at zero, which is next to the inverse of their mean
 size in the same block of samples and the same channel. So the weights are the solution of nine equations, whose matrix is taken
-to depend on the distance of two times only, with 3 % on its diagonal against noise. Four sweeps over the places, each measured
-again, as the density is not known better.
+to depend on the distance of two times only, with a fifth more on its diagonal, as it is known roughly. Four sweeps over the
+places, each measured again.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ CORRECTION_WEIGHT_SUM: Final = 61440
 LARGEST_WEIGHT: Final = 32767
 WEIGHT_BITS: Final = 20
 FLOOR: Final = 0.25  # of the mean size of all margins: smaller ones count as this
-RIDGE: Final = 0.03
+RIDGE: Final = 0.2
 PI: Final = 3.141592653589793
 
 
@@ -111,6 +111,20 @@ def quieten(
     return -1
 
 
+class _Met:
+    """A response between zeros, (sample, 32) flat in whole float64, as it is met at other times: 2^53 is far above every sum."""
+
+    def __init__(self, response: Numbers, reach: int) -> None:
+        self._size, self._reach = response.size, reach
+        self._padded = np.zeros(response.size + 2 * reach * CHANNELS)
+        self._padded[reach * CHANNELS : reach * CHANNELS + response.size] = response.reshape(-1)
+
+    def later(self, by: int) -> Numbers:
+        """The response as it is met so many samples, or rows, later."""
+        start = (self._reach - by) * CHANNELS
+        return self._padded[start : start + self._size]
+
+
 class _Quiet:
     """The bits of drive words, their margins, and the places to be kept still."""
 
@@ -123,7 +137,9 @@ class _Quiet:
         self._turned = 1 - 2 * idle
         self._words = np.frombuffer(words, "<u4", bank.samples)
         as_bytes = (self._words ^ np.uint32(bank.idle_word)).view(np.uint8).reshape(-1, 4)
-        self._bits = np.unpackbits(as_bytes, axis=1, bitorder="little").astype(np.int64)  # where they deviate from idle
+        self._padded_bits = np.zeros((self._rows * REST_SAMPLES, CHANNELS))
+        self._bits = self._padded_bits.reshape(-1)[: bank.samples * CHANNELS]  # where they deviate from idle
+        self._bits[:] = np.unpackbits(as_bytes, axis=1, bitorder="little").reshape(-1)
         levels = np.frombuffer(bank.response, np.int8)
         both = [self._interpolated(levels, bank.stride, patch) for patch in patches]
         self._points, self._still = [in_band for in_band, _ in both[:points]], both[points:]
@@ -136,50 +152,55 @@ class _Quiet:
         for entry, share in patch:
             short += levels[entry * stride : entry * stride + values] * np.int16(share)
         short = short.reshape(-1, CHANNELS) * self._turned
-        return short[: self._samples].astype(np.int64), short[self._samples :].astype(np.int64)
+        return short[: self._samples], short[self._samples :]
 
     def keep_still(self) -> None:
-        shares, total = [], 0.0
-        for response in self._points:
-            norm = int(np.abs(response).sum())
+        """Change the words."""
+        shares, responses, total = [], [in_band.astype(np.float64).reshape(-1) for in_band in self._points], 0.0
+        for response in responses:
+            norm = float(np.abs(response).sum())
             share = 1 / norm if norm else 0.0
             total += share
-            shares.append(-share if (self._bits * response).sum() < 0 else share)
+            shares.append(-share if _product(self._bits, response) < 0 else share)
         if total == 0:
             return
         unit = MARGIN_WEIGHT_SUM / total
-        margin = np.zeros((self._samples, CHANNELS), np.int64)
-        for share, response in zip(shares, self._points, strict=True):
+        margin = np.zeros(self._samples * CHANNELS)
+        for share, response in zip(shares, responses, strict=True):
             margin += round(share * unit) * response
         size = np.abs(margin)
-        strength = self._by_block(size >> STRENGTH_SHIFT)
+        strength = self._by_block(np.floor(size / (1 << STRENGTH_SHIFT)))
         if not strength.any():
             return
-        self._margin = np.where(self._bits, size + 1, -size)
+        self._margin = np.where(self._bits > 0, size + 1, -size)
         floor = float(strength.sum()) * FLOOR / float(self._blocks * CHANNELS)
         scale = floor * (1 << WEIGHT_BITS)
         self._weight = np.rint(scale / np.maximum(strength, floor)).astype(np.int64)
         self._unit = PI * scale / float(self._block)
-        solved = [self._prepared(in_band) for in_band, _ in self._still]
+        places = []
+        for in_band, rest in self._still:
+            factors = self._prepared(_Met(in_band >> SKETCH_SHIFT, TIMES * self._step))
+            if factors is not None:
+                places.append((_Met(in_band, TIMES * self._step), _Met(rest, TIMES * self._step), *factors))
         for _ in range(SWEEPS):
-            for (in_band, rest), factors in zip(self._still, solved, strict=True):
-                if factors is not None:
-                    self._correct(in_band, rest, *factors)
-        packed = np.packbits(self._bits.astype(np.uint8), axis=1, bitorder="little").view("<u4")[:, 0]
-        self._words[:] = packed ^ np.uint32(self._idle_word)
+            for place in places:
+                self._correct(*place)
+        bits = self._bits.reshape(-1, CHANNELS).astype(np.uint8)
+        self._words[:] = np.packbits(bits, axis=1, bitorder="little").view("<u4")[:, 0] ^ np.uint32(self._idle_word)
 
     def _by_block(self, values: Numbers) -> Numbers:
         """Sums over the samples of each block: (block, 32)."""
-        padded = np.zeros((self._blocks * self._block, CHANNELS), np.int64)
-        padded[: self._samples] = values
+        padded = np.zeros((self._blocks * self._block, CHANNELS))
+        padded[: self._samples] = values.reshape(-1, CHANNELS)
         sums: Numbers = padded.reshape(self._blocks, self._block, CHANNELS).sum(axis=1)
         return sums
 
-    def _prepared(self, in_band: Numbers) -> tuple[list[list[float]], list[float]] | None:
+    def _prepared(self, coarse: _Met) -> tuple[list[list[float]], list[float]] | None:
         """Factors (lower, pivots) of the equations of corrections; None if there is nothing to correct with."""
-        coarse, products = in_band >> SKETCH_SHIFT, []
+        products = []
         for lag in range(TIMES):
-            products.append(float(int((self._by_block(coarse * _later(coarse, lag * self._step)) * self._weight).sum())))
+            sums = self._by_block(coarse.later(0) * coarse.later(lag * self._step)).astype(np.int64)
+            products.append(float(int((sums * self._weight).sum())))
         if not products[0] > 0:
             return None
         lower = [[0.0] * TIMES for _ in range(TIMES)]
@@ -197,18 +218,15 @@ class _Quiet:
                 pivots.append(value)
         return lower, pivots
 
-    def _correct(self, in_band: Numbers, rest: Numbers, lower: list[list[float]], pivots: list[float]) -> None:
+    def _correct(self, in_band: _Met, rest: _Met, lower: list[list[float]], pivots: list[float]) -> None:
         """Weigh the bits against what they give at a place, and set them anew."""
-        padded = np.zeros((self._rows * REST_SAMPLES, CHANNELS), np.int64)
-        padded[: self._samples] = self._bits
-        counts = padded.reshape(self._rows, REST_SAMPLES, CHANNELS).sum(axis=1)
+        counts = self._padded_bits.reshape(self._rows, REST_SAMPLES, CHANNELS).sum(axis=1).reshape(-1)
         times = [(j - TIMES // 2) * self._step for j in range(TIMES)]
         value = []
         for later in times:
             rows, beyond = divmod(later, REST_SAMPLES)
-            given = REST_SAMPLES * int((self._bits * _later(in_band, later)).sum())
-            given += (REST_SAMPLES - beyond) * int((counts * _later(rest, rows)).sum())
-            given += beyond * int((counts * _later(rest, rows + 1)).sum())
+            given = REST_SAMPLES * _product(self._bits, in_band.later(later))
+            given += (REST_SAMPLES - beyond) * _product(counts, rest.later(rows)) + beyond * _product(counts, rest.later(rows + 1))
             value.append(given / REST_SAMPLES)
         for i in range(TIMES):
             for k in range(i):
@@ -227,17 +245,10 @@ class _Quiet:
             return
         self._spent = spent
         for weight, later in zip(weights, times, strict=True):
-            self._margin += weight * _later(in_band, later)
-        self._bits = (self._margin > 0).astype(np.int64)
+            self._margin += weight * in_band.later(later)
+        np.greater(self._margin, 0, out=self._bits)
 
 
-def _later(response: Numbers, by: int) -> Numbers:
-    """A response as it is met so many samples later: what lies beyond its ends is zero."""
-    moved = np.zeros_like(response)
-    if by >= len(response) or -by >= len(response):
-        return moved
-    if by >= 0:
-        moved[by:] = response[: len(response) - by]
-    else:
-        moved[:by] = response[-by:]
-    return moved
+def _product(left: Numbers, right: Numbers) -> float:
+    """Inner product of whole numbers, exact in any order; BLAS would start threads for it."""
+    return float((left * right).sum())

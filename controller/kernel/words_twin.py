@@ -31,8 +31,8 @@ next to the largest share that all can have. A point that differs from it by mor
 move it.
 
 Points that are near move together. Where responses are more than half alike (correlation of the sketches), points are one place,
-and none is asked for more than the least of them; below that it may be stronger, the less alike they are. What is too much
-after the last round is lowered together with all others.
+and none is asked for more than the least of them; soon below that each has its own. What is too much after the last
+round is lowered together with all others.
 """
 
 from __future__ import annotations
@@ -52,7 +52,8 @@ Patch = list[tuple[int, int]]  # response and weight of up to four cells
 Numbers = NDArray[Any]
 
 CHANNELS: Final = 32
-REST_SAMPLES: Final = 8  # samples to a row of the rest outside the band
+REST_SAMPLES: Final = 4  # samples to a row of the rest outside the band
+GROUP_SAMPLES: Final = 8  # of which blocks consist
 MAX_FOCI: Final = 10
 LEAST_AMPLITUDE: Final = 1 / 1024  # less is no displacement either, and quotients of it would leave the range of floats
 MAX_SAMPLES: Final = 2000  # so that sums of absolute values stay below 2^31
@@ -79,10 +80,11 @@ SCALE: Final = struct.Struct("=f")
 # in units of the mean of its absolute value over 96 us: median over 120 points of the simulated board.
 THRESHOLDS: Final = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0)
 SHARES: Final = (1.0, 0.9764, 0.9089, 0.8022, 0.6727, 0.5347, 0.3991, 0.2781, 0.155, 0.067)
-MAX_ROUNDS: Final = 5  # of measuring what the bits give; most emissions need two or three
+MAX_ROUNDS: Final = 6  # of measuring what the bits give; most emissions need two or three. If none is good, the best one is played
 MAX_LOWERINGS: Final = 3  # behind them
 TOO_MUCH: Final = 1.03  # of what was asked for: then all are lowered
 ONE_PLACE: Final = 0.5  # correlation of responses: 2.8 mm on the simulated board
+RATIO_SLOPE: Final = 30.0  # by which ratio amplitudes may differ, for each correlation below: 4 at 0.4, 3.1 mm
 OWN_LEVEL: Final = 1 / 16  # difference from the common level from which on a point has its own
 TOLERANCE: Final = 0.01  # of an amplitude: well below a step
 
@@ -137,7 +139,7 @@ def compose(
     good : buffer of bytes
         For each response whether it may be used; zero if not yet.
     response : buffer
-        The responses: levels of 8 bits, then those of the rest outside the band, a mean over 8 samples each.
+        The responses: levels of 8 bits, then those of the rest outside the band, a mean over 4 samples each.
     points : sequence of (x_m, y_m, amplitude)
         1 to `MAX_FOCI`; above 0 to 1, less than `LEAST_AMPLITUDE` counts as that. Points beyond the outermost cells take the
         nearest place among the cells.
@@ -187,8 +189,8 @@ class _Responses:
         samples, stride, nx, ny, count, idle_word, block, pitch_m, x0_m, y0_m = PLAN.unpack(plan)
         if not 1 <= samples <= MAX_SAMPLES:
             raise ValueError(f"{samples} samples to compose, not 1 to {MAX_SAMPLES}")
-        if not REST_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % REST_SAMPLES:
-            raise ValueError(f"blocks of {block} samples: not {REST_SAMPLES} to {MAX_BLOCK_SAMPLES}, in eights")
+        if not GROUP_SAMPLES <= block <= MAX_BLOCK_SAMPLES or block % GROUP_SAMPLES:
+            raise ValueError(f"blocks of {block} samples: not {GROUP_SAMPLES} to {MAX_BLOCK_SAMPLES}, in eights")
         values = (samples + _rest_rows(samples)) * CHANNELS
         if not (
             0 <= idle_word < 1 << CHANNELS
@@ -279,7 +281,7 @@ class _Work:
         self._bit_values, self._bits_of_no_sample = bit_values[:values], bit_values[values:rest_values]
         self._bits_by_rest_row = bit_values[:rest_values].reshape(rows, REST_SAMPLES, CHANNELS)
         self._threshold = threshold[:values]
-        self._threshold_by_run = threshold.reshape(blocks, block // REST_SAMPLES, REST_SAMPLES * CHANNELS)
+        self._threshold_by_run = threshold.reshape(blocks, block // GROUP_SAMPLES, GROUP_SAMPLES * CHANNELS)
         self._short, self._part = take("i2", values + rows * CHANNELS), take("i2", values + rows * CHANNELS)
         self._packed, self._bits = take("<u8", values // 8), take("?", values)
         self._eights, self._highest = self._bits.view("<u8"), self._packed.view(np.uint8)[7::8]
@@ -291,8 +293,8 @@ class _Work:
         self._product_halves, self._rest_product_halves = _halves(self._product), _halves(self._rest_product)
         self._strength_sum, self._block_ones = np.empty((blocks, 1, CHANNELS), np.int32), np.ones((1, block), np.int32)
         self._strength, self._scaled = np.empty((2, blocks, 1, CHANNELS), np.int64)
-        self._run = np.empty((blocks, REST_SAMPLES, CHANNELS), np.int32)
-        self._run_by_block = self._run.reshape(blocks, 1, REST_SAMPLES * CHANNELS)
+        self._run = np.empty((blocks, GROUP_SAMPLES, CHANNELS), np.int32)
+        self._run_by_block = self._run.reshape(blocks, 1, GROUP_SAMPLES * CHANNELS)
         self._weight, self._point_weight, self._scale = np.empty((), np.int16), np.empty((), np.int32), np.empty((), np.int64)
         idle_high = np.array([idle_word >> q & 1 for q in range(CHANNELS)], np.int16)
         self._flip = np.tile(1 - 2 * idle_high, samples + rows)
@@ -324,14 +326,16 @@ class _Work:
             self._solve(asked, self._wanted(asked, divisors, balance), divisors, balance)
 
     def _wanted(self, asked: list[float], divisors: list[float], balance: list[float]) -> list[float]:
-        """Displacements at less than full amplitude, from those at full amplitude, which the bits give."""
+        """Displacements at less than full amplitude, from those at full amplitude, which the bits give.
+
+        Of several points from those in the band: what bits do outside it depends on all polarities, up to 8 % of a tenth point.
+        """
         measured, in_band = self._measured(divisors)
+        if len(asked) == 1:
+            return [asked[0] * measured[0]]
         level = _product(balance, in_band) / _product(balance, [1.0] * len(balance))
         nearly = level * OWN_LEVEL
-        return [
-            share * (got - max(-nearly, min(nearly, most - level)))
-            for share, got, most in zip(asked, measured, in_band, strict=True)
-        ]
+        return [share * (got - max(-nearly, min(nearly, got - level))) for share, got in zip(asked, in_band, strict=True)]
 
     def _interpolate(self, levels: Numbers, stride: int, patch: Patch) -> None:
         """Response of a point, negated in channels that idle high."""
@@ -417,8 +421,8 @@ class _Work:
         first_unit = unit = self._add(_products(balance, asked), divisors)
         first_norm = math.sqrt(_product(asked, asked))
         self._measure_strength()
-        weights = weights_before = residuals_before = asked
-        gain = 0.0
+        weights = weights_before = residuals_before = best = asked
+        gain, least = 0.0, math.inf
         last = MAX_ROUNDS + MAX_LOWERINGS - 1
         for turn in range(last + 1):
             norm = math.sqrt(_product(weights, weights)) or first_norm
@@ -434,6 +438,12 @@ class _Work:
             gain = gain or _product(measured, weights) / (norm * norm)
             if not gain > 0:
                 return
+            error = max(abs(want - got) / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
+            if turn < MAX_ROUNDS and error < least:
+                least, best = error, weights
+            if turn == MAX_ROUNDS - 1 and error > least:
+                weights = best
+                continue
             if turn >= MAX_ROUNDS - 1:
                 most = max(got / want if want > 0 else 0.0 for want, got in zip(wanted, measured, strict=True))
                 if min(measured) < 0:
@@ -513,7 +523,7 @@ class _Sketch:
             for i, j, correlation in alike:
                 together = correlation * signs[i] * signs[j]
                 if together > 0:
-                    room = ONE_PLACE / together if together < ONE_PLACE else 1.0
+                    room = 1 + (ONE_PLACE - together) * RATIO_SLOPE if together < ONE_PLACE else 1.0
                     asked[i] = min(asked[i], asked[j] * room)
                     asked[j] = min(asked[j], asked[i] * room)
             if asked == before:

@@ -1,14 +1,16 @@
 """Which of the emissions that are due are played as one waveform, and which wait for the next one. Pure.
 
 The plate plays one waveform at a time. For several foci their responses are summed, and each focus gets a share of the
-amplitude that it would get alone: about 0.72 of it for two foci, 0.5 for four, 0.35 for ten. For two it depends on their
-distance; this is the smaller share of both (simulated panel, median of 16 random pairs; tests/loop/test_focus_distances.py):
+amplitude that it would get alone: about 0.74 of it for two foci, 0.54 for four, 0.36 for ten. For two it depends on their
+distance, but little, since each is kicked to the side that serves both (exact composition, median; least of 10 random pairs):
 
-    mm      0.5   1.5   2.5   4     5     6     7     8     9     10    12    20
-    share   0.99  0.96  0.90  0.76  0.66  0.60  0.57  0.58  0.62  0.67  0.74  0.70
+    mm      2           3           4           5           6           7           8           9           10          far
+    share   0.93; 0.93  0.86; 0.85  0.76; 0.76  0.73; 0.71  0.78; 0.76  0.82; 0.79  0.80; 0.79  0.79; 0.77  0.75; 0.70  0.74; 0.73
 
-Two foci nearer than half a focal spot are one place. Farther away each lies on the flank of the other, then in the trough
-around it (-0.3 at 7 mm), which weakens both: two such foci are played in turn.
+Triangles and squares of 2 to 12 mm get at least 0.8 of what far foci get. What cannot be composed takes turns: two foci nearer
+than 3.5 mm that ask for unlike amplitudes, since they move together; and crowds: a lattice of six at 3 mm gets 0.16, of ten at
+3 to 6 mm next to nothing at worst. So a focus has at most three others within 7 mm; those nearer than 2.5 mm are one place with
+it, and are not counted.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ from controller.scene.emission import Emission
 from controller.waveforms.composition import MAX_FOCI
 
 MERGE_RADIUS_M: Final = 2.5e-3  # foci nearer than this are one place
-SEPARATION_M: Final = 9e-3  # foci nearer than this, and not one place, take turns
+SEPARATION_M: Final = 3.5e-3  # foci nearer than this and of unlike amplitudes take turns
+CROWD_M: Final = 7e-3  # within which a focus has few others
+MAX_NEIGHBOURS: Final = 3
 
 Emissions = tuple[Emission, ...]
 
@@ -29,8 +33,8 @@ def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX
     """Choose what is played next as one waveform.
 
     The emission that has waited longest is always chosen. If it may be composed, so is every other one that may, that is due
-    within `duration_s` of it, and whose focus is farther than `SEPARATION_M` from those chosen before; or nearer than
-    `MERGE_RADIUS_M` and of the same amplitude.
+    within `duration_s` of it, and whose focus is farther than `SEPARATION_M` from those chosen before that have another
+    amplitude, and in no crowd: more than `MAX_NEIGHBOURS` within `CROWD_M` and not nearer than `MERGE_RADIUS_M`.
 
     Parameters
     ----------
@@ -61,8 +65,21 @@ def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX
 
 
 def _conflicts(emission: Emission, chosen: Sequence[Emission]) -> bool:
+    near = []
     for other in chosen:
         apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
-        if apart_m2 < SEPARATION_M**2 and (apart_m2 > MERGE_RADIUS_M**2 or emission.amplitude != other.amplitude):
+        if apart_m2 >= CROWD_M**2:
+            continue
+        if apart_m2 < SEPARATION_M**2 and emission.amplitude != other.amplitude:
             return True
-    return False
+        if apart_m2 >= MERGE_RADIUS_M**2:
+            near.append(other)
+    return len(near) > MAX_NEIGHBOURS or any(_neighbours(other, chosen) >= MAX_NEIGHBOURS for other in near)
+
+
+def _neighbours(emission: Emission, chosen: Sequence[Emission]) -> int:
+    count = 0
+    for other in chosen:
+        apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
+        count += MERGE_RADIUS_M**2 <= apart_m2 < CROWD_M**2
+    return count

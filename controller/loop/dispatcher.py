@@ -203,7 +203,7 @@ class Dispatcher:
             if turn.report_ns >= 0:
                 self._counters.report_latency.record(turn.report_ns)
             self._source.emitted(attempt.start_s, attempt.start_s + self._occupancy.duration_s, batch.period_s)
-            self._scheduler.started(emissions, attempt.fpga_s)
+            self._scheduler.started(emissions, attempt.fpga_s, self._timing.lead_s)
             return attempt.started
         if repeating and not playback.repeating:
             now_s = self._clock.now_s()

@@ -26,10 +26,17 @@ from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
-from controller.waveforms.selection import REUSE_RADIUS_M, Key, Selection
+from controller.waveforms.selection import QUIET, REUSE_RADIUS_M, Key, Selection
 
 Locate = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host, (x_m, y_m); None if it is not down."""
+
+Down = Callable[[], Sequence[int]]
+"""Numbers of the fingers that are down."""
+
+
+def _nobody() -> tuple[int, ...]:
+    return ()
 
 
 class Playback:
@@ -47,6 +54,8 @@ class Playback:
         When the plate is free.
     locate : callable
         Where a finger will be: an emission is focused where its finger is when the focus forms.
+    down : callable, optional
+        Which fingers are down: others than those that are played for may be kept still.
     slots : int
         Waveforms that the FPGA keeps.
     timing : HostTiming
@@ -76,6 +85,7 @@ class Playback:
         occupancy: Occupancy,
         locate: Locate,
         *,
+        down: Down = _nobody,
         slots: int,
         timing: HostTiming,
         counters: Counters,
@@ -91,6 +101,7 @@ class Playback:
         self._selection = selection
         self._clock_estimate = clock_estimate
         self._locate = locate
+        self._down = down
         self._counters = counters
         self._played = played
         self._slots = self._new_slots(slots)
@@ -280,14 +291,17 @@ class Playback:
         """
         start_s, missed = self._start(batch, begun_s, self.timing.command)
         aimed = self._aim(batch.emissions, start_s, predicted) if points is None else points
-        key = self._selection.key(aimed)
+        quiet = False
+        for emission in batch.emissions:
+            quiet = quiet or emission.quiet
+        key = self._quiet_key(aimed, batch.emissions, start_s) if quiet else self._selection.key(aimed)
         resident = self._slots.find(key)
         if resident is None:
             start_s, missed = self._start(batch, begun_s, self.timing.upload)
             later = self._aim(batch.emissions, start_s, predicted) if points is None else points
-            if later != aimed:
+            if later != aimed or quiet:
                 aimed = later
-                key = self._selection.key(aimed)
+                key = self._quiet_key(aimed, batch.emissions, start_s) if quiet else self._selection.key(aimed)
                 resident = self._slots.find(key)
         return Plan(aimed, key, resident, start_s, missed)
 
@@ -320,6 +334,13 @@ class Playback:
             points.append((x_m, y_m, emission.amplitude))
         return points
 
+    def _quiet_key(self, points: list[Point], emissions: Sequence[Emission], start_s: FpgaTime) -> Key:
+        """Key of a waveform that keeps all other fingers still where they will be."""
+        focus_s = start_s - self._clock_estimate.offset_s + self.occupancy.duration_s
+        felt_by = [emission.finger for emission in emissions]
+        places = [self._locate(finger, focus_s) for finger in self._down() if finger not in felt_by]
+        return self._selection.quiet_key(points, [place for place in places if place is not None])
+
     def _play(self, resident: Key, count: int, period_s: float, start: Start, start_ticks: int) -> None:
         """Have a resident waveform accepted for playing."""
         slot = self._slots.use(resident)
@@ -343,6 +364,8 @@ class Playback:
         if isinstance(waveform, ReadyFrames):
             self._counters.skipped.compositions += 1
             self._counters.composed_beforehand += not isinstance(key, int)
+        elif not isinstance(key, int) and key[-1][2] == QUIET:
+            self._counters.kept_still += 1
         slot = self._take()
         stop = self.occupancy.repetition is not None
         try:

@@ -16,6 +16,7 @@ from controller.loop.batching import select_batch
 from controller.loop.commands import Outcome
 from controller.loop.skips import ALL, Skips
 from controller.loop.spots import Spots
+from controller.loop.train_phases import moved_s
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.scene.fingers import ActiveEffects
@@ -279,19 +280,37 @@ class Scheduler:
         here, then = locate(finger, now_s), locate(finger, now_s + report_s)
         if active is None or here is None or then is None:
             return None
+        if len(self._active) > 1 and active.region != OUTSIDE and self.scene.regions[active.region].quiet:
+            return None  # where the others will be kept still is not known
         step_m = math.dist(here, then)
         if step_m < MIN_STEP_M:
             return None
         distance_m, amplitude = active.next_crossing((then[0] - here[0]) / step_m, (then[1] - here[1]) / step_m)
         return None if distance_m > max(step_m, PREFETCH_DISTANCE_M) else (distance_m / step_m, amplitude)
 
-    def started(self, emissions: Sequence[Emission], start_s: FpgaTime) -> None:
-        """Report emissions as played; trains whose beat 0 is among them are shifted so that it falls on `start_s`."""
+    def started(self, emissions: Sequence[Emission], start_s: FpgaTime, apart_s: float = 0.0) -> None:
+        """Report emissions as played.
+
+        Trains whose beat 0 is among them are shifted so that it falls on `start_s`, or their next beats where `moved_s` has
+        them; `apart_s` is its.
+        """
         for emission in emissions:
             if emission.ticket:
                 self._outcomes(emission.ticket, Outcome.PLAYED, start_s - emission.time_s)
             if emission.period_s and emission.beat == 0 and emission.owner in self._active:
-                self._active[emission.owner].shift(emission.time_s, start_s)
+                first_s = self._first_s(emission, emissions, start_s, apart_s)
+                self._active[emission.owner].shift(emission.time_s, first_s)
+
+    def _first_s(self, begun: Emission, emissions: Sequence[Emission], start_s: FpgaTime, apart_s: float) -> FpgaTime:
+        """From when on the beats of a train are counted that has begun at `start_s`, with others of the same emissions."""
+        period_s, alone, regions = begun.period_s, begun.alternate, self.scene.regions
+        together = [emission.owner for emission in emissions if emission.period_s == period_s and emission.beat == 0]
+        others_s = []
+        for owner, active in self._active.items():
+            if active.period_s == period_s and owner not in together:
+                others_s.append(active.next_s)
+                alone = alone or (active.region != OUTSIDE and regions[active.region].alternate)
+        return start_s + moved_s(start_s, period_s, others_s, apart_s, alone=alone) if others_s else start_s
 
     def discarded(self, emissions: Sequence[Emission], outcome: Outcome, now_s: FpgaTime) -> None:
         """Report emissions that will not be played; `outcome` says why."""

@@ -25,7 +25,8 @@ class Skips:
     near : bool
         A resident waveform for a place within `REUSE_RADIUS_M` is played in place of one for the place itself.
     cells : bool
-        A lone finger within `bank.snap_mm` of a cell plays the bank's entry: nothing is composed.
+        A lone finger within `bank.snap_mm` of a cell plays the bank's entry, and spots play what the bank has composed beforehand:
+        nothing is composed.
     together : bool
         What is due within one emission is played as one waveform, not as several.
     """

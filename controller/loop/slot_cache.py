@@ -101,7 +101,8 @@ class SlotCache:
         """Take note that a slot holds the waveform of `key`; it is the most recently used one."""
         if key in self._slot_of:
             self.drop(self._slot_of[key])
-        self.drop(slot)
+        if self.held[slot] is not None:
+            self.drop(slot)
         self.held[slot] = key
         self.held.move_to_end(slot)
         if not self._reuses:

@@ -74,12 +74,12 @@ def common_period_s(spots: Sequence[Spot]) -> float | None:
 def needs_responses(scene: Scene) -> bool:
     """Whether a scene can ask for more than entries of cells and what its spots play together: composing, on the device.
 
-    Otherwise each emission for a finger is alone and at full amplitude, and all spots have one period. What a command may ask for
-    is another matter.
+    Otherwise each emission for a finger is alone, at full amplitude and without quiet places, and all spots have one period. What a
+    command may ask for is another matter.
     """
     for region in scene.regions:
         trains = (*region.press, *region.release, *region.enter, *region.leave)
-        if region.felt and not region.alternate:
+        if region.felt and (region.quiet or not region.alternate):
             return True
         if any(train.amplitude != 1 or train.envelope for train in trains) or any(step.amplitude != 1 for step in region.spacings):
             return True

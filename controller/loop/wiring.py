@@ -75,7 +75,7 @@ def assemble(
     skips : Skips
         What of the work is left out: all that can be; less to measure what it saves.
     """
-    selection = Selection(bank, bank.snap_m(board) if skips.cells else -1.0, board.idle_word)
+    selection = Selection(bank, bank.snap_m(board) if skips.cells else -1.0, board.idle_word, ready=skips.cells)
     counters = Counters()
     clock_estimate = ClockEstimate(board.link.clock_hz)
     occupancy = Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty)
@@ -90,6 +90,7 @@ def assemble(
         clock_estimate,
         occupancy,
         source.predict,
+        down=source.down,
         slots=board.link.slots if slots is None else slots,
         timing=timing,
         counters=counters,

@@ -125,11 +125,11 @@ class ResponseModel:
     def entry_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """`drive_order_responses`, followed by what they leave out: responses outside the band, as means over 8 samples.
+        """`drive_order_responses`, followed by what they leave out: responses outside the band, as means over 4 samples.
 
         With the latter the displacement that bits give at a point is known to 1 %, not only in the band.
 
-        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 8 samples; what
+        Parameters (`points_m`, `out`, `dtype`), result and errors as in `responses`, with a further row for each 4 samples; what
         the last row has beyond the last sample is zero.
         """
         return self._responses(points_m, self.entry_kernel(dtype), out)

@@ -173,6 +173,20 @@ class PlateTwin:
                 self._exact.setdefault((point,), np.abs(self._amplitudes_of(in_band[alone], np.ones(1), whole[alone])))
         return self._exact[points_m]
 
+    def full_amplitudes(self, points_m: tuple[Point, ...]) -> Floats:
+        """What amplitude 1 means at each of `points_m` when less is asked of some, in m: (point,).
+
+        For one point its `reference_amplitude`. For several, the same share for all of what each gets alone in the band: the
+        largest that all can have. What bits do outside the band, which depends on the polarities of all points, is left out.
+        """
+        if len(points_m) == 1:
+            return self.exact_amplitudes(points_m)
+        in_band = self.responses.drive_order_responses(np.array(points_m), dtype=np.float64)
+        weights, sizes = balanced_weights(in_band), np.abs(in_band).sum(axis=(1, 2))
+        share = np.abs(np.tensordot(weights, in_band, 1)).sum() / (np.abs(weights) * sizes).sum()
+        levels: Floats = share * sizes * self.board.driver.supply_v / 2
+        return levels
+
     def _amplitudes_of(self, in_band: Reals, weights: Floats, whole: Reals) -> Floats:
         """Displacement at each point by the words that weighted responses give, from rest at the idle word."""
         words = focus(in_band, weights.tolist(), self.board.idle_word)

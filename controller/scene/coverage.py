@@ -15,7 +15,8 @@ FAR_M = 1e3  # beyond every plate
 def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0) -> NDArray[np.bool_]:
     """Cells that a scene can ask for: the four cells around every point where it may emit.
 
-    A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere.
+    A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere, and the
+    fingers that a region keeps still may be anywhere.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, ma
     )
     needed = np.zeros(len(points_m), bool)
     for region in scene.regions:
-        if region.leave:
+        if region.leave or region.quiet:
             needed[:] = True
         elif region.felt:
             needed |= region.shape.meets(wide)

@@ -33,6 +33,8 @@ class Emission(NamedTuple):
         The emission is number `beat`, from 0, of a train with this period; period 0: it is a single emission.
     alternate : bool
         It is to be played alone, in turn with others, not composed with them.
+    quiet : bool
+        Other fingers are to be kept still meanwhile.
     """
 
     time_s: FpgaTime
@@ -46,9 +48,10 @@ class Emission(NamedTuple):
     beat: int = 0
     period_s: float = 0.0
     alternate: bool = False
+    quiet: bool = False
 
 
-_Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool]
+_Fields = tuple[FpgaTime, float, float, int | None, str, float, int | str, int, int, float, bool, bool]
 new_emission: Final[Callable[[_Fields], Emission]] = partial(tuple.__new__, Emission)
 """An `Emission` of a tuple of all its fields, at a third of the instructions: without the function that its class has for it."""
 

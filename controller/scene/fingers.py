@@ -119,7 +119,7 @@ class ActiveEffects:
             if not amplitude:
                 return ()
             inside = scene.regions[index]
-            at = time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate
+            at = time_s, x_m, y_m, self.finger, inside.name, amplitude, self.owner, 0, 0, 0.0, inside.alternate, inside.quiet
             return (new_emission(at),)
         self._enter(index)
         emission = None
@@ -236,14 +236,14 @@ class ActiveEffects:
         beat, amplitude = train.take(until_s)
         if beat == NO_BEAT:
             return None
-        name, alternate = train.effect, False
+        name, alternate, quiet = train.effect, False, False
         if train.region != COMMAND:
             region = self._scene.regions[train.region]
-            name, alternate = region.name, region.alternate
+            name, alternate, quiet = region.name, region.alternate, region.quiet
         period_s, ticket = train.train.period_s, train.ticket
         train.ticket = 0
         time_s = train.first_s + beat * period_s
-        at = time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, beat, period_s, alternate
+        at = time_s, self.x_m, self.y_m, self.finger, name, amplitude, self.owner, ticket, beat, period_s, alternate, quiet
         return new_emission(at)
 
     def _add(self, train: ActiveTrain) -> None:
@@ -262,7 +262,9 @@ def _strongest(one: Emission, other: Emission) -> Emission:
     strong, weak = (one, other) if one.amplitude >= other.amplitude else (other, one)
     if strong.period_s == 0.0 and weak.period_s:
         strong = strong._replace(beat=weak.beat, period_s=weak.period_s)
-    return strong._replace(alternate=True) if weak.alternate else strong
+    if weak.alternate or weak.quiet:
+        strong = strong._replace(alternate=strong.alternate or weak.alternate, quiet=strong.quiet or weak.quiet)
+    return strong
 
 
 def _at_most_one(emission: Emission | None) -> tuple[Emission, ...]:

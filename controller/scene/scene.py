@@ -63,6 +63,7 @@ class Region(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
     spot: Spot | None = None
     alternate: bool = False
     keep_armed: bool = False
+    quiet: bool = False
 
     @property
     def felt(self) -> bool:
@@ -190,6 +191,7 @@ def _region(region: CheckedRegion) -> Region:
         spot=spot,
         alternate=alternate,
         keep_armed=table.keep_armed,
+        quiet=table.quiet_for == "others",
     )
 
 

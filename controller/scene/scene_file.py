@@ -125,6 +125,11 @@ def _check_effects(key: str, region: AnyRegionTable, effects: tuple[EffectTable,
             raise ConfigError(f'{at} has when = "command": an application plays it, no region does; keep it in [effects]')
         if "always" in effect.occasions and any("always" in other.occasions for other in effects[:number]):
             raise ConfigError(f"{at}: region {region.name!r} has a spot already; give each spot a region")
+        if "always" in effect.occasions and region.quiet_for == "others":
+            raise ConfigError(
+                f'{at} has when = "always" in a region with quiet_for = "others": a spot repeats without knowing where fingers are;'
+                " leave quiet_for out, or give the spot a region of its own"
+            )
         if effect.strength * region.amplitude < MIN_AMPLITUDE * (1 - ROUNDING):
             raise ConfigError(
                 f"{at}: amplitude {effect.strength:g} in a region of amplitude {region.amplitude:g} is"

@@ -26,6 +26,9 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
         Factor of the amplitudes of its effects.
     policy
         `compose`: what it plays is composed with what is due elsewhere; `alternate`: it is played alone, at full amplitude.
+    quiet_for
+        `others`: while its effects play for a finger, up to four other fingers on the glass, 5 mm away or more, are kept still, for
+        some percent of the amplitude. Not for spots.
     keep_armed
         The first touch in it is felt at once: the board's `idle_disarm_s` has no effect on this scene.
     """
@@ -34,6 +37,7 @@ class RegionTable(Record, frozen=True, kw_only=True, tag_field="shape"):
     effects: tuple[str | EffectTable, ...]
     amplitude: Amplitude = 1.0
     policy: Literal["compose", "alternate"] = "compose"
+    quiet_for: Literal["nobody", "others"] = "nobody"
     keep_armed: bool = False
 
 

@@ -86,6 +86,10 @@ class Overheard:
         self.since_s = min(self._down.values(), default=NEVER)
         return ()
 
+    def down(self) -> tuple[int, ...]:
+        """No finger."""
+        return ()
+
     def predict(self, _finger: int, _at_s: float) -> None:
         """None: there are no fingers."""
 

@@ -21,7 +21,7 @@ from controller.errors import ControllerError
 from controller.scene.scene import Region, Scene, SpatialIndex
 from controller.scene.trains import Train
 
-VERSION = 1  # of the layout: raise it when a type in a message changes
+VERSION = 2  # of the layout: raise it when a type in a message changes
 MAGIC = b"HPsc"
 HEADER = struct.Struct("<4sIII")
 MOST_BYTES = 1 << 18  # behind the header: 2,000 regions, which the loop checks and takes over in 2 ms

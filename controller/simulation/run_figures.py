@@ -54,6 +54,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "due": counters.due,
         "foci": counters.foci,
         "composed_beforehand": counters.composed_beforehand,
+        "kept_still": counters.kept_still,
         "prefetched": counters.prefetched,
         "prefetch_wasted": counters.prefetch_wasted,
         "near": counters.near,

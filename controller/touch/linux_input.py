@@ -105,7 +105,8 @@ class LinuxInput:
                     self._begin = self._end = 0
                     return self._lost(now_s) if self._opened is None else events
                 begin = 0
-            second, microsecond, kind, code, value = unpack(buffer, begin)
+            event: tuple[int, int, int, int, int] = unpack(buffer, begin)
+            second, microsecond, kind, code, value = event
             begin += EVENT_BYTES
             if kind == EV_SYN and code == SYN_DROPPED:
                 self.warnings["dropped"] += 1

@@ -8,7 +8,7 @@ then calls `read`.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Final, NamedTuple, Protocol
@@ -119,6 +119,9 @@ class TouchSource(Protocol):
 
 class TrackedTouch(TouchSource, Protocol):
     """A source behind the tracker: confirmed fingers with predicted positions."""
+
+    def down(self) -> Sequence[int]:
+        """Numbers of the fingers that are down."""
 
     def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """Predict the position of a finger.

@@ -187,6 +187,10 @@ class Tracker:
             self.rate.pause()
         return tuple(out)
 
+    def down(self) -> tuple[int, ...]:
+        """Numbers of the fingers that are down; see `TrackedTouch.down`."""
+        return tuple(self._fingers)
+
     def predict(self, finger: int, at_s: float) -> tuple[float, float] | None:
         """(x_m, y_m) of `finger` at `at_s`, clamped to the plate; None once it is released. See `TrackedTouch.predict`."""
         contact = self._fingers.get(finger)

@@ -41,6 +41,7 @@ LEVELS = 64  # to which relaxed levels are rounded before they become bits
 STEPS_BEFORE_WEIGHING = 5  # relaxation steps between two corrections of the weight of the amplitude
 SAMPLES_AT_ONCE = 20  # after which the audible spectrum is brought up to date
 FLIPS_PER_SAMPLE = 3  # of one cell in one pass of the descent
+LEAST_SHARE, MOST_SHARE = 0.8, 1.25  # of the plain amplitude; what is beyond was no good start (points that hardly move)
 CALMER = 4.0  # an entry that switches too often is improved again, edges costing so many times as much
 CALMING_PASSES = 4
 CELLS_AT_ONCE = 32  # at most, and as many as fit into
@@ -148,8 +149,8 @@ class Descent:
     def entries(self, points_m: ArrayLike) -> NDArray[np.uint32]:
         """Drive words of each of `points_m`, (point, 2), alone: (point, sample).
 
-        Where nothing can be gained (a point that does not move), or edges would be more than the board's `limits.max_edge_rate_hz`
-        allows, it is the plain waveform.
+        Where nothing can be gained (a point that does not move), the amplitude would be another, or edges would be more than the
+        board's `limits.max_edge_rate_hz` allows, it is the plain waveform.
         """
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         found = np.empty((len(points), self._model.samples), np.uint32)
@@ -172,7 +173,8 @@ class Descent:
                     break
                 cells.edge[busy] = np.maximum(cells.edge[busy], self._least_edge_cost(cells)[busy]) * CALMER
                 self._pass(cells, levels)
-            fit = self._own_edges(levels).max(axis=1) <= self._most_edges
+            share = _dot(cells.shapes, self._field.modal(levels)) / cells.amplitude
+            fit = (self._own_edges(levels).max(axis=1) <= self._most_edges) & (share >= LEAST_SHARE) & (share <= MOST_SHARE)
             bits = levels.transpose(1, 0, 2)[fit].astype(np.uint8)
             packed = np.packbits(bits, axis=2, bitorder="little").view("<u4")[:, :, 0]
             words[good[fit]] = packed

@@ -43,8 +43,8 @@ class Composer:
         if bank.samples > MAX_SAMPLES:
             raise BankError(f"{bank.path}: waveforms of {bank.samples} samples cannot be composed, at most {MAX_SAMPLES}")
         grid = bank.grid
-        eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.REST_SAMPLES)
-        block_samples = min(max(kernel.REST_SAMPLES * eights, kernel.REST_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
+        eights = round(BLOCK_S * bank.header.bit_clock_hz / kernel.GROUP_SAMPLES)
+        block_samples = min(max(kernel.GROUP_SAMPLES * eights, kernel.GROUP_SAMPLES), kernel.MAX_BLOCK_SAMPLES)
         self._bank = bank
         entries, scales, self._good = bank.response_tables()
         self._plan = kernel.PLAN.pack(
@@ -68,8 +68,7 @@ class Composer:
         """Drive words that make every point jump at T, up or down, whichever lets all of them jump farther.
 
         Points within 2.8 mm of each other (at the simulated board's wavelength) are one place and get the smallest of their
-        amplitudes; some millimetres farther they may differ the more, the farther they are apart. No point gets more than it
-        asks for.
+        amplitudes. No point gets more than it asks for.
 
         Parameters
         ----------
@@ -93,3 +92,27 @@ class Composer:
         while (cell := kernel.compose(words, room, plan, entries, scales, self._good, bank.responses, points)) >= 0:
             bank.check_response(cell)
         return self._view
+
+    def keep_still(self, points: Sequence[Point], quiet: Sequence[Point]) -> None:
+        """Change the words that `compose` gave for these points, so that other places stay still near T.
+
+        Parameters
+        ----------
+        points : sequence of (x_m, y_m, amplitude)
+            As composed.
+        quiet : sequence of (x_m, y_m, amplitude)
+            At most `MAX_QUIET`, of any amplitude above 0; those without responses in the bank are left out.
+
+        Raises
+        ------
+        BankError
+            If a response is damaged.
+        ValueError
+            If there are too many places, or numbers that are not finite or beyond their range.
+        """
+        words, room, plan, entries, scales, bank = self._words, self._room, self._plan, self._entries, self._scales, self._bank
+        there = [place for place in quiet if bank.has_responses(place[0], place[1])]
+        if not there:
+            return
+        while (cell := kernel.quieten(words, room, plan, entries, scales, self._good, bank.responses, points, there)) >= 0:
+            bank.check_response(cell)

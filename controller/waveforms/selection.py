@@ -17,6 +17,7 @@ from controller.bank.grid import TO_WHOLE
 from controller.bank.reader import Bank
 from controller.errors import BankError
 from controller.fpga.frames import ReadyFrames, Waveform
+from controller.kernel import MAX_QUIET
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
 
@@ -25,6 +26,8 @@ REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as wel
 
 LatticePoint = tuple[int, int, int]  # x and y in lattice steps, amplitude in its steps below full
 Key = int | tuple[LatticePoint, ...]  # a cell, or points on the lattice
+QUIET: Final = -1  # in place of a step of amplitude: a place that is kept still
+QUIET_APART_M: Final = 5e-3  # a place nearer to a focus than this cannot be kept still, at least not for a bearable loss
 
 
 class Selection:
@@ -38,10 +41,13 @@ class Selection:
         A single point of full amplitude at most this far from a cell's centre plays that cell.
     idle_word : int
         Level of each channel at rest: bit q is channel q.
+    ready : bool
+        False: what the bank has composed beforehand is composed all the same.
     """
 
-    def __init__(self, bank: Bank, snap_m: float, idle_word: int) -> None:
+    def __init__(self, bank: Bank, snap_m: float, idle_word: int, *, ready: bool = True) -> None:
         self._bank = bank
+        self._compositions = bank.compositions if ready else {}
         self._snap_m = snap_m
         self._idle_word = idle_word
         self._composer: Composer | None = None
@@ -88,6 +94,27 @@ class Selection:
             return ((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step),)
         return lattice_key(points)
 
+    def quiet_key(self, points: Sequence[Point], places: Sequence[tuple[float, float]]) -> Key:
+        """Name of the waveform for points that leaves other places (x_m, y_m) still, at most four: those nearest to a point.
+
+        Places within 5 mm of a point are left as they are.
+
+        Raises
+        ------
+        ValueError
+            If an amplitude is not above 0 and at most 1.
+        """
+        apart = []
+        for x_m, y_m in places:
+            distance_m = min([math.hypot(x_m - to_x_m, y_m - to_y_m) for to_x_m, to_y_m, _ in points])
+            if distance_m >= QUIET_APART_M:
+                apart.append((distance_m, x_m, y_m))
+        if not apart:
+            return self.key(points)
+        apart.sort()
+        still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_QUIET]])
+        return (*lattice_key(points), *[(x, y, QUIET) for x, y, _ in still])
+
     def waveform(self, key: Key) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
 
@@ -101,12 +128,15 @@ class Selection:
         """
         if isinstance(key, int):
             return ReadyFrames(*self._bank.frames(key))
-        if key in self._bank.compositions:
+        if key in self._compositions:
             with contextlib.suppress(BankError):
                 return ReadyFrames(*self._bank.composed(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
-        words = self._composer.compose([(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key])
+        points = [(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key if step != QUIET]
+        words = self._composer.compose(points)
+        if len(points) < len(key):
+            self._composer.keep_still(points, [(x * LATTICE_M, y * LATTICE_M, 1.0) for x, y, step in key if step == QUIET])
         self._bank.require_unchanged()
         return words
 

@@ -70,7 +70,7 @@ def test_verify_names_the_place_of_the_first_damage(bank_path):
     with Bank.open(bank_path) as bank:
         drive, response = bank.sections["drive"], bank.sections["response"]
     in_entry_1 = response.offset + response.stride + 5
-    assert f"bytes {response.offset + 384} to {response.offset + 735}: response of entry 1 (cell 2)" in refusal(
+    assert f"bytes {response.offset + 384} to {response.offset + 767}: response of entry 1 (cell 2)" in refusal(
         bank_path, 8 * in_entry_1
     )
     gap = drive.offset + drive.stride - 1

@@ -46,7 +46,7 @@ def board():
 
 @pytest.fixture(autouse=True)
 def two_pitches(monkeypatch):
-    monkeypatch.setattr(module, "PITCHES_MM", (1.5, 4.0))
+    monkeypatch.setattr(module, "PITCHES_MM", (1.25, 4.0))
 
 
 def chosen(board, name):
@@ -58,8 +58,8 @@ def test_shipped_scenes_get_different_banks_for_a_reason(board):
     everything, keyboard, spots = (chosen(board, name) for name in ("scene", "keyboard", "spots"))
     assert (everything["pitch_mm"], everything["composes"]) == (4.0, True), "fingers between cells, several at once"
     assert 0 < everything["snap_mm"] < 2.0, "cells are played as near as the bound allows"
-    assert (keyboard["pitch_mm"], keyboard["composes"]) == (1.5, False), "keys are felt one after the other, in full"
-    assert keyboard["snap_mm"] > 1.5, "the nearest cell serves wherever the finger is"
+    assert (keyboard["pitch_mm"], keyboard["composes"]) == (1.25, False), "keys are felt one after the other, in full"
+    assert keyboard["snap_mm"] > 1.25, "the nearest cell serves wherever the finger is"
     assert not spots["composes"], "what they play together is composed beforehand"
     assert spots["bytes"] < keyboard["bytes"] < everything["bytes"]
     for told in (everything, keyboard, spots):
@@ -96,6 +96,13 @@ def test_a_setting_is_beaten_by_one_that_is_as_good_in_all_and_better_in_one():
 @pytest.mark.parametrize(("name", "needed"), [("scene", True), ("library", True), ("keyboard", False), ("spots", False)])
 def test_a_scene_needs_responses_if_it_can_ask_for_anything_between_cells(board, name, needed):
     assert needs_responses(load_scene(SIMULATED / f"{name}.toml", board)) is needed
+
+
+def test_places_kept_still_need_responses(tmp_path):
+    board, file = small_board(), tmp_path / "keys.toml"
+    for more, needed in (("", False), ('quiet_for = "others"\n', True)):
+        file.write_text(KEYS.replace('policy = "alternate"\n', f'policy = "alternate"\n{more}'))
+        assert needs_responses(load_scene(file, board)) is needed
 
 
 def test_commands_can_ask_for_anything_so_a_board_with_a_socket_gets_responses(tmp_path):

@@ -1,11 +1,11 @@
 import msgspec
-import numpy as np
 import pytest
 
+from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, verify_bank
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.bank_builder.compositions import played_together
+from controller.bank_builder.compositions import compositions, played_together
 from controller.errors import ConfigError
 from controller.fpga.frames import ReadyFrames
 from controller.kernel import unpack_loads
@@ -93,8 +93,9 @@ def test_a_spot_that_nothing_can_move_is_refused(board, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_the_bank_of_a_spot_on_a_cell_has_its_entry_and_no_composition(board, tmp_path, built):
-    with Bank.open(built[1], board) as bank:
-        place = bank.grid.place(7)
-    build_bank(board, tmp_path / "bank", PITCH_M, np.arange(15) == 7, spots=[Spot(*place, 20.0, "cell")], measure_sgemm=False)
-    assert bank_info(tmp_path / "bank")["compositions"] == 0
+def test_the_bank_of_a_spot_on_a_cell_has_its_entry_and_no_composition(board):
+    grid = Grid.of(board.plate, PITCH_M)
+    model = ResponseModel(board)
+    assert compositions(board, grid, model, [Spot(*grid.place(7), 20.0, "cell")]) == []
+    ((key, _),) = compositions(board, grid, model, [Spot(*grid.place(7), 20.0, "cell", 0.5)])
+    assert [step for _, _, step in key] == [16]

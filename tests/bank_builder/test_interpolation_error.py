@@ -45,8 +45,8 @@ def test_the_error_grows_from_nothing_to_everything_with_the_pitch(board, model)
     fine, middle, coarse = (error(board, model, pitch_m) for pitch_m in (2.5e-3, 5e-3, 10e-3))
     assert abs(np.median(fine.interpolated)) < 0.005
     assert fine.interpolated.max() < 0.02
-    assert 0.05 < np.median(middle.interpolated) < 0.1
-    assert np.median(coarse.interpolated) > 0.9, "next to nothing is left at 10 mm"
+    assert 0.05 < np.median(middle.interpolated) < 0.15
+    assert np.median(coarse.interpolated) > 0.8, "a fifth at most is left at 10 mm"
     assert fine.nearest.max() > 5 * fine.interpolated.max()
     assert fine.distance_m.max() <= 2.5e-3 * 0.5**0.5
     assert np.array_equal(fine.within(10.0), fine.nearest)

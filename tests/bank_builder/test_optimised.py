@@ -15,6 +15,7 @@ from controller.bank.reader import Bank
 from controller.bank_builder import optimised
 from controller.bank_builder.build import build_bank
 from controller.bank_builder.optimised import Workers, compute
+from controller.cli import main
 from controller.commands import bank as bank_commands
 from controller.errors import BankError, UsageError
 from controller.waveform_design.descent import AIMS
@@ -68,6 +69,18 @@ def test_who_replaces_an_optimised_bank_by_a_plain_one_is_told(banks, monkeypatc
     said = capsys.readouterr().err
     assert "lacks 19 cells" in said
     assert said.endswith("--optimise contrast\n")
+
+
+@pytest.mark.parametrize("arguments", [["--workers", "2"], ["--dask", "tcp://h:1"], ["--optimise", "quiet", "--workers", "0"]])
+def test_options_that_do_not_go_together_are_a_usage_error(arguments, capsys):
+    assert main(["bank", "build", *arguments]) == 2
+    assert "--workers" in capsys.readouterr().err
+
+
+def test_every_aim_can_be_asked_for(capsys):
+    with pytest.raises(SystemExit):
+        main(["bank", "build", "--help"])
+    assert f"--optimise {{{','.join(AIMS)}}}" in capsys.readouterr().out
 
 
 def test_an_interrupted_build_leaves_the_old_bank_and_goes_on_where_it_was(banks, tmp_path, monkeypatch):

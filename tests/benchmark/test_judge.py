@@ -60,6 +60,9 @@ def test_an_emission_that_is_shorter_starts_later(small_board, judge, small_mode
     words = SignOfSum(small_board, small_model).design([(*PLACES[0], 1.0)]).words
     losses = [judge.errors(still("one", PLACES[:1], QUIET), [words[start:]], [False])[0]["loss"] for start in (187, 125, 0)]
     assert losses[0] > losses[1] > losses[2]
+    late, whole = judge.errors(still("one", PLACES[:1], QUIET), [words[125:], words], [False, False])
+    assert whole["felt_loss"] == pytest.approx(0, abs=1e-12)  # the best of those compared
+    assert late["felt_loss"] == pytest.approx(losses[1], abs=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 3])

@@ -8,6 +8,7 @@ from controller.bank.reader import Bank
 from controller.benchmark import slow_hosts
 from controller.benchmark.slow_host import LATE_S, moving, run_slow, scene_of
 from controller.benchmark.slow_hosts import TRAIN, aim_errors, rates
+from controller.touch.recording import Recording
 
 LATE_PERCENT = {140: 0.5, 220: 0.5, 550: 2.0, 1300: 5.0}  # of the beats, at most, by the median host time in µs
 
@@ -26,6 +27,13 @@ def run(board, bank_file):
 def test_few_beats_are_late_on_a_slow_host(run, p50_us, fingers):
     done = run(p50_us, moving(10.0, fingers))
     assert len(done.late) >= 500 * fingers
+    assert 100 * sum(done.late) <= LATE_PERCENT[p50_us] * len(done.late)
+
+
+@pytest.mark.parametrize("p50_us", [550, 1300])
+def test_few_beats_of_five_trains_at_once_are_late_where_each_cannot_have_an_upload(run, board, p50_us):
+    done = run(p50_us, Recording.open(board.beside(board.touch.recording)))
+    assert len(done.late) >= 400
     assert 100 * sum(done.late) <= LATE_PERCENT[p50_us] * len(done.late)
 
 

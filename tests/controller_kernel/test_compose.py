@@ -26,7 +26,7 @@ def buffers(random, samples, nx, ny, idle_word, block, *, missing=0.0, largest=1
     there = random.random(nx * ny) >= missing
     entries = np.where(there, np.cumsum(there) - 1, -1).astype(np.int32)
     count = max(int(there.sum()), 1)
-    values = (samples + -(-samples // 8)) * 32
+    values = (samples + -(-samples // words_twin.REST_SAMPLES)) * 32
     stride = -(-values // 64) * 64
     levels = random.integers(-largest, largest + 1, (count, stride), endpoint=False).astype(np.int8)
     levels[random.random(levels.shape) < quiet] = 0
@@ -94,7 +94,7 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idl
 @given(st.data())
 def test_it_refuses_what_its_twin_refuses(data):
     """Numbers of the plan, lengths and points that do not go together: the same answer, and nothing beyond a buffer."""
-    numbers = [40, 45 * 32, 3, 3, 9, 0x69969669, 48]
+    numbers = [40, 50 * 32, 3, 3, 9, 0x69969669, 48]
     at = data.draw(st.integers(0, 6))
     numbers[at] = data.draw(st.one_of(st.integers(-(1 << 63), (1 << 63) - 1), st.integers(numbers[at] - 40, numbers[at] + 40)))
     floats = [data.draw(st.sampled_from([PITCH_M, PITCH_M, PITCH_M, 0.0, -1.0, math.nan, math.inf, 1e-310])), 5e-3, 6e-3]
@@ -134,7 +134,7 @@ def test_lengths_that_cannot_be_composed_are_refused(one, samples):
 @pytest.mark.parametrize("which", range(7))
 def test_a_buffer_that_is_too_short_is_refused(one, which):
     made = buffers(np.random.default_rng(0), 40, 3, 2, 0, 48)
-    made[which] = bytearray(made[which])[: 44 * 32 + 5 * 45 * 32 if which == 6 else -1]
+    made[which] = bytearray(made[which])[: 49 * 32 + 5 * 50 * 32 if which == 6 else -1]
     with pytest.raises(ValueError, match=r"fit|room|plan"):
         one.compose(*made, [(5e-3, 6e-3, 1.0), (5e-3 + 2 * PITCH_M, 6e-3 + PITCH_M, 1.0)])
 

@@ -27,9 +27,7 @@ def outcome(one, given_buffers, points, quiet):
     return answer, bytes(words)
 
 
-@needs_compiled
-@settings(max_examples=150, deadline=None)
-@given(
+CASES = dict(  # noqa: C408 (as arguments of `given`)
     seed=st.integers(0, 1 << 32),
     samples=st.one_of(st.integers(1, 120), st.sampled_from([999, 1000])),
     size=st.tuples(st.integers(1, 5), st.integers(1, 5)),
@@ -46,6 +44,11 @@ def outcome(one, given_buffers, points, quiet):
     quiet=st.lists(st.one_of(places, on_cells), min_size=1, max_size=4),
     composed=st.booleans(),
 )
+
+
+@needs_compiled
+@settings(max_examples=40, deadline=None)
+@given(**CASES)
 def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idle_word, block, bank, points, quiet, composed):
     random = np.random.default_rng(seed)
     given_buffers = buffers(random, samples, *size, idle_word, block, **bank)
@@ -53,6 +56,14 @@ def test_the_compiled_kernel_gives_the_bits_of_its_twin(seed, samples, size, idl
     if composed:
         kernel.compose(*given_buffers, points)
     assert outcome(compiled, given_buffers, points, quiet) == outcome(quiet_twin, given_buffers, points, quiet)
+
+
+@pytest.mark.slow
+@needs_compiled
+@settings(max_examples=1500, deadline=None)
+@given(**CASES)
+def test_the_compiled_kernel_gives_the_bits_of_its_twin_in_many_cases(**case):
+    test_the_compiled_kernel_gives_the_bits_of_its_twin.hypothesis.inner_test(**case)
 
 
 @pytest.mark.parametrize("one", [quiet_twin, pytest.param(compiled, marks=needs_compiled)], ids=["twin", "compiled"])

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from controller.loop.batching import MAX_FOCI, MERGE_RADIUS_M, SEPARATION_M, select_batch
+from controller.loop.batching import CROWD_M, MAX_FOCI, MAX_NEIGHBOURS, MERGE_RADIUS_M, SEPARATION_M, select_batch
 from controller.scene.emission import Emission
 
 T_S = 2e-3
@@ -37,19 +37,13 @@ def test_alternating_emissions_go_alone_and_the_others_do_not_take_them_along():
 
 
 @pytest.mark.parametrize(
-    ("apart_m", "both"),
-    [
-        (0.0, True),
-        (0.99 * MERGE_RADIUS_M, True),
-        (1.01 * MERGE_RADIUS_M, False),
-        (0.99 * SEPARATION_M, False),
-        (1.01 * SEPARATION_M, True),
-    ],
+    ("apart_m", "unlike"), [(0.0, False), (0.99 * SEPARATION_M, False), (1.01 * SEPARATION_M, True), (9e-3, True)]
 )
 @pytest.mark.parametrize("angle", [0.0, 1.0, 2.5])
-def test_two_foci_are_one_place_or_apart_or_take_turns(apart_m, both, angle):
+def test_two_near_foci_are_played_together_if_they_can_have_what_they_ask_for(apart_m, unlike, angle):
     x_mm, y_mm = 60 + apart_m * 1e3 * math.cos(angle), 70 + apart_m * 1e3 * math.sin(angle)
-    assert chosen_of(emission("a", 60), emission("b", x_mm, y_mm=y_mm)) == (["a", "b"] if both else ["a"])
+    assert chosen_of(emission("a", 60), emission("b", x_mm, y_mm=y_mm)) == ["a", "b"]
+    assert chosen_of(emission("a", 60), emission("b", x_mm, y_mm=y_mm, amplitude=0.5)) == (["a", "b"] if unlike else ["a"])
 
 
 def test_one_place_cannot_have_two_amplitudes_at_once():
@@ -58,7 +52,19 @@ def test_one_place_cannot_have_two_amplitudes_at_once():
 
 
 def test_an_emission_too_near_a_chosen_one_waits_and_the_next_is_chosen():
-    assert chosen_of(emission("a", 60), emission("b", 65), emission("c", 100), emission("d", 104)) == ["a", "c"]
+    due = emission("a", 60), emission("b", 63, amplitude=0.5), emission("c", 100), emission("d", 103, amplitude=0.5)
+    assert chosen_of(*due) == ["a", "c"]
+
+
+def test_of_a_crowd_each_has_three_others_near_and_the_rest_waits():
+    square = [emission("a", 60), emission("b", 64), emission("c", 60, y_mm=74), emission("d", 64, y_mm=74)]
+    assert chosen_of(*square, emission("e", 62, y_mm=77), emission("f", 100)) == ["a", "b", "c", "d", "f"]
+    star = [emission(f"star {k}", 60 + 5 * math.cos(k * 2.1), y_mm=70 + 5 * math.sin(k * 2.1)) for k in range(3)]
+    assert chosen_of(emission("middle", 60), *star, emission("late", 60.1, y_mm=64)) == ["middle", "star 0", "star 1", "star 2"]
+
+
+def test_ten_foci_on_one_place_are_no_crowd():
+    assert len(chosen_of(*[emission(k, 60 + 0.1 * k) for k in range(10)])) == 10
 
 
 def test_ten_foci_are_one_waveform_and_the_eleventh_waits():
@@ -95,15 +101,26 @@ def test_no_owner_starves_whatever_the_others_do(trains, turn_ms):
             assert waited[e.owner] < len(trains)
 
 
-@given(st.lists(st.tuples(places, st.floats(0, 5), st.booleans()), min_size=1, max_size=14), st.integers(1, 10))
+near_places = st.tuples(st.floats(60, 75), st.floats(60, 75))
+
+
+@given(
+    st.lists(
+        st.tuples(st.one_of(places, near_places), st.floats(0, 5), st.booleans(), st.sampled_from([1.0, 1.0, 0.5])),
+        min_size=1,
+        max_size=14,
+    ),
+    st.integers(1, 10),
+)
 def test_every_batch_keeps_the_rules_and_no_emission_is_lost(wanted, max_foci):
-    due = [emission(k, x, at, y_mm=y, alternate=alone) for k, ((x, y), at, alone) in enumerate(wanted)]
+    due = [emission(k, x, at, y_mm=y, alternate=alone, amplitude=a) for k, ((x, y), at, alone, a) in enumerate(wanted)]
     chosen, rest = select_batch(due, T_S, max_foci)
     assert sorted((*chosen, *rest), key=lambda e: e.owner) == due
     assert chosen[0] is due[0]
     assert len(chosen) <= max_foci
     assert all(e.time_s <= chosen[0].time_s + T_S for e in chosen)
-    for k, one in enumerate(chosen):
-        for other in chosen[:k]:
-            apart_m = math.dist((one.x_m, one.y_m), (other.x_m, other.y_m))
-            assert apart_m <= MERGE_RADIUS_M * 1.0001 or apart_m >= SEPARATION_M * 0.9999
+    for one in chosen:
+        apart_m = [math.dist((one.x_m, one.y_m), (other.x_m, other.y_m)) for other in chosen]
+        assert sum(MERGE_RADIUS_M * 1.0001 < apart < CROWD_M * 0.9999 for apart in apart_m) <= MAX_NEIGHBOURS
+        for other, apart in zip(chosen, apart_m, strict=True):
+            assert one.amplitude == other.amplitude or apart >= SEPARATION_M * 0.9999

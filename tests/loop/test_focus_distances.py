@@ -1,40 +1,68 @@
-"""Why two foci are one place, apart, or take turns: what each of them gets of what it would get alone."""
+"""Why near foci are played together, and which are not: what each of them gets of what it would get alone."""
 
 import numpy as np
 import pytest
 
 from controller.loop.batching import MERGE_RADIUS_M, SEPARATION_M
+from controller.physics.focusing import balanced_weights
 from controller.physics.impulse_response import ResponseModel
+
+AWAY_M = 0.03  # from the sides
 
 
 @pytest.fixture(scope="module")
-def shares(board):
-    """Median over pairs of the worse focus's share, by distance in mm."""
-    model, rng = ResponseModel(board), np.random.default_rng(1)
-    margin_m = 0.03
-    places = rng.uniform([margin_m] * 2, [board.plate.length_m - margin_m, board.plate.width_m - margin_m], (6, 2))
-    angles = rng.uniform(0, 2 * np.pi, 6)
+def model(board):
+    return ResponseModel(board)
 
-    def worse(apart_m):
+
+@pytest.fixture(scope="module")
+def centres(board):
+    random = np.random.default_rng(1)
+    return random.uniform([AWAY_M] * 2, [board.plate.length_m - AWAY_M, board.plate.width_m - AWAY_M], (6, 2)), random.uniform(
+        0, 7, 6
+    )
+
+
+@pytest.fixture(scope="module")
+def worst_share(model, centres):
+    """Of foci around some places: the least that one of them gets when they are composed exactly."""
+
+    def least(pattern_m):
         found = []
-        for place, angle in zip(places, angles, strict=True):
-            half = apart_m / 2 * np.array([np.cos(angle), np.sin(angle)])
-            responses = model.drive_order_responses(np.array([place - half, place + half]), dtype=np.float64)
-            alone = np.abs(responses).sum((1, 2))
-            signs = np.sign((responses / alone[:, None, None]).sum(0))
-            found.append(((signs * responses).sum((1, 2)) / alone).min())
-        return float(np.median(found))
+        for place, angle in zip(*centres, strict=True):
+            turned = np.array(pattern_m) @ [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]
+            responses = model.drive_order_responses(place + turned, dtype=np.float64)
+            flat = responses.reshape(len(responses), -1)
+            found.append(np.abs(flat @ np.sign(balanced_weights(responses) @ flat) / np.abs(flat).sum(1)).min())
+        return min(found)
 
-    return worse
-
-
-def test_foci_within_the_merge_radius_and_beyond_the_separation_keep_their_amplitude(shares):
-    far = shares(0.04)
-    assert shares(MERGE_RADIUS_M) > 0.87
-    assert shares(SEPARATION_M) > 0.85 * far
+    return least
 
 
-def test_foci_between_merge_radius_and_separation_weaken_each_other(shares):
-    assert shares(0.9 * SEPARATION_M) < 0.85 * shares(0.04)
-    assert shares(7e-3) < 0.6
-    assert shares(1.6 * MERGE_RADIUS_M) < 0.8
+def pair(apart_m):
+    return [(-apart_m / 2, 0), (apart_m / 2, 0)]
+
+
+def lattice(columns, rows, apart_m):
+    return [((x - (columns - 1) / 2) * apart_m, (y - (rows - 1) / 2) * apart_m) for x in range(columns) for y in range(rows)]
+
+
+def test_two_foci_at_any_distance_get_nearly_what_two_far_ones_get(worst_share):
+    far = worst_share(pair(0.04))
+    assert far > 0.7
+    for apart_m in (MERGE_RADIUS_M, SEPARATION_M, 5e-3, 7e-3, 9e-3):
+        assert worst_share(pair(apart_m)) > 0.92 * far
+
+
+def test_so_do_small_groups_but_not_crowds(worst_share):
+    far = worst_share(lattice(2, 2, 0.03))
+    assert worst_share(lattice(2, 2, 5e-3)) > 0.9 * far
+    assert worst_share(lattice(3, 2, 3e-3)) < 0.5 * far
+
+
+def test_foci_nearer_than_the_separation_cannot_have_unlike_amplitudes(model, centres):
+    """One of them alone already moves the other by more than a quarter."""
+    for apart_m, moves in ((0.86 * SEPARATION_M, True), (1.3 * SEPARATION_M, False)):
+        responses = model.drive_order_responses(centres[0][0] + pair(apart_m), dtype=np.float64)
+        alone = np.sum(np.sign(responses[0]) * responses[1]) / np.abs(responses[1]).sum()
+        assert (alone > 0.25) == moves

@@ -213,22 +213,26 @@ def test_a_command_that_ends_before_its_first_emission_is_answered_once(schedule
     assert told == [(1, outcome, pytest.approx(0.003))]
 
 
-def test_spots_too_near_each_other_are_not_repeated_as_one_waveform(board, tmp_path, told):
+def test_spots_too_near_each_other_for_their_amplitudes_are_not_repeated_as_one_waveform(board, tmp_path, told):
     spots = "".join(
-        f'[[regions]]\nname = "{x_mm}"\nshape = "circle"\nx_mm = {x_mm}\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
-        for x_mm in (60, 66)
+        f'[[regions]]\nname = "{x_mm}"\nshape = "circle"\nx_mm = {x_mm}\ny_mm = 70\nradius_mm = 1\n'
+        f'effects = [{{ effect = "always", amplitude = {amplitude} }}]\n'
+        for x_mm, amplitude in ((60, 1.0), (63, 0.5))
     )
     (tmp_path / "spots.toml").write_text(spots)
     assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).spots.common_period_s is None
-    (tmp_path / "spots.toml").write_text(spots.replace("66", "80"))
+    (tmp_path / "spots.toml").write_text(spots.replace("63", "66"))
     assert scheduler_of(load_scene(tmp_path / "spots.toml", board), told).spots.common_period_s == 0.04
 
 
-@pytest.mark.parametrize(("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 1), (100, "alternate", 1)])
+@pytest.mark.parametrize(
+    ("finger_mm", "policy", "together"), [(100, "compose", 2), (65, "compose", 2), (62.5, "compose", 1), (100, "alternate", 1)]
+)
 def test_a_spot_due_with_a_finger_joins_its_batch_if_the_policy_allows(board, tmp_path, told, finger_mm, policy, together):
-    spot = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = ["always"]\n'
+    spot = '[[regions]]\nname = "spot"\nshape = "circle"\nx_mm = 60\ny_mm = 70\nradius_mm = 2\neffects = '
     (tmp_path / "spot.toml").write_text(
-        f'{spot}[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
+        f'{spot}[{{ effect = "always", amplitude = 0.5 }}]\n'
+        f'[[regions]]\nname = "all"\nshape = "plate"\neffects = ["click"]\npolicy = "{policy}"\n'
     )
     scheduler = scheduler_of(load_scene(tmp_path / "spot.toml", board), told)
     touch(scheduler, 3, finger_mm * 1e-3, 0.07, 1.0, True)

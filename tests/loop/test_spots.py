@@ -9,5 +9,5 @@ def test_only_spots_that_share_a_waveform_have_a_common_period():
     far = spot._replace(x_m=0.1, region="b")
     assert common_period_s([spot]) == common_period_s([spot, far]) == common_period_s([spot._replace(alternate=True)]) == 0.05
     assert common_period_s([]) is None
-    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.065}):
+    for changed in ({"rate_hz": 20.2}, {"phase": 0.5}, {"alternate": True}, {"x_m": 0.063, "amplitude": 0.5}):
         assert common_period_s([spot, far._replace(**changed)]) is None, changed

@@ -376,8 +376,8 @@ def test_a_value_that_cannot_be_is_refused_though_the_message_is_whole(board, fo
         lambda message: message[:10],
         lambda _: b"",
         lambda message: b"PK" + message[2:],
-        lambda message: framed(message[HEADER.size :], version=2),
-        lambda message: HEADER.pack(b"HPsc", 1, 0xFFFFFFFF, 0) + message[HEADER.size :],
+        lambda message: framed(message[HEADER.size :], version=scene_message.VERSION + 1),
+        lambda message: HEADER.pack(b"HPsc", scene_message.VERSION, 0xFFFFFFFF, 0) + message[HEADER.size :],
         lambda _: framed(b"\x90" * 5000),
         lambda _: framed(b"\x91" * 5000),
         lambda _: framed(b"\xdd\xff\xff\xff\xff"),
@@ -457,5 +457,5 @@ def test_whatever_the_helper_answers_the_loop_gets_a_scene_that_is_right_or_a_li
 
 
 def test_an_answer_that_says_it_is_too_large_is_refused_before_it_is_there(lied_to):
-    assert "too large" in lied_to(HEADER.pack(b"HPsc", 1, MOST_BYTES + 1, 0)).reason
-    assert "ends again and again" in lied_to(HEADER.pack(b"HPsc", 1, MOST_BYTES, 0) + b"not as much").reason
+    assert "too large" in lied_to(HEADER.pack(b"HPsc", scene_message.VERSION, MOST_BYTES + 1, 0)).reason
+    assert "ends again and again" in lied_to(HEADER.pack(b"HPsc", scene_message.VERSION, MOST_BYTES, 0) + b"not as much").reason

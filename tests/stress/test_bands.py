@@ -25,7 +25,7 @@ def with_band(board, low_hz, high_hz, bit_clock_hz, **plate):
 
 LONG = pytest.mark.stress
 BANDS = [
-    (1e3, 5e3, 100e3),
+    pytest.param((1e3, 5e3, 100e3), marks=LONG),
     pytest.param((20e3, 70e3, 500e3), marks=LONG),
     (105e3, 125e3, 500e3),
     pytest.param((200e3, 400e3, 2e6), marks=LONG),

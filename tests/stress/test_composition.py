@@ -186,7 +186,7 @@ def test_a_response_of_any_size_is_quantised_to_half_a_level_or_to_nothing(size)
 
 
 @needs_compiled
-@pytest.mark.parametrize("step_m", [1e-9, 1e-6, 0.1e-3])
+@pytest.mark.parametrize("step_m", [1e-9, *(pytest.param(step_m, marks=pytest.mark.stress) for step_m in (1e-6, 0.1e-3))])
 def test_across_the_borders_of_cells_the_displacement_does_not_jump(tmp_path, make_bank, waves, step_m):
     """Just left of a border and just right of it a finger gets the same, within what moving by so much does (a wave of 10 mm)."""
     grid = Grid(2.5e-3, 7, 6, X0_M, Y0_M)

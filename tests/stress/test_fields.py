@@ -40,9 +40,8 @@ def test_the_scale_of_the_shipped_boards_is_exactly_that_of_the_paper(board):
     assert LINE_M[-1] - LINE_M[0] == pytest.approx(12e-3)
 
 
-@pytest.mark.parametrize(
-    "thickness_mm", [pytest.param(0.1, marks=pytest.mark.stress), 5.0, pytest.param(20.0, marks=pytest.mark.stress)]
-)
+@pytest.mark.stress
+@pytest.mark.parametrize("thickness_mm", [0.1, 5.0, 20.0])
 def test_a_spot_is_as_wide_as_its_waves_and_measured_as_wide(board, thickness_mm):
     """A spot was never wider than 12 mm, and contrast began at 10 mm, on whatever plate."""
     larger = (thickness_mm / 0.5) ** 0.5  # the same modes at the same frequencies, only larger: k^2 goes with 1 / thickness
@@ -58,7 +57,31 @@ def test_a_spot_is_as_wide_as_its_waves_and_measured_as_wide(board, thickness_mm
 
 def test_the_window_of_time_goes_with_the_period_of_the_band(board):
     """Within 5 us of T a wave of 3 kHz has no peak."""
-    low = changed(board, waveform={"band_low_hz": 1e3, "band_high_hz": 5e3, "bit_clock_hz": 100e3, "duration_ms": 5.0})
+    low = changed(
+        board,
+        plate={"thickness_mm": 2.0},
+        waveform={"band_low_hz": 1e3, "band_high_hz": 5e3, "bit_clock_hz": 100e3, "duration_ms": 5.0},
+    )
     assert FocusScale.of(low).around_s[-1] == pytest.approx(5e-6 * 15, rel=1e-3)
     _, (row,) = focus_on(low, [POINT])
     assert abs(row["peak_offset_us"]) < 75
+
+
+@pytest.mark.parametrize("emissions", [20, pytest.param(1000, marks=pytest.mark.stress)])
+def test_the_state_of_the_twin_after_a_million_samples_is_the_sum_of_a_geometric_series(board, emissions):
+    """Emissions of 1,000 samples without a pause on a plate that rings for 10 s: each adds the same, and what was there decays.
+
+    The twin steps its state from emission to emission; a thousand steps round to 1e-13 of it, so 1e-9 is ample.
+    """
+    ringing = changed(board, plate={"decay_time_ms": 10e3})
+    twin, clock_hz = PlateTwin(ringing, FEW_HZ), ringing.link.clock_hz
+    words = np.random.default_rng(8).integers(0, 1 << 32, 1000, np.uint64).astype(np.uint32)
+    capture = capture_of_words(words, ringing.bit_ticks, ringing.idle_word, clock_hz // 50, ringing.emission_ticks, emissions)
+    states = [field.pole_amplitudes for field in twin.fields(capture, clock_hz)]
+    kept = np.exp(twin.step.poles * ringing.waveform.duration_s)
+    added, more = states[6] - kept * states[5], emissions - 7
+    expected = kept**more * states[6] + added * (1 - kept**more) / (1 - kept)
+    largest = np.abs(expected).max()
+    assert np.abs(states[-1] - expected).max() <= 1e-9 * largest
+    off = np.exp(twin.step.poles * (ringing.waveform.duration_s + 1e-9))
+    assert np.abs(off**more * states[6] + added * (1 - off**more) / (1 - off) - expected).max() > 1e-6 * largest

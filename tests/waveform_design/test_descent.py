@@ -1,4 +1,9 @@
 import dataclasses
+import os
+import platform
+import subprocess
+import sys
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -108,6 +113,41 @@ def test_products_of_rounded_numbers_do_not_depend_on_the_order_of_the_sum():
     assert np.array_equal(a @ b, np.stack([row @ b for row in a]))
     assert np.abs(a).max() < 8
     assert not np.array_equal(a / 3 @ b, a[:, order] / 3 @ b[order]), "the machine's order does show in others"
+
+
+def test_an_entry_keeps_about_the_amplitude_of_the_plain_one_or_is_that_one():
+    """In a band of few modes plain bits hardly move a point near the edge, and others move it ten times as much."""
+    board = msgspec.structs.replace(BOARD, waveform=msgspec.structs.replace(BOARD.waveform, band_low_hz=1e3, band_high_hz=5e3))
+    model = ResponseModel(board)
+    near_edge_m = np.array([(0.002, 0.002)])
+    plain = drive_words(model.drive_order_responses(near_edge_m, dtype=np.float64)[0], board.idle_word)
+    assert np.array_equal(Descent(board, model, AIMS["contrast"]).entries(near_edge_m)[0], plain)
+
+
+ELSEWHERE = """
+import sys, threadpoolctl
+import numpy as np
+sys.path.insert(0, sys.argv[1])
+from small_plate import small_board
+from controller.physics.impulse_response import ResponseModel
+from controller.waveform_design.descent import AIMS, Descent
+board = small_board()
+product = np.sin(np.arange(4e4)).reshape(200, 200)
+print({pool["architecture"] for pool in threadpoolctl.threadpool_info()}, (product @ product).tobytes().hex()[:2000])
+print(Descent(board, ResponseModel(board), AIMS["balanced"]).entries([(0.034, 0.031)]).tobytes().hex())
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="kernels of other x86 processors are asked for")
+def test_words_are_the_same_on_a_processor_with_other_vectors():
+    found = []
+    for other in ({}, {"OPENBLAS_CORETYPE": "Prescott", "OPENBLAS_NUM_THREADS": "2", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3"}):
+        command = [sys.executable, "-c", ELSEWHERE, Path(__file__).parent.parent]
+        done = subprocess.run(command, env=os.environ | other, capture_output=True, text=True, check=True)
+        found.append(done.stdout.splitlines())
+    assert found[0][0] != found[1][0], "an ordinary product does show the processor"
+    assert found[0][1] == found[1][1]
 
 
 def test_it_expects_what_the_plate_twin_measures(short):

@@ -45,6 +45,7 @@ def test_a_finger_beside_a_focus_feels_nothing(model):
     assert played_near_m(design.words, [POINT[:2]])[12, 0] == pytest.approx(design.displacement_m[0], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_what_it_expects_at_quiet_places_is_what_the_plate_does(model):
     design = ExactNulls(BOARD, model).design([POINT], QUIET)
     played_m = np.abs(played_near_m(design.words, QUIET)).max(axis=0)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from controller.bank.file_format import REST_SAMPLES
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, edges
 from controller.bank.reader import Bank
@@ -29,7 +30,7 @@ def responses(waves):
 def rests():
     """Outside the band there is more than within."""
     random = np.random.default_rng(8)
-    return {cell: 2e-9 * random.standard_normal((SAMPLES // 8, CHANNELS)) for cell in NUMBERS}
+    return {cell: 2e-9 * random.standard_normal((SAMPLES // REST_SAMPLES, CHANNELS)) for cell in NUMBERS}
 
 
 def write(make_bank, path, responses, **more):
@@ -50,7 +51,7 @@ def reached(responses, rests):
 
     def displacements(words, cells_m):
         deviation = channel_bits(np.frombuffer(words, "<u4")) - IDLE.astype(float)
-        sums = deviation.reshape(SAMPLES // 8, 8, CHANNELS).sum(axis=1)
+        sums = deviation.reshape(SAMPLES // REST_SAMPLES, REST_SAMPLES, CHANNELS).sum(axis=1)
         found = []
         for x_m, y_m in cells_m:
             cell, _ = GRID.nearest(x_m, y_m)
@@ -70,11 +71,14 @@ def test_the_table_is_its_own_inverse_and_falls():
 
 @pytest.fixture
 def exactly(responses, reached):
-    """What cells get together at full amplitude, by exact composition."""
+    """What amplitude 1 means: for one cell all that it gets alone, for several the largest share that all can have in the band."""
 
     def displacements(cells_m):
         here = np.array([responses[GRID.nearest(x_m, y_m)[0]] for x_m, y_m in cells_m])
-        return np.abs(reached(focus(here, balanced_weights(here).tolist(), IDLE_WORD), cells_m))
+        weights, sizes = balanced_weights(here), np.abs(here).sum(axis=(1, 2))
+        if len(cells_m) == 1:
+            return np.abs(reached(focus(here, weights.tolist(), IDLE_WORD), cells_m))
+        return sizes / 2 * np.abs(np.tensordot(weights, here, 1)).sum() / (np.abs(weights) * sizes).sum()
 
     return displacements
 

@@ -1,7 +1,7 @@
 """Responses as complex baseband at a reduced rate: what lies between 20 and 70 kHz needs no 500,000 samples a second.
 
 A response is the sum of pulses, low-passed by a windowed sinc, on a carrier in the middle of the band; their complex weights are
-stored, in 8 bits, in place of samples. The weights are those of least squares. Interpolating and summing is done on weights;
+stored, in 8 or 4 bits, in place of samples. The weights are those of least squares. Interpolating and summing is done on weights;
 one matrix product then gives the samples.
 """
 
@@ -14,32 +14,36 @@ from numpy.typing import NDArray
 
 from controller.bank.packing import CHANNELS, drive_words
 from controller.benchmark.methods.candidate import Candidate, Words, wire_bytes
-from controller.benchmark.methods.interpolation import bilinear
+from controller.benchmark.methods.interpolation import BandInterpolation, bilinear
 from controller.benchmark.methods.laboratory import Laboratory
 from controller.benchmark.methods.responses import FromTable
 from controller.board.panel import Waveform
 from controller.kernel import Point
 
-DECIMATIONS = (5, 6, 7, 8, 10)  # samples of the bit clock to a complex one
+DECIMATIONS = (5, 7, 8, 10)  # samples of the bit clock to a complex one
 REACH = 4  # complex samples before and after a pulse's middle
 KAISER_BETA = 4.0
-PITCH_MM = 2.5
 
 
 def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
     """All of them."""
     board = laboratory.board
-    for decimation in DECIMATIONS:
-        pulses = pulse_matrix(board.waveform, decimation)
-        analysis = np.linalg.pinv(pulses).astype(np.float32)
-        table = laboratory.table(PITCH_MM * 1e-3, 8, bilinear, analysis)
-        yield Candidate(
-            curve="baseband, 8 bits, bilinear",
-            setting=f"{PITCH_MM:g} mm, 1/{decimation}",
-            compose=FromBaseband(FromTable(table, bilinear, board.idle_word), pulses.astype(np.float32), board.idle_word),
-            memory_bytes=table.memory_bytes + 4 * pulses.size,
-            wire_bytes=wire_bytes(board.waveform.samples),
-        )
+    four = BandInterpolation(board, laboratory.model.plate_modes, 4)
+    for bits, name, interpolation, pitch_mm in (
+        (8, "baseband, 8 bits, bilinear", bilinear, 2.5),
+        (8, "baseband, 8 bits, band 4 × 4", four, 3.5),
+        (4, "baseband, 4 bits, band 4 × 4", four, 3.5),
+    ):
+        for decimation in DECIMATIONS:
+            pulses = pulse_matrix(board.waveform, decimation)
+            table = laboratory.table(pitch_mm * 1e-3, bits, interpolation, np.linalg.pinv(pulses).astype(np.float32))
+            yield Candidate(
+                curve=name,
+                setting=f"{pitch_mm:g} mm, 1/{decimation}",
+                compose=FromBaseband(FromTable(table, interpolation, board.idle_word), pulses.astype(np.float32), board.idle_word),
+                memory_bytes=table.memory_bytes + 4 * pulses.size,
+                wire_bytes=wire_bytes(board.waveform.samples),
+            )
 
 
 class FromBaseband:

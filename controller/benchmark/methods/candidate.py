@@ -51,6 +51,8 @@ class Candidate:
         Whether it may kick a point downwards.
     keeps_quiet : bool
         Whether it is told which places shall stay still.
+    slow : bool
+        Whether it takes tenths of a second.
     words_of : callable
         From what `compose` gave to a copy of its drive words.
     """
@@ -63,6 +65,7 @@ class Candidate:
     most_fingers: int = 10
     free_polarity: bool = False
     keeps_quiet: bool = False
+    slow: bool = False
     words_of: Callable[[Any], Words] = words_of_buffer
 
     def run(self, points: Sequence[Point], quiet: Place) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -10,10 +9,10 @@ import numpy as np
 
 from controller import kernel
 from controller.bank.reader import Bank
-from controller.benchmark.methods.candidate import RESIDENT_WIRE_BYTES, Candidate, Words, wire_bytes
+from controller.benchmark.methods.candidate import RESIDENT_WIRE_BYTES, Candidate, Place, Words, wire_bytes
 from controller.benchmark.methods.laboratory import Laboratory
 from controller.kernel import Point, unpack_loads, words_twin
-from controller.waveforms.composition import BLOCK_S, Composer
+from controller.waveforms.composition import Composer
 from controller.waveforms.selection import LATTICE_M, Selection
 
 CELL_PITCHES_MM = (1.0, 2.5, 5.0, 10.0)
@@ -47,6 +46,15 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
                 label = f"{1e3 * last / board.waveform.bit_clock_hz:g} ms"
                 compose = composer.compose if last == samples else Shorter(composer, last)
                 yield Candidate("device, shorter emission", label, compose, memory, wire_bytes(last), free_polarity=True)
+            yield Candidate(
+                "device, another finger still",
+                setting,
+                KeepingStill(composer),
+                memory,
+                wire_bytes(samples),
+                free_polarity=True,
+                keeps_quiet=True,
+            )
             selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
             yield Candidate(
                 "resident waveform",
@@ -82,23 +90,28 @@ class TwinComposer:
     """`Composer` with the NumPy twin of the kernel, whether or not there is a compiled one."""
 
     def __init__(self, bank: Bank, idle_word: int) -> None:
-        grid, (entries, scales, self._good) = bank.grid, bank.response_tables()
-        self._bank = bank
-        block = kernel.REST_SAMPLES * round(BLOCK_S * bank.header.bit_clock_hz / kernel.REST_SAMPLES)
-        stride = bank.sections["response"].stride
-        self._plan = kernel.PLAN.pack(
-            bank.samples, stride, grid.nx, grid.ny, len(scales), idle_word, block, grid.pitch_m, grid.x0_m, grid.y0_m
-        )
-        self._tables = memoryview(array("i", entries)), memoryview(array("f", scales))
-        self._room, self._words = bytearray(kernel.room_bytes(bank.samples)), bytearray(4 * bank.samples)
+        self._bank, self._composer = bank, Composer(bank, idle_word)
 
     def __call__(self, points: Sequence[Point]) -> bytearray:
         """Drive words as bytes."""
-        while (
-            cell := words_twin.compose(self._words, self._room, self._plan, *self._tables, self._good, self._bank.responses, points)
-        ) >= 0:
-            self._bank.check_response(cell)
-        return self._words
+        own, bank = self._composer, self._bank
+        given = own._words, own._room, own._plan, own._entries, own._scales, own._good  # what `Composer` gives to its kernel
+        while (cell := words_twin.compose(*given, bank.responses, points)) >= 0:
+            bank.check_response(cell)
+        return own._words
+
+
+class KeepingStill:
+    """`Composer` with a place that stays still near T, as for a finger that shall feel nothing."""
+
+    def __init__(self, composer: Composer) -> None:
+        self._composer = composer
+
+    def __call__(self, points: Sequence[Point], quiet: Sequence[Place]) -> memoryview:
+        """Drive words as bytes."""
+        words = self._composer.compose(points)
+        self._composer.keep_still(points, [(x_m, y_m, 1.0) for x_m, y_m in quiet])
+        return words
 
 
 class Shorter:

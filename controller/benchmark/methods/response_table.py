@@ -62,19 +62,26 @@ class ResponseTable:
         self._row_of = np.full(self.grid.cells, -1)
         self._scale = np.zeros(0, np.float32)
         self._packed = np.zeros((0, self._row_bytes), np.uint8)
+        self._held: list[tuple[NDArray[np.uint8], Floats]] = []
 
     def hold(self, cells: NDArray[np.intp], flat: NDArray[np.floating[Any]]) -> None:
-        """Take the responses of further cells: (cell, sample, 32), in drive order, flat."""
+        """Take the responses of further cells: (cell, sample, 32), in drive order, flat; `take` after the last of them."""
         values = flat if self._projection is None else np.matmul(self._projection, flat)
         packed, scale = pack(values.reshape(len(cells), -1), self._bits)
-        self._row_of[cells] = np.arange(len(cells)) + len(self._scale)
-        self._scale = np.concatenate([self._scale, scale])
-        self._packed = np.concatenate([self._packed, packed])
+        self._row_of[cells] = np.arange(len(cells)) + sum(len(some) for _, some in self._held)
+        self._held.append((packed, scale))
+
+    def take(self) -> None:
+        """All cells are there."""
+        if self._held:
+            self._packed, self._scale = (np.concatenate(some) for some in zip(*self._held, strict=True))
+            self._held.clear()
 
     def forget(self) -> None:
         """Let all cells go."""
         self._row_of[:] = -1
-        self._scale, self._packed = self._scale[:0], self._packed[:0]
+        self._scale, self._packed = np.zeros(0, np.float32), np.zeros((0, self._row_bytes), np.uint8)
+        self._held.clear()
 
     def interpolate(self, stencil: Stencil, first_sample: int = 0) -> Floats:
         """Flat response of a place, from the row of `first_sample` on: (values,)."""
@@ -96,6 +103,8 @@ def fill(board: Board, model: ResponseModel, tables: Iterable[ResponseTable], ce
         flat = model.drive_order_responses(places_m[part]) / rising
         for table in some:
             table.hold(cells[part], flat)
+    for table in some:
+        table.take()
 
 
 def decay(board: Board) -> NDArray[np.float64]:

@@ -75,7 +75,7 @@ boot() { # NAME FAR_END SETTINGS PARTS...: one life of the machine
     "$machine/qemu/usr/bin/qemu-system-aarch64" -L "$machine/qemu/usr/share/qemu" -M raspi4b -icount shift=1,sleep=off -display none \
     -monitor none -serial stdio -no-reboot -kernel "$machine/vmlinuz" -initrd "$run/initrd" -dtb "$machine/pi4.dtb" \
     -append "console=ttyAMA0,115200 quiet panic=-1 nokaslr mitigations=off apparmor=0 raspi.do=$name $settings" \
-    -device "fpga-wire,bus=spi,socket=$run/$name,byte-clocks=${BYTE_CLOCKS:-8}" </dev/null > >(exec sed -u 's/\r//g' >"$out/$name.log") 2>&1 &
+    -device "fpga-wire,bus=spi,socket=$run/$name,byte-clocks=${BYTE_CLOCKS:-9}" </dev/null > >(exec sed -u 's/\r//g' >"$out/$name.log") 2>&1 &
   qemu=$!
   pids+=("$qemu")
   "$python" "$here/../../patience.py" "$qemu" "$out/$name.log" "${LIMIT_S:-600}" &

@@ -24,11 +24,12 @@ from controller.fpga.bring_up import CHIRP_REPETITIONS
 HERE = Path(__file__).parent
 NS_PER_INSTRUCTION = 2
 FORMS = {  # most instructions of the host at the median, of an upload and of a resident play: 15 % above what was measured
-    "kernel": (0.61e6, 0.27e6),
-    "mypyc": (0.38e6, 0.133e6),
-    "numpy": (1.18e6, 0.29e6),
+    "kernel": (0.57e6, 0.245e6),
+    "mypyc": (0.281e6, 0.085e6),
+    "numpy": (1.16e6, 0.266e6),
 }
 UPLOAD_IN_KERNEL_US = 1600  # bits, pauses between frames, and the driver
+NINTH_CLOCKS_US = 4240 / 25  # of each byte that is polled, at 25 MHz
 
 pytestmark = pytest.mark.slow
 
@@ -183,4 +184,4 @@ def test_an_upload_is_in_the_kernel_for_little_more_than_its_bits(product, form)
     _, p50, p99 = stage_us(product, form, "upload", "wire")
     _, resident, _ = stage_us(product, form, "resident", "wire")
     print(f"\n{form}: in the kernel an upload is p50 {p50:.0f}, p99 {p99:.0f} us, a resident play {resident:.0f} us")
-    assert p50 <= UPLOAD_IN_KERNEL_US
+    assert p50 <= UPLOAD_IN_KERNEL_US + NINTH_CLOCKS_US
