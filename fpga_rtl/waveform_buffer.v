@@ -80,13 +80,30 @@ module waveform_buffer #(
     wire       read_memory = argument_i[15];
     wire [4:0] number      = read_memory ? argument_i[14:10] : argument_i[4:0];
     wire       slot_good   = (read_memory || argument_i[7:5] == 3'd0) && number < SLOTS[4:0];
-    wire [SLOT_BITS-1:0]   slot        = slot_good ? number[SLOT_BITS-1:0] : {SLOT_BITS{1'b0}};
-    reg [BUFFER_BITS-1:0] slot_buffer;
-    reg [9:0]             slot_words;
-    always @* begin
-        {slot_buffer, slot_words} = {BUFFER_BITS+10{1'b0}};
-        if (judge_i || read_memory)
-            {slot_buffer, slot_words} = stored_q[slot] ? slots[slot] : {{BUFFER_BITS-SLOT_BITS{1'b0}}, slot, 10'd0};
+    wire       store_slot  = slot_good && argument_i[15:8] == 8'd0;
+
+    // What the argument names rests long before its frame ends: found out a clock early, and whether it is a word of that slot two
+    reg [SLOT_BITS-1:0]    slot;
+    reg                    slot_good_q, store_slot_q, within_q;
+    reg [BUFFER_BITS-1:0]  slot_buffer;
+    reg [9:0]              slot_words;
+    wire [SLOT_BITS-1:0]   named       = slot_good ? number[SLOT_BITS-1:0] : {SLOT_BITS{1'b0}};
+    always @(posedge clk_i) begin
+        if (judge_i || read_memory) begin
+            slot         <= named;
+            slot_good_q  <= slot_good;
+            store_slot_q <= store_slot;
+            {slot_buffer, slot_words} <= stored_q[named] ? slots[named] : {{BUFFER_BITS-SLOT_BITS{1'b0}}, named, 10'd0};
+            within_q     <= argument_i[9:0] < slot_words;
+        end
+        if (rst_i) begin
+            slot         <= {SLOT_BITS{1'b0}};
+            slot_good_q  <= 1'b0;
+            store_slot_q <= 1'b0;
+            slot_buffer  <= {BUFFER_BITS{1'b0}};
+            slot_words   <= 10'd0;
+            within_q     <= 1'b0;
+        end
     end
     wire [2:0]             chunk       = argument_i[2:0];
     wire                   count_good  = load_live_i ? !chunks_q[chunk] : !load_busy_i;
@@ -165,7 +182,6 @@ module waveform_buffer #(
     end
 
     // Book-keeping
-    wire store_slot = slot_good && argument_i[15:8] == 8'd0;
     reg  chunk_good, length_good, load_good, store_good, checking;
     always @* begin
         {chunk_good, length_good, load_good, store_good, checking} = 5'd0;
@@ -173,7 +189,7 @@ module waveform_buffer #(
             chunk_good  = argument_i < {12'd0, `CHUNKS};
             length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
             load_good   = chunk_good && !load_busy_i && count_good;
-            store_good  = store_slot && length_good && !check_q && !live_i && complete_q;
+            store_good  = store_slot_q && length_good && !check_q && !live_i && complete_q;
             checking    = check_q && check_slot_q == slot;
         end
     end
@@ -250,11 +266,11 @@ module waveform_buffer #(
         crc_result    = `RESULT_OK;
         if (judge_i) begin
             load_result   = !chunk_good ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
-            store_result  = !store_slot ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
+            store_result  = !store_slot_q ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
                           : check_q || live_i ? `RESULT_BUSY : !complete_q ? `RESULT_INCOMPLETE : `RESULT_OK;
-            memory_result = !slot_good ? `RESULT_BAD_SLOT : argument_i[9:0] >= slot_words ? `RESULT_BAD_RANGE
+            memory_result = !slot_good_q ? `RESULT_BAD_SLOT : !within_q ? `RESULT_BAD_RANGE
                           : settled_q != 3'd4 ? `RESULT_BUSY : `RESULT_OK;
-            crc_result    = !slot_good ? `RESULT_BAD_SLOT : slot_words == 10'd0 ? `RESULT_EMPTY_SLOT
+            crc_result    = !slot_good_q ? `RESULT_BAD_SLOT : slot_words == 10'd0 ? `RESULT_EMPTY_SLOT
                           : checking ? `RESULT_BUSY : `RESULT_OK;
         end
     end
@@ -266,7 +282,7 @@ module waveform_buffer #(
     assign crc_result_o    = crc_result;
     assign chunks_o        = chunks_q;
     assign crc_data_o      = slot_crcs[slot];
-    assign slot_good_o     = store_slot;
+    assign slot_good_o     = store_slot_q;
     assign slot_buffer_o   = slot_buffer;
     assign slot_words_o    = slot_words;
     assign slot_intact_o   = intact_q[slot];

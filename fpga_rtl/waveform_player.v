@@ -85,6 +85,7 @@ module waveform_player #(
     reg                   read_q;
 
     reg [63:0]            ahead_q;         // what now_i will be when a play decided on in the next clock is on the pins
+    reg [63:0]            before_q;        // a tick less
     reg                   due_q, missed_q; // the time of the head has come; has passed
     reg [1:0]             playing_later_q, ramping_later_q;
     reg                   ramp_bit_q;
@@ -127,6 +128,7 @@ module waveform_player #(
         end
         if (missed) missed_count_q <= missed_count_q + 32'd1;
         ahead_q  <= ahead_q + 64'd1;
+        before_q <= ahead_q;
         due_q    <= 1'b0;
         missed_q <= 1'b0;
         if (head_i && head_start_i == `START_TIME) begin
@@ -195,7 +197,7 @@ module waveform_player #(
             fraction_q      <= bit_period_i[15:0];
             until_next_q    <= (from_head ? head_period_ticks_i : period_q) - 32'd1;
             until_next_over_q <= 1'b0;
-            emission_time_q <= ahead_q - 64'd1;
+            emission_time_q <= before_q;
         end
         if (stop_i || disarm_i) begin
             endless_q   <= 1'b0;
@@ -251,6 +253,7 @@ module waveform_player #(
             underrun_q      <= 1'b0;
             read_q          <= 1'b0;
             ahead_q         <= 64'd6;
+            before_q        <= 64'd5;
             due_q           <= 1'b0;
             missed_q        <= 1'b0;
             playing_later_q <= 2'b00;

@@ -13,6 +13,8 @@ from controller.fpga.registers import CHUNK_WORDS, CHUNKS, READ_MEMORY, READ_SLO
 
 CHECK_TICKS = 5  # and one for each word, from a STORE until its slot's CRC is known
 LOOK_TICKS = 16  # a STORE and the chunks before it are there at least so long before it is accepted
+NAME_TICKS = 1  # from an argument, or a STORE, to what is said of the slot that it names
+ADDRESS_TICKS = 5  # from an argument to the word of memory that it names
 SETTLE_TICKS = 4  # a READ of memory needs so many in which nobody else has the buffer
 READ_TICKS = 2  # from the tick in which the player asks for a word to the first in which it has it; it asks no sooner for another
 
@@ -150,6 +152,7 @@ class Bench:
             slot = reference.named(argument)
             if reference.check or (s["play"] and slot and s["play_buffer"] == slot.buffer):
                 reference.disturbed = self.tick
+            stored = store and reference.store_result(argument, s["word0"], s["live"]) is Result.OK
             if store:
                 expected = reference.store_result(argument, s["word0"], s["live"])
                 assert self.seen("store") is expected, (self.seen("store"), expected, self.tick, s)
@@ -162,7 +165,7 @@ class Bench:
                 self.asked_tick, self.coming = self.tick, before if before == after else None
             self.asked = asked
             self.tick += 1
-            self.held += 1
+            self.held = 0 if stored else self.held + 1
             await clocks(dut)
             dut.write_i.value = dut.load_i.value = dut.store_i.value = dut.play_read_i.value = 0
             write, load, store = None, False, False
@@ -175,21 +178,22 @@ class Bench:
             "checking_o": reference.check is not None,
             "loaded_o": sum(slot.intact << number for number, slot in enumerate(reference.slots)),
             "chunks_o": sum(bool(words) << chunk for chunk, words in enumerate(reference.chunks)),
-            "slot_good_o": argument < self.slots,
             "missing_o": s["play_within"] >= reference.chunks[s["play_chunk"]],
         }
-        if argument < self.slots:
+        if self.held >= NAME_TICKS:
+            expected["slot_good_o"] = argument < self.slots
+        if argument < self.slots and self.held >= NAME_TICKS:
             expected |= {
                 "slot_buffer_o": slot.buffer,
                 "slot_words_o": slot.words,
                 "slot_intact_o": slot.intact,
                 "slot_checking_o": reference.check is not None and reference.check[0] is slot,
             }
-        if argument & 0xFF00 == READ_SLOT_CRC:
+        if argument & 0xFF00 == READ_SLOT_CRC and self.held >= NAME_TICKS:
             expected["crc_result_o"] = reference.crc_result(argument)
             if reference.crc_result(argument) is Result.OK:
                 expected["crc_data_o"] = slot.crc
-        if argument & READ_MEMORY and self.held > SETTLE_TICKS:
+        if argument & READ_MEMORY and self.held >= ADDRESS_TICKS:
             expected["memory_result_o"] = reference.memory_result(self.tick, argument)
             if expected["memory_result_o"] is Result.OK:
                 expected["memory_data_o"] = reference.memory[slot.buffer][argument & 0x3FF]
