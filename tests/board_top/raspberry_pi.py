@@ -16,7 +16,7 @@ from compiled_top import CompiledTop, signal_pins, wires
 from gpiod.line import Direction, Value
 
 from controller.board import gpio_chip
-from controller.fpga import spi_link
+from controller.fpga import gpio_lines, spi_link
 from controller.fpga.spi_messages import TRANSFER, message_request
 
 CHIP = "pinctrl-bcm2711"
@@ -48,6 +48,7 @@ class RaspberryPi:
         patch.setattr(spi_link.spidev, "SpiDev", lambda: SpiDev(self._device))
         system = {name: getattr(fcntl, name) for name in ("flock", "LOCK_EX", "LOCK_NB")}
         patch.setattr(spi_link, "fcntl", SimpleNamespace(ioctl=self._ioctl, **system))
+        patch.setattr(gpio_lines, "fcntl", SimpleNamespace(ioctl=Request.ioctl))
 
     def _ioctl(self, fd, request, argument):
         if request in SpiDev.READ:
@@ -125,8 +126,13 @@ class Chip(contextlib.nullcontext):
 class Request:
     """Lines held: outputs drive their wires until they are released."""
 
+    held = {}  # noqa: RUF012 -- by file number
+
     def __init__(self, board, config):
         self._board = board
+        self.lines = list(config)
+        self.fd = os.open(os.devnull, os.O_RDWR)
+        self.held[self.fd] = self
         self._outputs = {name for name, line in config.items() if line.direction == Direction.OUTPUT}
         for name in self._outputs:
             self.set_value(name, config[name].output_value)
@@ -141,6 +147,20 @@ class Request:
         self._board.run(CALL_PS)
         return Value.ACTIVE if self._board.high(wires()[name]) else Value.INACTIVE
 
+    @classmethod
+    def ioctl(cls, fd, request, argument):
+        """The kernel's call that sets lines, by their bits in the order in which they were requested."""
+        assert request == gpio_lines.SET_VALUES
+        values, which = gpio_lines.LINE_VALUES.unpack(argument)
+        lines = cls.held[fd].lines
+        assert 0 < which < 1 << len(lines)
+        for bit, name in enumerate(lines):
+            if which >> bit & 1:
+                cls.held[fd].set_value(name, Value.ACTIVE if values >> bit & 1 else Value.INACTIVE)
+        return 0
+
     def release(self):
         for name in self._outputs:
             self._board.drive(wires()[name], None)
+        del self.held[self.fd]
+        os.close(self.fd)
