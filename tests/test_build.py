@@ -42,7 +42,8 @@ def test_the_wheel_carries_boards_gateware_units_and_the_compiled_kernel(tmp_pat
     assert {f"{share}/man/man1/haptic-panel.1", f"{share}/bash-completion/completions/haptic-panel"} <= set(names)
     assert {f"{share}/zsh/site-functions/_haptic-panel", f"{data}/boards/board.schema.json", "controller/py.typed"} <= set(names)
     assert {"controller/cli.py", "controller/scene/effects.toml", EXTENSION} <= set(names)
-    assert not any(name.startswith("tests/") or name.endswith((".c", "build_hook.py")) for name in names)
+    assert not any(name.startswith("tests/") or name.endswith("build_hook.py") for name in names)
+    assert [name for name in names if name.endswith(".c")] == ["controller/benchmark/compose_reference.c"]
     assert not any(name.startswith("controller/") and name.endswith(".sh") for name in names), "those are for a checkout"
     assert f"{data}/boards/raspberry_pi.sh" in names
 
