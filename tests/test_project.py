@@ -124,13 +124,17 @@ def test_every_public_name_says_what_it_is():
         assert len(docstring.split()) > 3, path
 
 
-def test_every_command_of_every_readme_works(tmp_path, state_folder):
+@pytest.mark.parametrize(
+    ("mark", "one"),
+    [("sh", "$ .venv/bin/haptic-panel run"), pytest.param("sh slow", "$ .venv/bin/haptic-panel benchmark", marks=pytest.mark.slow)],
+)
+def test_every_command_of_every_readme_works(tmp_path, state_folder, mark, one):
     """In a process of its own: it changes folder and cache."""
     (tmp_path / "gateware").symlink_to(state_folder / "gateware")
-    command = [sys.executable, Path(__file__).parent / "readme_commands.py", tmp_path]
+    command = [sys.executable, Path(__file__).parent / "readme_commands.py", tmp_path, mark]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     assert done.returncode == 0, done.stdout[-4000:]
-    assert "$ .venv/bin/haptic-panel run" in done.stdout
+    assert one in done.stdout
 
 
 def test_the_three_lines_of_the_readme_are_short_and_whole():
