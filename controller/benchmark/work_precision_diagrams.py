@@ -31,12 +31,10 @@ FRONT_PAGE_TIME = (
     "packed words, bilinear vote",
     "baseband, 8 bits, bilinear",
     "modal bank, baseband",
-    "4 bits, band 4 × 4",
     "full field, float64",
 )
 FRONT_PAGE_MEMORY = (
     "nearest entry",
-    "packed words, bilinear vote",
     "device, compiled kernel",
     "baseband, 8 bits, band 4 × 4",
     "modal bank, baseband",
@@ -107,9 +105,12 @@ def front_page_diagram(figures: Figures) -> Figure:
     ):
         shown = {**figures, "settings": [setting for setting in figures["settings"] if setting["curve"] in curves]}
         _curves(ax, shown, x_of, _main(family), named=True)
-        ax.set(xlabel=label, ylim=(0.6 * FLOOR, 20))
+        ax.set(xlabel=label, ylim=(0.6 * FLOOR, 10))
     left.set(ylabel=LOST)
     _marks(left, figures, 1)
+    for ax in (left, right):
+        low, high = ax.get_xlim()
+        ax.set_xlim(low / 1.5, high * 4)  # room for the names
     figure.suptitle(_told(figures), fontsize=8)
     return figure
 
@@ -288,7 +289,7 @@ def _curves(
             continue
         ax.plot([x for x, _, _ in points], [y for _, y, _ in points], **_style(index))
         for x, y, label in (points[0], points[-1])[-len(points) :]:  # between them they follow in order
-            ax.annotate(label, (x, y), xytext=(3, -7), textcoords="offset points", fontsize=4.5, color="0.4")
+            ax.annotate(label, (x, y), xytext=(3, -7), textcoords="offset points", fontsize=6 if named else 4.5, color="0.4")
         x, y, _ = points[-1]
         if named:
             ax.annotate(curve, (x, y), xytext=(2, 6), textcoords="offset points", fontsize=8, rotation=50, rotation_mode="anchor")

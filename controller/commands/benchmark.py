@@ -25,7 +25,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     benchmark = declare(
         parents=[common],
         description="Compare methods of finding drive words on the plate model: work-precision diagrams (PNG, SVG) and their "
-        "figures (JSON). Takes about 10 minutes of one core; --quick: 2 minutes.",
+        "figures (JSON). Takes about 11 minutes of one core; --quick: 2 minutes.",
     )
     benchmark.add_argument("--quick", action="store_true", help="fewer scenes and repetitions")
     benchmark.add_argument(
