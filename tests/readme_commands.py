@@ -1,6 +1,7 @@
 """Every `haptic-panel` line of every README's sh blocks, one after the other: `python readme_commands.py FOLDER [sh]`.
 
-Blocks marked `sh slow` hold what takes minutes: `python readme_commands.py FOLDER "sh slow"`. They run in the folder, where `tests` and `boards` lead to the checkout's; 1 at the first that does not end with 0.
+Blocks marked `sh slow` hold what takes longer: `python readme_commands.py FOLDER "sh slow"`. They run in the folder, where `tests`
+and `boards` lead to the checkout's; 1 at the first that does not end with 0.
 """
 
 import os
@@ -18,7 +19,8 @@ ROOT = Path(__file__).parent.parent
 def commands(mark="sh"):
     """Lines of blocks so marked that call haptic-panel and nothing else, each once."""
     readmes = sorted(path for path in ROOT.rglob("README.md") if not any(p.startswith(".") for p in path.relative_to(ROOT).parts))
-    blocks = [block for path in readmes for block in re.findall(rf"^```{mark}\n(.*?)^```", path.read_text(), re.MULTILINE | re.DOTALL)]
+    text = "\n".join(path.read_text() for path in readmes)
+    blocks = re.findall(rf"^```{mark}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
     return list(dict.fromkeys(line for line in lines if re.match(r"(\.venv/bin/)?haptic-panel ", line)))
 

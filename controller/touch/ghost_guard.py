@@ -18,6 +18,7 @@ from __future__ import annotations
 from math import inf
 
 MAX_QUIET_SHARE = 2 / 3  # of all time: even a storm of ghosts leaves emissions a third of it
+ROUNDING_S = 1e-9  # of times: a time that lacks no more is had at once
 BURST_S = 0.1  # quiet time allowed at once beyond that share
 BURST_LIVES = 4  # the same in multiples of G, if that is longer
 
@@ -136,8 +137,9 @@ class QuietBudget:
         self.end(now_s, going_on=self._quiet)
         self.asked = True
         cost_s = (until_s - now_s) * (1 - MAX_QUIET_SHARE)
-        if not self._quiet and self._credit_s < min(cost_s, self._max_credit_s):
-            self.retry_s = now_s + (min(cost_s, self._max_credit_s) - self._credit_s) / MAX_QUIET_SHARE
+        missing_s = min(cost_s, self._max_credit_s) - self._credit_s
+        if not self._quiet and missing_s > ROUNDING_S:
+            self.retry_s = now_s + missing_s / MAX_QUIET_SHARE
             return False
         self._quiet = True
         return True

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from controller.board.board import load_board
@@ -233,6 +233,7 @@ def test_while_a_contact_is_a_suspect_silence_is_asked_for_until_it_has_shown_wh
 
 
 @given(st.lists(st.tuples(st.floats(0, 0.05), st.floats(1e-3, 0.04)), max_size=200), st.floats(1e-3, 0.5))
+@example([(0.0, 0.04)] * 3, 0.375)  # the third one lacks 1e-17 s
 def test_listening_takes_its_share_of_the_time_and_no_more(wishes, ghost_s):
     """Whoever asks, and whenever: of any time at most MAX_QUIET_SHARE, and what may be had at once."""
     listening, now_s, listened_s = QuietBudget(ghost_s), 0.0, 0.0
