@@ -5,6 +5,7 @@ They are read without colour: each curve has a letter beside it, a marker and a 
 
 from __future__ import annotations
 
+import string
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -253,7 +254,7 @@ def _median(family: str, error: str, factor: float = 1.0) -> Callable[[Figures],
 
 def _letters(figures: Figures) -> dict[str, str]:
     curves = dict.fromkeys(setting["curve"] for setting in figures["settings"])
-    return {curve: chr(ord("A") + index) if index < 26 else f"a{index}" for index, curve in enumerate(curves)}
+    return {curve: string.ascii_uppercase[index % 26] + "'" * (index // 26) for index, curve in enumerate(curves)}
 
 
 def _style(index: int) -> dict[str, Any]:
