@@ -161,7 +161,7 @@ build_wheels() { # what the package depends on; spidev is compiled, as on a Pi; 
   aarch64-linux-gnu-gcc -O2 -shared -fPIC -w -I"$work/headers/usr/include/python3.11" -I"$work/headers/usr/include" \
     -o device/usr/lib/device/spidev.cpython-311-aarch64-linux-gnu.so spidev-*/spidev_module.c
   for wanted in device offline; do
-    find $wanted \( -name tests -o -name '*.pyi' -o -name f2py -o -name '*.a' -o -name '*.h' \) -prune -exec rm -rf {} +
+    find $wanted \( -name tests -o -name '*.pyi' -o -name '*.a' -o -name '*.h' \) -prune -exec rm -rf {} +
     compiled "$wanted"
     cp -r "$wanted"/usr "$work/ready/arm64/"
   done
