@@ -26,6 +26,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "focus": "focus on given points of the plate model, and measure the focus",
     "benchmark": "compare methods of finding drive words: time, memory, bytes and energy against error",
     "record": "store the events of a touch panel",
+    "calibrate": "a bank from measurements of the plate: plan, measure, check, build",
     "calibrate-touch": "map the touch panel's axes to the plate",
     "reload": "have the service read its scene again, and report the result (for ExecReload=)",
     "completion": "print a shell's completion of this command line",

@@ -57,3 +57,5 @@ class FaultError(ControllerError):
 
 class CalibrationError(ControllerError):
     """Measurements that do not determine a calibration."""
+
+    exit_code = 78

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 TOP_LEVEL = {"pyproject.toml", "controller", "fpga_rtl", "boards", "systemd", "tests", "README.md", "LICENSE"}
 TOOLS = Path(sys.executable).parent
-OFFLINE = {"physics", "waveform_design", "bank_builder", "simulation", "benchmark"}  # rooms that a device does not need
+OFFLINE = {"physics", "calibration", "waveform_design", "bank_builder", "simulation", "benchmark"}  # a device needs none
 
 
 def tracked():

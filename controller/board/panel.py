@@ -10,6 +10,48 @@ from controller.board.records import NotNegative, PlaceMm, Positive, Record, Sha
 
 CHANNELS = 32
 
+Support = Literal["simply_supported", "clamped", "free", "foam"]
+
+
+class Edges(Record, frozen=True):
+    """How each side of the plate is supported.
+
+    Attributes
+    ----------
+    x0
+        The side at x = 0.
+    x1
+        The side at the far end of x.
+    y0
+        The side at y = 0.
+    y1
+        The side at the far end of y.
+    """
+
+    x0: Support
+    x1: Support
+    y0: Support
+    y1: Support
+
+
+class Foam(Record, frozen=True):
+    """The foam strip under each edge that is "foam".
+
+    Attributes
+    ----------
+    stiffness_n_m3
+        Young's modulus over thickness: the force per area, per displacement.
+    width_mm
+        From the plate's edge inwards.
+    dashpot_pa_s_m
+        Wave impedance of the foam, the root of density times Young's modulus: what the strip takes from a vibration above the
+        frequency at which the foam is a quarter of a wave thick.
+    """
+
+    stiffness_n_m3: Annotated[float, Meta(ge=1e5, le=1e11)]
+    width_mm: Annotated[float, Meta(ge=0.5, le=500)]
+    dashpot_pa_s_m: Annotated[float, Meta(ge=0, le=1e7)] = 1.15e4
+
 
 class Plate(Record, frozen=True):
     """The plate: size, material and support; its origin is a corner, x runs along the length.
@@ -28,8 +70,11 @@ class Plate(Record, frozen=True):
         Poisson's ratio.
     density_kg_m3
         Density.
-    edge
-        How the edge is supported.
+    edges
+        How the edge is supported, all around; or for each side, { x0 = …, x1 = …, y0 = …, y1 = … }: at x = 0, at the far end of x,
+        at y = 0, at the far end of y.
+    foam
+        Required if an edge is "foam".
     decay_time_ms
         Time in which a free vibration falls to 1/e.
     theory
@@ -42,9 +87,26 @@ class Plate(Record, frozen=True):
     young_modulus_pa: Annotated[float, Meta(ge=1e9, le=1e12)]
     poisson_ratio: Annotated[float, Meta(ge=0, lt=0.5)]
     density_kg_m3: Annotated[float, Meta(ge=100, le=25e3)]
-    edge: Literal["simply_supported"]
+    edges: Support | Edges
     decay_time_ms: Annotated[float, Meta(ge=0.1, le=10e3)]
     theory: Literal["kirchhoff"] = "kirchhoff"
+    foam: Foam | None = None
+
+    def __post_init__(self) -> None:
+        sides = self.sides
+        if self.foam is None:
+            if "foam" in (sides.x0, sides.x1, sides.y0, sides.y1):
+                raise ValueError('foam is missing: an edge is "foam", so give [plate.foam] with stiffness_n_m3 and width_mm')
+            return
+        for key, ends in (("length_mm", (sides.x0, sides.x1)), ("width_mm", (sides.y0, sides.y1))):
+            extent_mm = getattr(self, key)
+            if self.foam.width_mm * ends.count("foam") >= extent_mm:
+                raise ValueError(f"foam.width_mm = {self.foam.width_mm:g} leaves nothing of {key} = {extent_mm:g} free")
+
+    @property
+    def sides(self) -> Edges:
+        """How each side is supported."""
+        return self.edges if isinstance(self.edges, Edges) else Edges(x0=self.edges, x1=self.edges, y0=self.edges, y1=self.edges)
 
     @property
     def length_m(self) -> float:

@@ -121,9 +121,11 @@ def _sections(struct: StructType, heading: str, named: Mapping[str, type]) -> It
             yield from _sections(_struct(named[name]), f"[{name}.NAME]", {})
         elif len(tables := _tables(field)) == 1 and not tables[0].tag_field:
             many = isinstance(field.type, VarTupleType | ListType)
-            (section,) = _sections(tables[0], f"[[{name}]]" if many else f"[{name}]", {})
+            key = f"{heading.strip('[]')}.{name}".removeprefix(".")
+            section, *within = _sections(tables[0], f"[[{key}]]" if many else f"[{key}]", {})
             left_out = "" if field.required else f" {attributes(struct.cls)[name]}"
             yield replace(section, summary=section.summary + left_out)
+            yield from within
         elif tables:
             yield from _kinds(name, tables, many=isinstance(field.type, VarTupleType | ListType))
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
@@ -80,8 +81,10 @@ class SimplySupported:
         Raises
         ------
         ConfigError
-            If there is none, or more than can be computed with.
+            If there is none, or more than can be computed with; if another edge than "simply_supported" is asked for.
         """
+        if set(msgspec.structs.astuple(plate.sides)) != {"simply_supported"}:
+            raise ConfigError('plate.edges: modes in closed form are those of a plate with edges = "simply_supported"')
         length, width = plate.length_m, plate.width_m
         stiffness = bending_stiffness(plate)
         per_area = plate.density_kg_m3 * plate.thickness_m

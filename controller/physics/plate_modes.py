@@ -25,7 +25,7 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     Raises
     ------
     ConfigError
-        If there is none, or more than can be computed with.
+        If there is none, or more than can be computed with; if the edges have no closed form.
     """
     return _modes(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
 

@@ -18,7 +18,7 @@ def plate(length_mm: float, width_mm: float) -> Plate:
         young_modulus_pa=70e9,
         poisson_ratio=0.2,
         density_kg_m3=2500.0,
-        edge="simply_supported",
+        edges="simply_supported",
         decay_time_ms=1.0,
     )
 

@@ -44,6 +44,8 @@ def changed(tables, *path, to):
     return found
 
 
+SUPPORTS = "'clamped', 'foam', 'free', 'simply_supported'"
+SIDES = {"x0": "free", "x1": "clamped", "y0": "free", "y1": "simply_supported"}
 PANELS = "'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'"
 
 
@@ -61,7 +63,18 @@ PANELS = "'recording', 'linux_input', 'ft5x06', 'gt911', 'serial_panel'"
         (("link", "slots"), 1.5, "link.slots = 1.5: must be a whole number from 1 to 16"),
         (("link", "baud"), 1, "link.baud = 1: must be a whole number from 9600 to 12000000"),
         (("link", "clock_hz"), 1, "link.clock_hz = 1: must be a whole number from 1000000 to 400000000 Hz"),
-        (("plate", "edge"), "free", "plate.edge = 'free': must be 'simply_supported'"),
+        (("plate", "edge"), "simply_supported", "plate.edge = 'simply_supported': unknown key; did you mean edges?"),
+        (("plate", "edges"), "fre", f"plate.edges = 'fre': must be one of {SUPPORTS} or a table; did you mean free?"),
+        (("plate", "edges"), {"x0": "free"}, f"plate.edges.x1 is missing: one of {SUPPORTS}"),
+        (("plate", "edges"), SIDES | {"y1": "f"}, f"plate.edges.y1 = 'f': must be one of {SUPPORTS}"),
+        (("plate", "edges"), SIDES | {"y2": "free"}, "plate.edges.y2 = 'free': unknown key; there are: x0, x1, y0, y1"),
+        (
+            ("plate", "edges"),
+            SIDES | {"y1": "foam"},
+            'plate: foam is missing: an edge is "foam", so give [plate.foam] with stiffness',
+        ),
+        (("plate", "foam"), {"width_mm": 9.0}, "plate.foam.stiffness_n_m3 is missing: a number from 100000 to 100000000000 N/m³"),
+        (("plate", "foam"), {"stiffness_n_m3": 1e9, "width_mm": 0}, "plate.foam.width_mm = 0: must be a number from 0.5 to 500 mm"),
         (("plate", "xyz"), 1, "plate.xyz = 1: unknown key; there are: length_mm, width_mm, thickness_mm, "),
         (("plate", "thickness_mm"), None, "plate.thickness_mm is missing: a number from 0.05 to 20 mm"),
         (("plate", "poisson_ratio"), 0.5, "plate.poisson_ratio = 0.5: must be a number at least 0, below 0.5"),
@@ -193,3 +206,10 @@ def test_whatever_a_message_holds_is_taken_or_refused_in_one_line_without_the_li
 @given(st.text(max_size=10_000))
 def test_any_message_at_all_is_translated_to_one(message):
     assert isinstance(explain(message, {"kind": "play"}, AnyRequest), str)
+
+
+def test_strips_of_foam_leave_plate_between_them():
+    foam = {"stiffness_n_m3": 1e9, "width_mm": 74.0}
+    one = changed(changed(BOARD, "plate", "edges", to=SIDES | {"y1": "foam"}), "plate", "foam", to=foam)
+    assert msgspec.convert(one, Board).plate.sides.y1 == "foam"
+    assert refused(changed(one, "plate", "edges", to="foam")) == "plate: foam.width_mm = 74 leaves nothing of width_mm = 148 free"

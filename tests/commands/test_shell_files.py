@@ -65,6 +65,7 @@ echo "${COMPREPLY[@]}"
         command = ["bash", "-c", script, "-", str(SHELL_FILES / COMPLETIONS["bash"]), line]
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
 
-    assert completed("calib") == ["calibrate-touch"]
+    assert completed("calibrate-") == ["calibrate-touch"]
+    assert "plan" in completed("calibrate p")
     assert completed("board ch") == ["check"]
     assert "--replay" in completed("run --rep")

@@ -14,7 +14,7 @@ PAPER = Plate(
     young_modulus_pa=72.9e9,
     poisson_ratio=0.208,
     density_kg_m3=2510.0,
-    edge="simply_supported",
+    edges="simply_supported",
     decay_time_ms=1.0,
 )
 
@@ -83,6 +83,11 @@ def test_shapes_vanish_on_the_rim_and_their_mean_square_is_a_quarter():
 def test_a_plate_without_a_mode_in_range_is_refused():
     with pytest.raises(ConfigError, match="no mode below 50"):
         SimplySupported.of(PAPER, 50.0)
+
+
+def test_a_plate_with_other_edges_is_none_in_closed_form():
+    with pytest.raises(ConfigError, match=r"edges = .simply_supported"):
+        SimplySupported.of(msgspec.structs.replace(PAPER, edges="free"), 1e3)
 
 
 def test_a_plate_with_more_modes_than_can_be_computed_with_is_refused():

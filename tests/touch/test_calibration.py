@@ -375,7 +375,7 @@ def test_what_goes_wrong_is_refused_and_the_board_stays_as_it_was(board_folder, 
 def test_a_board_that_cannot_be_written_is_told_before_anything_is_touched(tmp_path, monkeypatch, capsys):
     shutil.copy(BOARD.folder / "board.toml", tmp_path)
     monkeypatch.setattr("os.access", lambda *_, **__: False)
-    assert main(["calibrate-touch", "--board", str(tmp_path), "--write"]) == 1
+    assert main(["calibrate-touch", "--board", str(tmp_path), "--write"]) == 78
     said = capsys.readouterr().err
     assert "board.toml: cannot be written (Permission denied): run this as root, or without --write" in said
     assert said.count("\n") == 1, "nobody was asked to touch a mark"

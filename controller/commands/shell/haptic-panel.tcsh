@@ -17,7 +17,7 @@ complete haptic-panel \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at bank baud bits board channel dask device figures ghosts help idle-figures json lag link memory-mb no-chirps no-pictures no-skip no-timing optimise out pause-s pid pitch-mm plot power quick reference repeats replay scene seconds seed speed targets version workers write)/' \
+        'c/--/(amplitude-figures at avoid-actuators bank baud bits board channel dask device figures ghosts grid help idle-figures json lag link margin-mm memory-mb no-chirps no-pictures no-skip no-timing optimise out pause-s pid pitch-mm plot points power quick record-ms reference repeats repetitions replay scene seconds seed settle-ms speed speed-mm-s targets version workers write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -28,11 +28,12 @@ complete haptic-panel \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
         'n/--targets/(3 4 5)/' \
-        'p/1/(run doctor board gateware bank focus benchmark record calibrate-touch reload completion)/' \
+        'p/1/(run doctor board gateware bank focus benchmark record calibrate calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build choices info verify)/' \
         'n/benchmark/(skipping)/' \
+        'n/calibrate/(plan)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
