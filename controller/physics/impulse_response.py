@@ -33,6 +33,8 @@ class ResponseModel:
     board : Board
     highest_hz : float, optional
         Modes above are left out; `mode_cut_hz` by default.
+    modes : PlateModes, optional
+        Of a plate that is not the board's; `highest_hz` is of no use then.
 
     Attributes
     ----------
@@ -42,8 +44,10 @@ class ResponseModel:
         N per V.
     """
 
-    def __init__(self, board: Board, highest_hz: float | None = None) -> None:
-        self.plate_modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
+    def __init__(self, board: Board, highest_hz: float | None = None, *, modes: PlateModes | None = None) -> None:
+        if modes is None:
+            modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
+        self.plate_modes = modes
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.plate_modes)
         waveform = board.waveform

@@ -12,7 +12,7 @@ _shtab_haptic_panel_benchmark_subparsers=(skipping)
 _shtab_haptic_panel_calibrate_subparsers=(plan)
 _shtab_haptic_panel_subparsers=(run doctor board gateware bank focus benchmark record calibrate calibrate-touch reload completion)
 
-_shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plot)
+_shtab_haptic_panel_run_option_strings=(-h --help --board --json --replay --scene --bank --link --speed --plate --drift-percent --drift --sensor --plot)
 _shtab_haptic_panel_doctor_option_strings=(-h --help --board --json --link --bits --no-chirps)
 _shtab_haptic_panel_board_check_option_strings=(-h --help --board --json --scene)
 _shtab_haptic_panel_board_reference_option_strings=(-h --help)
@@ -38,6 +38,7 @@ _shtab_haptic_panel_option_strings=(-h --help --version)
 
 _shtab_haptic_panel_run___replay_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_run___bank_COMPGEN=_shtab_compgen_files
+_shtab_haptic_panel_run___drift_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_run___plot_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_bank_build___out_COMPGEN=_shtab_compgen_files
 _shtab_haptic_panel_bank_info_pos_0_COMPGEN=_shtab_compgen_files
@@ -51,6 +52,7 @@ _shtab_haptic_panel_calibrate_touch___replay_COMPGEN=_shtab_compgen_files
 
 _shtab_haptic_panel_run___link_choices=(model rtl)
 _shtab_haptic_panel_run___speed_choices=(1 max)
+_shtab_haptic_panel_run___sensor_choices=(board assumed none)
 _shtab_haptic_panel_board_pos_0_choices=(check reference schema)
 _shtab_haptic_panel_gateware_check___link_choices=(model rtl)
 _shtab_haptic_panel_gateware_pos_0_choices=(check)

@@ -12,17 +12,21 @@ complete haptic-panel \
         'c/--bank=/f/' \
         'c/--link=/(model rtl)/' \
         'c/--speed=/(1 max)/' \
+        'c/--drift=/f/' \
+        'c/--sensor=/(board assumed none)/' \
         'c/--plot=/f/' \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at avoid-actuators bank baud bits board channel dask device figures ghosts grid help idle-figures json lag link margin-mm memory-mb no-chirps no-pictures no-skip no-timing optimise out pause-s pid pitch-mm plot points power quick record-ms reference repeats repetitions replay scene seconds seed settle-ms speed speed-mm-s targets version workers write)/' \
+        'c/--/(amplitude-figures at avoid-actuators bank baud bits board channel dask device drift drift-percent figures ghosts grid help idle-figures json lag link margin-mm memory-mb no-chirps no-pictures no-skip no-timing optimise out pause-s pid pitch-mm plate plot points power quick record-ms reference repeats repetitions replay scene seconds seed sensor settle-ms speed speed-mm-s targets version workers write)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
         'n/--link/(model rtl)/' \
         'n/--speed/(1 max)/' \
+        'n/--drift/f/' \
+        'n/--sensor/(board assumed none)/' \
         'n/--plot/f/' \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
