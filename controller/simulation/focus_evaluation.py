@@ -14,8 +14,9 @@ from itertools import groupby
 
 import numpy as np
 
+from controller.physics.drifted_modes import DriftedModes
 from controller.physics.field import Field, FocusMetrics
-from controller.physics.plate import PlateModes, mode_cut_hz
+from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
 from controller.scene.emission import Emission
 from controller.simulation.drift import FORGOTTEN, since
@@ -83,13 +84,12 @@ def _fields(run: Run) -> Iterator[tuple[PlateTwin, Field]]:
         twin = PlateTwin(run.plate)
         yield from ((twin, field) for field in twin.fields(run.capture, run.link.clock_hz))
         return
-    modes = PlateModes.of(run.plate.plate, mode_cut_hz(run.plate.waveform))
-    remembered_ticks = round(FORGOTTEN / modes.decay_rate * run.link.clock_hz)
+    modes = modes_of(run.plate)
+    remembered_ticks = round(FORGOTTEN / modes.decay_rate.min() * run.link.clock_hz)
     ticks = run.capture.focus_ticks.tolist()
     for by, some in groupby(ticks, lambda tick: drift.level(run.link.time_s(tick) - run.start_s)):
         foci = np.array(list(some), np.uint64)
-        drifted = replace(modes, angular_frequency=modes.angular_frequency * (1 + by))
-        twin = PlateTwin(run.plate, modes=drifted)
+        twin = PlateTwin(run.plate, modes=DriftedModes(modes, by))
         part = replace(since(run.capture, int(foci[0]) - remembered_ticks), focus_ticks=foci)
         yield from ((twin, field) for field in twin.fields(part, run.link.clock_hz))
 
