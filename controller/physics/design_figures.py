@@ -20,7 +20,7 @@ from controller.physics.design_inputs import NUMBERS, DesignInputs, inputs_of
 from controller.physics.design_warnings import design_warnings
 from controller.physics.field import OUTSIDE_M, WAVELENGTH_M
 from controller.physics.focal_spectrum import FocalSpectrum
-from controller.physics.plate import PlateModes
+from controller.physics.plate_modes import modes_of
 
 Figures = dict[str, Any]
 
@@ -65,7 +65,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     figures: Figures = {
         "tc_ms": tc_s * 1e3,
         "modes_in_band": tc_s * width_hz,
-        "modes_counted": _counted(plate, low_hz, high_hz),
+        "modes_counted": _counted(board, plate, low_hz, high_hz),
         "modal_overlap": tc_s / (math.pi * decay_s),
         "contrast": contrast,
         "contrast_bound": design.contrast_bound(width_hz, tc_s),
@@ -124,10 +124,16 @@ def _outside(spectrum: FocalSpectrum, tc_s: float, background: float, radius_m: 
     return math.sqrt(spectrum.bandwidth_hz * tc_s / (beyond + background))
 
 
-def _counted(plate: Plate, low_hz: float, high_hz: float) -> int | None:
-    """Modes in the band, simply supported, one by one; None if they are more than can be computed with."""
+def _counted(board: Board, plate: Plate, low_hz: float, high_hz: float) -> int | None:
+    """Modes in the band, one by one, if the board is such a plate or there is a closed form; None if they are too many."""
+    if plate != board.plate:
+        if set(msgspec.structs.astuple(plate.sides)) != {"simply_supported"}:
+            return None  # other edges take seconds to minutes for each plate
+        middle = {"x_mm": plate.length_mm / 2, "y_mm": plate.width_mm / 2, "size_mm": min(plate.length_mm, plate.width_mm) / 10}
+        patch = msgspec.structs.replace(board.actuators[0], **middle)  # the board's own may lie off this plate
+        board = msgspec.structs.replace(board, plate=plate, actuators=(patch,))
     try:
-        omega = PlateModes.of(plate, high_hz).angular_frequency
+        omega = modes_of(board, high_hz).angular_frequency
     except ConfigError:
         return None
     return int((omega >= 2 * math.pi * low_hz).sum())

@@ -72,7 +72,7 @@ def _warnings(found: Figures, given: Figures) -> Iterator[str]:
         yield f"the plate is only {min(waves['length'], waves['width']):.2g} wavelengths wide: there is no place outside a focus"
     counted = found["modes_counted"]
     if counted and _differ(counted, found["modes_in_band"], 0.1):
-        yield f"edges count: {counted} modes are in the band if they are simply supported, not Tc B = {found['modes_in_band']:.3g}"
+        yield f"edges count: {counted} modes are in the band, not Tc B = {found['modes_in_band']:.3g}"
     if given["duration_ms"] > 3 * given["decay_time_ms"]:
         yield f"T is {given['duration_ms'] / given['decay_time_ms']:.3g} tau: what is emitted more than 3 tau before T is lost"
 
