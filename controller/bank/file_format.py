@@ -34,6 +34,9 @@ MODELLED = "modelled"  # build parameter `responses`: they come from a model, no
 FIXED = struct.Struct("<8sIIQ64s32sddddIIIIIIII")
 MODEL_CODE = (
     "physics/plate.py",
+    "physics/modes.py",
+    "physics/closed_form.py",
+    "physics/plate_modes.py",
     "physics/driver.py",
     "physics/step_response.py",
     "physics/modal_response.py",

@@ -64,7 +64,7 @@ class Prediction:
         samples, near = self._model.samples, self.near_samples
         if self._modal is None:
             self._modal = pulse_response(self._model.step, self._bit_period_s, samples + near).T
-        response = (self._modal * self._model.plate_modes.mode_shapes(place_m)) @ self._model.forces
+        response = (self._modal * self._model.plate_modes.shapes(place_m)) @ self._model.forces
         drive_order = np.zeros((samples + 2 * near, response.shape[1]))
         drive_order[: len(response)] = response[::-1]
         return np.array([drive_order[near - late : near - late + samples] for late in range(-near, near + 1)])
