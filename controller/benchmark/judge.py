@@ -225,7 +225,7 @@ class Plate:
         """Frequencies, their distance, and the energy density at each as a quadratic form of the channels' slopes of voltage."""
         modes = self.model.plate_modes
         driver = DriverResponse.of(self.board.driver)
-        slowest_s = 1 / float(np.min(-self.model.step.poles.real, initial=1 / self.board.plate.decay_time_s))
+        slowest_s = 1 / float(np.min(-self.model.step.poles.real, initial=modes.decay_rate.min()))
         seconds = self.model.samples * self.board.waveform.bit_period_s + REST_TAUS * slowest_s
         count = int(np.ceil(AUDIBLE_HZ * seconds))
         step_hz = AUDIBLE_HZ / count
@@ -235,7 +235,7 @@ class Plate:
         gram = np.empty((count, self.model.forces.shape[1], self.model.forces.shape[1]))
         for index, at in enumerate(s):
             stiffness = modes.mass_kg * (modes.angular_frequency**2 + 2 * modes.decay_rate * at + at**2)
-            weight = 0.25 * 2 * passed[index] / np.abs(stiffness) ** 2  # mean of a squared shape; both signs of frequency
+            weight = modes.mean_square * 2 * passed[index] / np.abs(stiffness) ** 2  # both signs of frequency
             gram[index] = self.model.forces.T @ (weight[:, None] * self.model.forces)
         return frequency, step_hz, gram
 

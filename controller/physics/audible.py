@@ -2,7 +2,7 @@
 
 It is the mean over the plate of the squared velocity spectrum, integrated from 0 to 16 kHz and
 over all time, in (m/s)^2 s: steps into the emission and back to the idle word included, decay after
-T included. In closed form per mode; the mean over the plate of a squared mode shape is 1/4.
+T included. In closed form per mode, whose shapes are orthogonal: the mean over the plate is the sum of the modes' own.
 
 A spectrum of what lasts a time t is known from samples closer than 1 / t (sampling theorem, time and
 frequency exchanged), so a long ramp is sampled more finely than an emission, and what begins above an
@@ -18,7 +18,8 @@ from scipy.signal import zoom_fft
 from controller.bank.packing import channel_bits
 from controller.board.board import Board
 from controller.physics.driver import DriverResponse
-from controller.physics.plate import PlateModes, mode_cut_hz
+from controller.physics.modes import Modes
+from controller.physics.plate_modes import modes_of
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -37,6 +38,7 @@ def surface_energy(
     high_hz: float = AUDIBLE_HZ,
     *,
     before_word: int | None = None,
+    modes: Modes | None = None,
 ) -> float:
     """Mean over the plate of the squared velocity between two frequencies, over all time, in (m/s)^2 s.
 
@@ -50,8 +52,10 @@ def surface_energy(
     low_hz, high_hz : float
         Limits of frequency.
     before_word : int, optional
+    modes : Modes, optional
+        Those of the board's plate by default.
     """
-    _, density, step_hz = surface_spectrum(board, words, idle_word, low_hz, high_hz, before_word=before_word)
+    _, density, step_hz = surface_spectrum(board, words, idle_word, low_hz, high_hz, before_word=before_word, modes=modes)
     return float(density.sum()) * step_hz
 
 
@@ -63,8 +67,11 @@ def surface_spectrum(
     high_hz: float = AUDIBLE_HZ,
     *,
     before_word: int | None = None,
+    modes: Modes | None = None,
 ) -> tuple[Floats, Floats, float]:
-    """Density of `surface_energy` over frequency; parameters as there: board, words, idle_word, low_hz, high_hz, before_word.
+    """Density of `surface_energy` over frequency.
+
+    Parameters (`board`, `words`, `idle_word`, `low_hz`, `high_hz`, `before_word`, `modes`) as there.
 
     Returns
     -------
@@ -75,14 +82,14 @@ def surface_spectrum(
     step_hz : float
         Between the frequencies.
     """
-    modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform))
+    modes = modes_of(board) if modes is None else modes
     forces = channel_forces(board, modes)
     first = idle_word if before_word is None else before_word
     levels = channel_bits(np.concatenate([[first], words, [idle_word]]).astype("<u4")).astype(np.float64)
     steps = np.diff(levels, axis=0) * board.driver.supply_v
     driver = DriverResponse.of(board.driver)
     poles = StepResponse.of(modes, driver).poles
-    slowest_s = 1 / float(np.min(-poles.real[abs(poles) >= 2 * np.pi * low_hz], initial=1 / board.plate.decay_time_s))
+    slowest_s = 1 / float(np.min(-poles.real[abs(poles) >= 2 * np.pi * low_hz], initial=modes.decay_rate.min()))
     count = int(np.ceil((high_hz - low_hz) * (len(words) * board.waveform.bit_period_s + REST_TAUS * slowest_s)))
     step_hz = (high_hz - low_hz) / count
     frequency: Floats = low_hz + step_hz * (np.arange(count, dtype=np.float64) + 0.5)
@@ -94,7 +101,7 @@ def surface_spectrum(
             slopes = zoom_fft(steps, ends_hz, some, fs=board.waveform.bit_clock_hz, axis=0)  # of dV/dt: (frequency, channel)
         s = 2j * np.pi * frequency[start : start + BLOCK]
         slope = slopes[start % TRANSFORMED :][:BLOCK] * driver.transfer(s)[:, None]
-        stiffness = modes.mass_kg * (modes.angular_frequency[:, None] ** 2 + 2 * modes.decay_rate * s + s**2)
+        stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * modes.decay_rate[:, None] * s + s**2)
         velocity = (forces @ slope.T) / stiffness
-        density[start : start + BLOCK] = np.sum(velocity.real**2 + velocity.imag**2, axis=0) * 0.25 * 2
+        density[start : start + BLOCK] = np.sum((velocity.real**2 + velocity.imag**2) * modes.mean_square[:, None], axis=0) * 2
     return frequency, density, step_hz

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from controller.board.board import Board
-from controller.physics.plate import PlateModes, bending_wavelength_m
+from controller.physics.modes import Modes, at_points
+from controller.physics.plate import bending_wavelength_m
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
@@ -112,7 +113,7 @@ class Field:
         Where the focus is measured.
     """
 
-    modes: PlateModes
+    modes: Modes
     step: StepResponse
     pole_amplitudes: Complex
     driver_amplitudes: Complex
@@ -128,29 +129,19 @@ class Field:
         modal: Floats = self.level + self.step.by_mode(self.pole_amplitudes.real) + self.driver_amplitudes.real.sum(1)
         return modal
 
-    @cached_property
-    def _matrix(self) -> Floats:
-        """`modal` by order: (m, n)."""
-        matrix = np.zeros((self.modes.x_order.max(), self.modes.y_order.max()))
-        matrix[self.modes.x_order - 1, self.modes.y_order - 1] = self.modal
-        return matrix
-
     def at(self, points_m: ArrayLike) -> Floats:
         """Displacement at T in m, (point,), at `points_m`, (point, 2)."""
-        points = np.asarray(points_m, np.float64).reshape(-1, 2)
-        along_x = self.modes.x_sines(points[:, 0]) @ self._matrix
-        values: Floats = np.einsum("pn,pn->p", along_x, self.modes.y_sines(points[:, 1]))
-        return values
+        return at_points(self.modes, self.modal, points_m)
 
     def map(self, step_m: float | None = None) -> tuple[Floats, Floats, Floats]:
         """Displacement at T over the plate: x (nx,), y (ny,), u (ny, nx), all in m; at most `step_m` (of the scale) apart."""
         step_m = self.scale.map_step_m if step_m is None else step_m
         x, y = map_axis(self.modes.length_m, step_m), map_axis(self.modes.width_m, step_m)
-        return x, y, self.modes.y_sines(y) @ (self._matrix.T @ self.modes.x_sines(x).T)
+        return x, y, self.modes.on_grid(self.modal, x, y)
 
     def around(self, point_m: Point) -> Floats:
         """Displacement in m of `point_m` at the times `FocusScale.around_s` from T: exact, steps of voltage in between included."""
-        shape = self.modes.mode_shapes(point_m)[0]
+        shape = self.modes.shapes(point_m)[0]
         rows = shape[self.step.mode_of_pole]
         times_s = self.scale.around_s
         decay, driver_decay = _tables(self.step, self.scale)
@@ -194,11 +185,11 @@ class Field:
         crest_m = self.scale.crest_m
         x = x_m + crest_m[(x_m + crest_m >= 0) & (x_m + crest_m <= self.modes.length_m)]
         y = y_m + crest_m[(y_m + crest_m >= 0) & (y_m + crest_m <= self.modes.width_m)]
-        u = self.modes.x_sines(x) @ self._matrix @ self.modes.y_sines(y).T
+        u = self.modes.on_grid(self.modal, x, y)
         u *= 1.0 if self.at((x_m, y_m))[0] >= 0 else -1.0
-        i, j = np.unravel_index(int(np.argmax(u)), u.shape)
+        j, i = np.unravel_index(int(np.argmax(u)), u.shape)
         step = float(crest_m[1] - crest_m[0])
-        return float(x[i]) + step * _vertex(u[:, j], int(i)), float(y[j]) + step * _vertex(u[i], int(j))
+        return float(x[i]) + step * _vertex(u[j], int(i)), float(y[j]) + step * _vertex(u[:, i], int(j))
 
     def _spot(self, crest: Point, amplitude: float) -> float:
         widths = []

@@ -1,7 +1,7 @@
 """Impulse responses h[point, sample, channel]: the responses of the modes summed at many points, as one GEMM.
 
-Points of a grid go by rows (`row_responses`), any others by the sum over all modes. Sample j is the displacement (j + 1) bit
-periods after the start of a pulse of one bit period (`modal_response`).
+Points of a grid go by rows (`row_responses`) if the shapes of the modes are products, any others by the sum over all modes.
+Sample j is the displacement (j + 1) bit periods after the start of a pulse of one bit period (`modal_response`).
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.bank.file_format import REST_SAMPLES
+from controller.bank.provenance import Provenance
 from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_response import band_limited_response, modes_at_once, pulse_response
-from controller.physics.plate import PlateModes, mode_cut_hz
+from controller.physics.modes import Modes, slowest_decay_s
+from controller.physics.plate_modes import in_words, modes_of
 from controller.physics.row_responses import RowResponses, flops_in_rows, in_rows
 from controller.physics.step_response import StepResponse, channel_forces
 
@@ -26,31 +28,38 @@ POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough t
 
 
 class ResponseModel:
-    """Responses of any point of a board's plate.
+    """Responses of any point of a board's plate, from its modes: a `ResponseSource`.
 
     Parameters
     ----------
     board : Board
     highest_hz : float, optional
         Modes above are left out; `mode_cut_hz` by default.
+    modes : Modes, optional
+        In place of those of the board's plate.
 
     Attributes
     ----------
-    plate_modes : PlateModes
+    provenance : Provenance
+    samples : int
+    bit_clock_hz : float
+    plate_modes : Modes
     step : StepResponse
     forces : (mode, 32) array
         N per V.
     """
 
-    def __init__(self, board: Board, highest_hz: float | None = None) -> None:
-        self.plate_modes = PlateModes.of(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
+    def __init__(self, board: Board, highest_hz: float | None = None, modes: Modes | None = None) -> None:
+        self.plate_modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.plate_modes)
+        self.provenance = Provenance("modelled", in_words(board, self.plate_modes))
         waveform = board.waveform
+        self.bit_clock_hz = waveform.bit_clock_hz
         self.samples = waveform.samples
         self._bit_period_s = waveform.bit_period_s
         self._band_hz = waveform.band_low_hz, waveform.band_high_hz
-        self._decay_time_s = board.plate.decay_time_s
+        self._decay_time_s = slowest_decay_s(self.plate_modes)
         self._kernels: dict[tuple[str, str], NDArray[np.floating[Any]]] = {}
         self._rows: dict[int, RowResponses] = {}  # by id of their kernels, which are kept
         self._workspaces: dict[tuple[str, int], tuple[NDArray[Any], NDArray[Any], NDArray[Any]]] = {}
@@ -76,6 +85,11 @@ class ResponseModel:
         """Modes in blocks whose responses are computed at once."""
         at_once = modes_at_once(self.step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
         return [slice(first, min(first + at_once, self.modes)) for first in range(0, self.modes, at_once)]
+
+    @property
+    def plate_m(self) -> tuple[float, float]:
+        """Extent of the plate along x and y."""
+        return self.plate_modes.length_m, self.plate_modes.width_m
 
     @property
     def modes(self) -> int:
@@ -153,8 +167,8 @@ class ResponseModel:
     def entry_flops(self, points_m: NDArray[np.float64]) -> float:
         """Additions and multiplications that `entry_responses` needs for `points_m`, (point, 2)."""
         rows = self.samples + -(-self.samples // REST_SAMPLES)
-        if in_rows(points_m):
-            return flops_in_rows(self.plate_modes, rows, points_m)
+        if (factors := self.plate_modes.factors) is not None and in_rows(points_m):
+            return flops_in_rows(factors, rows, points_m)
         return 2.0 * len(points_m) * self.modes * rows * CHANNELS
 
     def _kernel(self, band_limited: bool, reverse: bool, dtype: np.dtype[Any]) -> NDArray[np.floating[Any]]:
@@ -177,9 +191,9 @@ class ResponseModel:
             out = np.empty(shape, kernel.dtype)
         if out.shape != shape or out.dtype != kernel.dtype:
             raise ValueError(f"out is {out.dtype} {out.shape}, not {kernel.dtype} {shape}")
-        if in_rows(points) and out.flags.c_contiguous:
+        if (factors := self.plate_modes.factors) is not None and in_rows(points) and out.flags.c_contiguous:
             if id(kernel) not in self._rows:
-                self._rows[id(kernel)] = RowResponses(self.plate_modes, self.forces, kernel)
+                self._rows[id(kernel)] = RowResponses(factors, self.forces, kernel)
             self._rows[id(kernel)].fill(points, out)
         else:
             self._responses_anywhere(points, kernel, out)
@@ -191,7 +205,7 @@ class ResponseModel:
         for first in range(0, len(points), POINTS_PER_GEMM):
             some = points[first : first + POINTS_PER_GEMM]
             columns = len(some) * CHANNELS
-            np.multiply(self.plate_modes.mode_shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
+            np.multiply(self.plate_modes.shapes(some, kernel.dtype)[:, None, :], forces, out=driven[: len(some)])
             result = product[: len(kernel) * columns].reshape(len(kernel), columns)
             np.matmul(kernel, driven[: len(some)].reshape(columns, -1).T, out=result)
             out[first : first + len(some)] = result.reshape(len(kernel), len(some), CHANNELS).swapaxes(0, 1)

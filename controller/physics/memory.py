@@ -7,20 +7,23 @@ from controller.board.panel import CHANNELS
 from controller.errors import ConfigError
 from controller.physics.impulse_response import POINTS_PER_GEMM
 from controller.physics.modal_response import WORKING_BYTES
-from controller.physics.plate import PlateModes
+from controller.physics.modes import Modes
 
-DEFAULT_MB = 1500.0  # of 10^6 bytes; a plate with as many modes as are computed with (`plate.MAX_MODES`) needs less
+DEFAULT_MB = 1500.0  # of 10^6 bytes; a plate with as many modes as are computed with (`closed_form.MAX_MODES`) needs less
 BASE_BYTES = 140e6  # Python, NumPy, SciPy, Matplotlib and the buffers of the linear algebra
 TABLE_BYTES = 128e6  # of a table of the twin that is kept; a larger one is computed in parts, each time
 
 
-def entries_bytes(modes: PlateModes, samples: int, cells: int) -> float:
+def entries_bytes(modes: Modes, samples: int, cells: int) -> float:
     """Bytes in which the entries of `cells` cells are computed at once, in float32."""
     rows = samples + -(-samples // REST_SAMPLES)
     kernel = 4.0 * rows * modes.count
-    orders = 4.0 * rows * CHANNELS * float(modes.x_order.max())
+    if modes.factors is None:  # the sum over all modes at some points at once
+        summed = 4.0 * POINTS_PER_GEMM * (rows * CHANNELS + (CHANNELS + 3) * modes.count)
+    else:
+        summed = 4.0 * rows * CHANNELS * float(modes.factors.x_index.max() + 1)
     forces = (8 + 4 + 4) * CHANNELS * modes.count
-    return BASE_BYTES + WORKING_BYTES + 2 * kernel + orders + forces + cell_bytes(samples) * cells
+    return BASE_BYTES + WORKING_BYTES + 2 * kernel + summed + forces + cell_bytes(samples) * cells
 
 
 def cell_bytes(samples: int) -> float:
@@ -28,7 +31,7 @@ def cell_bytes(samples: int) -> float:
     return 4.0 * CHANNELS * (samples + -(-samples // REST_SAMPLES))
 
 
-def focus_bytes(modes: PlateModes, samples: int, times: int) -> float:
+def focus_bytes(modes: Modes, samples: int, times: int) -> float:
     """Bytes in which a focus is computed and judged by the twin at so many times around T, in float64."""
     kernels = 2 * 8.0 * samples * modes.count
     at_points = 8.0 * (POINTS_PER_GEMM + 1) * CHANNELS * modes.count

@@ -14,6 +14,8 @@ from controller.board.panel import Actuator
 
 Floats = NDArray[np.float64]
 
+POINTS_AT_ONCE = 256  # 4 MB of the shapes of the paper's plate
+
 
 class TensorFactors(Protocol):
     """Shapes that are products: the shape of mode k is along_x(x)[x_index[k]] * along_y(y)[y_index[k]].
@@ -86,3 +88,30 @@ class Modes(Protocol):
 
         What a unit bending moment per length on the edges of the patch drives (divergence theorem).
         """
+
+
+def by_factor(factors: TensorFactors, amplitudes: Floats) -> Floats:
+    """Amplitudes of modes, (mode,), by the factors of their shapes: (factor along x, factor along y)."""
+    matrix = np.zeros((int(factors.x_index.max()) + 1, int(factors.y_index.max()) + 1))
+    matrix[factors.x_index, factors.y_index] = amplitudes
+    return matrix
+
+
+def at_points(modes: Modes, amplitudes: Floats, points_m: ArrayLike) -> Floats:
+    """Sum of the shapes with `amplitudes`, (mode,), at `points_m`, (point, 2) in m: (point,)."""
+    points = np.asarray(points_m, np.float64).reshape(-1, 2)
+    if modes.factors is not None:
+        along_x = modes.factors.along_x(points[:, 0]) @ by_factor(modes.factors, amplitudes)
+        values: Floats = np.einsum("pn,pn->p", along_x, modes.factors.along_y(points[:, 1]))
+        return values
+    values = np.empty(len(points))
+    for first in range(0, len(points), POINTS_AT_ONCE):
+        some = slice(first, first + POINTS_AT_ONCE)
+        values[some] = modes.shapes(points[some]) @ amplitudes
+    return values
+
+
+def slowest_decay_s(modes: Modes) -> float:
+    """Time in which the mode that rings longest falls to 1/e; inf without damping."""
+    rate = float(modes.decay_rate.min())
+    return 1 / rate if rate > 0 else float("inf")

@@ -29,7 +29,8 @@ from controller.physics.field import Field, FocusScale
 from controller.physics.focusing import balanced_weights, focus
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.memory import TABLE_BYTES
-from controller.physics.plate import PlateModes, mode_cut_hz
+from controller.physics.modes import Modes
+from controller.physics.plate_modes import modes_of
 from controller.physics.step_response import StepResponse, channel_forces
 
 Floats = NDArray[np.float64]
@@ -67,6 +68,8 @@ class PlateTwin:
         Modes above are left out; `mode_cut_hz` by default.
     remembered : int
         Groups kept (0.1 MB each); the one not used for longest goes first.
+    modes : Modes, optional
+        In place of those of the board's plate.
 
     Attributes
     ----------
@@ -76,10 +79,9 @@ class PlateTwin:
         Counters.
     """
 
-    def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256) -> None:
+    def __init__(self, board: Board, highest_hz: float | None = None, remembered: int = 256, modes: Modes | None = None) -> None:
         self.board = board
-        self._highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
-        self.modes = PlateModes.of(board.plate, self._highest_hz)
+        self.modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.modes)
         self.scale = FocusScale.of(board)
@@ -93,7 +95,7 @@ class PlateTwin:
     @cached_property
     def responses(self) -> ResponseModel:
         """Responses of the same plate, which its own way from pins to displacement does not use."""
-        return ResponseModel(self.board, self._highest_hz)
+        return ResponseModel(self.board, modes=self.modes)
 
     def fields(self, capture: Capture, clock_hz: float) -> Iterator[Field]:
         """Displacement of the plate at every focus tick, relative to rest at the board's idle word.

@@ -1,9 +1,9 @@
 """Responses of points that lie in rows, as the cells of a grid do: small GEMMs in place of a large one.
 
-A mode's shape is sin(m pi x / a) sin(n pi y / b), so the sum over modes can be taken over n first, once for each row of points with
-the same y, and then over m for each point: some 15 times fewer multiplications than the sum over all modes at every point, and each
-of them still in a GEMM. The products of kernel and force are never written out: the forces of one order m, weighted for a row, are
-the right factor of a GEMM whose left factor is the kernel of that order.
+Where a mode's shape is a product of a factor along x and one along y, the sum over modes can be taken over y's factors first, once
+for each row of points with the same y, and then over x's for each point: some 15 times fewer multiplications than the sum over all
+modes at every point, and each of them still in a GEMM. The products of kernel and force are never written out: the forces of the
+modes of one factor along x, weighted for a row, are the right factor of a GEMM whose left factor is the kernel of those modes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.board.panel import CHANNELS
-from controller.physics.plate import PlateModes
+from controller.physics.modes import TensorFactors
 
 Reals = NDArray[np.floating[Any]]
 
@@ -27,10 +27,10 @@ def in_rows(points_m: NDArray[np.float64]) -> bool:
     return len(points_m) >= POINTS_PER_ROW * _rows(points_m)
 
 
-def flops_in_rows(modes: PlateModes, samples: int, points_m: NDArray[np.float64]) -> float:
+def flops_in_rows(factors: TensorFactors, samples: int, points_m: NDArray[np.float64]) -> float:
     """Additions and multiplications that the responses of `points_m`, (point, 2), need row by row, `samples` a channel."""
-    x_orders = int(modes.x_order.max())
-    return 2.0 * samples * CHANNELS * (modes.count * _rows(points_m) + x_orders * len(points_m))
+    x_factors = int(factors.x_index.max()) + 1
+    return 2.0 * samples * CHANNELS * (factors.x_index.size * _rows(points_m) + x_factors * len(points_m))
 
 
 def _rows(points_m: NDArray[np.float64]) -> int:
@@ -42,20 +42,21 @@ class RowResponses:
 
     Parameters
     ----------
-    modes : PlateModes
+    factors : TensorFactors
+        Of the modes' shapes.
     forces : (mode, 32) array
     kernel : (sample, mode) array
         float32 or float64; the type of the result.
     """
 
-    def __init__(self, modes: PlateModes, forces: NDArray[np.float64], kernel: Reals) -> None:
-        by_order = np.argsort(modes.x_order, kind="stable")
-        ends = np.searchsorted(modes.x_order[by_order], np.arange(1, modes.x_order.max() + 2)).tolist()
-        self._modes = modes
-        self._y_index = modes.y_order[by_order] - 1
+    def __init__(self, factors: TensorFactors, forces: NDArray[np.float64], kernel: Reals) -> None:
+        by_order = np.argsort(factors.x_index, kind="stable")
+        ends = np.searchsorted(factors.x_index[by_order], np.arange(factors.x_index.max() + 2)).tolist()
+        self._factors = factors
+        self._y_index = factors.y_index[by_order]
         self._forces = forces[by_order].astype(kernel.dtype)
         self._kernel = np.ascontiguousarray(kernel[:, by_order])
-        self._orders = [slice(first, last) for first, last in pairwise(ends)]  # the modes of each m
+        self._orders = [slice(first, last) for first, last in pairwise(ends)]  # the modes of each factor along x
         self._summed = np.empty((len(self._orders), len(kernel), CHANNELS), kernel.dtype)
 
     def fill(self, points_m: NDArray[np.float64], out: Reals) -> None:
@@ -69,18 +70,18 @@ class RowResponses:
         """
         kernel, summed = self._kernel, self._summed
         rows_m, row_of = np.unique(points_m[:, 1], return_inverse=True)
-        y_sines = self._modes.y_sines(rows_m).astype(kernel.dtype)
-        x_sines = self._modes.x_sines(points_m[:, 0]).astype(kernel.dtype)
+        y_factors = self._factors.along_y(rows_m).astype(kernel.dtype)
+        x_factors = self._factors.along_x(points_m[:, 0]).astype(kernel.dtype)
         flat_sum, flat = summed.reshape(len(summed), -1), out.reshape(len(points_m), -1)
-        for row, along_y in enumerate(y_sines[:, self._y_index]):
+        for row, along_y in enumerate(y_factors[:, self._y_index]):
             weighted = along_y[:, None] * self._forces
             for order, some in enumerate(self._orders):
                 np.matmul(kernel[:, some], weighted[some], out=summed[order])
             members = _slice_or_index(np.flatnonzero(row_of == row))
             if isinstance(members, slice):
-                np.matmul(x_sines[members], flat_sum, out=flat[members])
+                np.matmul(x_factors[members], flat_sum, out=flat[members])
             else:
-                flat[members] = x_sines[members] @ flat_sum
+                flat[members] = x_factors[members] @ flat_sum
 
 
 def _slice_or_index(index: NDArray[np.intp]) -> slice | NDArray[np.intp]:

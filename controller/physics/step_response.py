@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
-from controller.physics.plate import PlateModes
+from controller.physics.modes import Modes
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -51,7 +51,7 @@ class StepResponse:
     driver_residues: Complex
 
     @classmethod
-    def of(cls, modes: PlateModes, driver: DriverResponse) -> StepResponse:
+    def of(cls, modes: Modes, driver: DriverResponse) -> StepResponse:
         """Partial fractions of plate and driver."""
         omega, rate = modes.angular_frequency, modes.decay_rate
         root = np.sqrt((rate**2 - omega**2).astype(np.complex128))
@@ -63,7 +63,7 @@ class StepResponse:
         pair[root.imag != 0] = 2
         other = driver.transfer(second) / (modes.mass_kg * second * (second - first))
         d = driver.poles
-        plate_at_d = 1 / (modes.mass_kg * (d[None, :] - first[:, None]) * (d[None, :] - second[:, None]))
+        plate_at_d = 1 / (modes.mass_kg[:, None] * (d[None, :] - first[:, None]) * (d[None, :] - second[:, None]))
         return cls(
             static=1 / (modes.mass_kg * omega**2),
             poles=np.concatenate([first, second[overdamped]]),
@@ -96,7 +96,7 @@ class StepResponse:
         return total
 
 
-def channel_forces(board: Board, modes: PlateModes) -> Floats:
+def channel_forces(board: Board, modes: Modes) -> Floats:
     """Force on each mode in N per V on each channel: (mode, 32), zero where a channel has no actuator.
 
     Positive moments bend the plate towards +z at the patch; `moment_n_per_v` times the patch
@@ -104,6 +104,5 @@ def channel_forces(board: Board, modes: PlateModes) -> Floats:
     """
     force = np.zeros((modes.count, CHANNELS))
     for a in board.actuators:
-        curvature = modes.patch_curvature(a.x_mm * 1e-3, a.y_mm * 1e-3, a.size_mm * 1e-3)
-        force[:, a.channel] = -board.driver.moment_n_per_v * curvature
+        force[:, a.channel] = -board.driver.moment_n_per_v * modes.coupling(a)
     return force

@@ -48,13 +48,13 @@ class AudibleForm:
         count = int(np.ceil(AUDIBLE_HZ * waveform.duration_s * BINS_PER_LINE))
         fine_hz = AUDIBLE_HZ / count / FINE * (np.arange(count * FINE) + 0.5)
         modes, driver = model.plate_modes, DriverResponse.of(board.driver)
-        rate = max(modes.decay_rate, 2 * np.pi * AUDIBLE_HZ / count / FINE)  # a mode that is narrower is not met by chance
+        rate = np.maximum(modes.decay_rate, 2 * np.pi * AUDIBLE_HZ / count / FINE)  # a mode that is narrower is not met by chance
         form = np.empty((count, CHANNELS, CHANNELS))
         for index, some_hz in enumerate(fine_hz.reshape(count, FINE)):
             s = 2j * np.pi * some_hz
-            stiffness = modes.mass_kg * (modes.angular_frequency[:, None] ** 2 + 2 * rate * s + s**2)
+            stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * rate[:, None] * s + s**2)
             gain = np.abs(driver.transfer(s) * (1 - np.exp(-s * period_s)) / stiffness)
-            form[index] = (model.forces * np.sum(gain**2, axis=1)[:, None]).T @ model.forces
+            form[index] = (model.forces * (modes.mean_square * np.sum(gain**2, axis=1))[:, None]).T @ model.forces
         self._form = rounded(form / form.max(), FORM_BITS, (1, 2))
         hz = fine_hz.reshape(count, FINE).mean(axis=1)
         turns = 2 * np.pi * np.outer(np.arange(samples), hz * period_s)

@@ -1,8 +1,9 @@
 """The field at T as a function of the drive bits: linear in each mode, quadratic in its mean square outside the focus.
 
-Every bit of a channel and a sample moves each mode by kernel(sample, mode) force(mode, channel). By the orthogonality of the mode
-shapes the mean square over the plate is a quarter of the sum of squares of the modes; what lies near the focus is subtracted,
-point by point of the map by which contrast is defined (`physics/field.py`).
+Every bit of a channel and a sample moves each mode by kernel(sample, mode) force(mode, channel). The shapes are taken in a
+size at which each has a mean square of a quarter; as they are orthogonal, the mean square over the plate is a quarter of the sum of
+squares of the modes. What lies near the focus is subtracted, point by point of the map by which contrast is defined
+(`physics/field.py`).
 """
 
 from __future__ import annotations
@@ -31,16 +32,17 @@ class Surroundings(NamedTuple):
 
     Attributes
     ----------
-    x_sines, y_sines : (point, order) array
-        Of the map's columns and rows that reach into it.
+    along_x, along_y : (point, factor) array
+        Factors of the shapes at the map's columns and rows that reach into it; of shapes that are no products, the shapes at
+        each of its points, and 1.
     inside : (column, row) array
         1 where a point of the map lies in it, else 0.
     share : float
         Points of the map for each point outside.
     """
 
-    x_sines: Floats
-    y_sines: Floats
+    along_x: Floats
+    along_y: Floats
     inside: Floats
     share: float
 
@@ -67,11 +69,12 @@ class FieldForm:
     def __init__(self, board: Board, model: ResponseModel) -> None:
         kernel = model.modal[:, ::-1].T
         _, exponents = np.frexp(np.abs(kernel).max(axis=0))  # a mode's kernel is brought below 1, its forces are what its bits do
-        forces = np.ldexp(model.forces, exponents[:, None])
+        self._modes = model.plate_modes
+        self._size: Floats = 0.5 / np.sqrt(self._modes.mean_square)  # of the shapes: their mean square is then 1/4
+        forces = np.ldexp(model.forces / self._size[:, None], exponents[:, None])
         forces *= np.ldexp(1.0, TABLE_BITS - int(np.frexp(np.abs(forces).max())[1]))
         self._kernel: Floats = np.ascontiguousarray(np.rint(np.ldexp(kernel, TABLE_BITS - exponents)) * 2.0**-TABLE_BITS)
         self._forces: Floats = np.rint(forces)
-        self._modes = model.plate_modes
         self._idle = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         scale = FocusScale.of(board)
         self._outside_m = scale.outside_m
@@ -87,7 +90,7 @@ class FieldForm:
 
     def shapes(self, points_m: Floats) -> Floats:
         """Mode shapes at points, (point, 2): (point, mode)."""
-        shapes = self._modes.mode_shapes(points_m).astype(np.float64, copy=False)
+        shapes = self._modes.shapes(points_m).astype(np.float64, copy=False) * self._size
         found: Floats = np.rint(np.ldexp(shapes, PLACE_BITS)) * 2.0**-PLACE_BITS
         return found
 
@@ -97,13 +100,18 @@ class FieldForm:
         near = np.hypot((self._x_m - x_m)[:, None], self._y_m - y_m) <= self._outside_m
         if near.all():
             near[:] = False
+        share = near.size / np.count_nonzero(~near)
         columns, rows = near.any(axis=1), near.any(axis=0)
-        return Surroundings(
-            rounded(self._modes.x_sines(self._x_m[columns]), PLACE_BITS) if columns.any() else np.zeros((0, 1)),
-            rounded(self._modes.y_sines(self._y_m[rows]), PLACE_BITS) if rows.any() else np.zeros((0, 1)),
-            near[np.ix_(columns, rows)].astype(np.float64),
-            near.size / np.count_nonzero(~near),
-        )
+        if not near.any():
+            return Surroundings(np.zeros((0, 1)), np.zeros((0, 1)), np.zeros((0, 0)), share)
+        if (factors := self._modes.factors) is not None:
+            along_x, along_y = factors.along_x(self._x_m[columns]), factors.along_y(self._y_m[rows])
+            inside = near[np.ix_(columns, rows)].astype(np.float64)
+        else:
+            column, row = np.nonzero(near)
+            along_x = self._modes.shapes(np.column_stack([self._x_m[column], self._y_m[row]])).astype(np.float64, copy=False)
+            along_y, inside = np.ones((1, 1)), np.ones((len(column), 1))
+        return Surroundings(rounded(along_x, PLACE_BITS), rounded(along_y, PLACE_BITS), inside, share)
 
     def modal(self, levels: Floats) -> Floats:
         """Displacement of each mode by levels of the channels, 0 to 1 in 2^-10 at most: (sample, cell, 32) to (cell, mode)."""
@@ -135,18 +143,19 @@ class FieldForm:
         squares : (cell,) array
             Sum of squares over the map's points there.
         """
-        coarse = rounded(modal, 26, 1)
+        coarse = rounded(modal * self._size, 26, 1)
         back, squares = np.zeros_like(modal), np.zeros(len(modal))
-        x_index, y_index = self._modes.x_order - 1, self._modes.y_order - 1
+        factors, each = self._modes.factors, np.arange(self._modes.count)
+        x_index, y_index = (each, np.zeros_like(each)) if factors is None else (factors.x_index, factors.y_index)
         for cell, place in enumerate(places):
             if not place.inside.size:
                 continue
-            matrix = np.zeros((place.x_sines.shape[1], place.y_sines.shape[1]))
+            matrix = np.zeros((place.along_x.shape[1], place.along_y.shape[1]))
             matrix[x_index, y_index] = coarse[cell]
-            field = rounded(rounded(place.x_sines @ matrix, 26) @ place.y_sines.T, 20) * place.inside
+            field = rounded(rounded(place.along_x @ matrix, 26) @ place.along_y.T, 20) * place.inside
             squares[cell] = np.sum(field**2)
-            returned = rounded(place.x_sines.T @ field, 26) @ place.y_sines
-            back[cell] = returned[x_index, y_index] * (4 / self._points)
+            returned = rounded(place.along_x.T @ field, 26) @ place.along_y
+            back[cell] = returned[x_index, y_index] * self._size * (4 / self._points)
         return back, squares
 
     def mean_square(self, modal: Floats, places: list[Surroundings]) -> Floats:

@@ -22,7 +22,7 @@ def run(board, bank_file):
     return run_it
 
 
-@pytest.mark.parametrize("fingers", [1, 2])
+@pytest.mark.parametrize("fingers", [1, pytest.param(2, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("p50_us", LATE_PERCENT)
 def test_few_beats_are_late_on_a_slow_host(run, p50_us, fingers):
     done = run(p50_us, moving(10.0, fingers))

@@ -88,7 +88,7 @@ def rubbing(seed, duration_s):
     return [*reports, (duration_s + 0.1, {0: None})]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 6))])
 def test_rubbing_a_fine_texture_back_and_forth_keeps_playing(perform, board, seed):
     """What a stroke asks for lies near what the one before asked for: often nearer to where an upload would meet the finger."""
     sixteen = msgspec.structs.replace(board, link=msgspec.structs.replace(board.link, slots=16))
@@ -122,7 +122,7 @@ def wandering(seed, duration_s, fingers):
     return [(k * REPORT_S, slots) for k, slots in sorted(at.items())]
 
 
-@pytest.mark.parametrize("name", ["scene.toml", "library.toml"])
+@pytest.mark.parametrize("name", [pytest.param("scene.toml", marks=pytest.mark.slow), "library.toml"])
 def test_of_two_fingers_that_turn_at_random_a_quarter_of_what_is_sent_ahead_is_never_played(perform, board, name):
     """Where they turn nobody can know: a waveform is sent ahead only of one that has gone as expected, and is played alone."""
     text = (board.folder / name).read_text()

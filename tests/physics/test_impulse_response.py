@@ -22,11 +22,11 @@ def model():
 
 def stepped_by_matrix_exponential(model, mode, board=BOARD):
     """Displacement of one mode after a pulse of one bit period: states (q, dq/dt, voltage, current), zero-order hold."""
-    omega, rate = model.plate_modes.angular_frequency[mode], model.plate_modes.decay_rate
+    omega, rate = model.plate_modes.angular_frequency[mode], model.plate_modes.decay_rate[mode]
     driver = board.driver
     matrix = np.zeros((5, 5))
     matrix[0, 1] = 1
-    matrix[1, :3] = -(omega**2), -2 * rate, 1 / model.plate_modes.mass_kg
+    matrix[1, :3] = -(omega**2), -2 * rate, 1 / model.plate_modes.mass_kg[mode]
     matrix[2, 3] = 1 / driver.capacitance_f
     matrix[3, 2:] = np.array([-1.0, -driver.resistance_ohm, 1.0]) / driver.inductance_h
     held = expm(matrix * board.waveform.bit_period_s)
@@ -77,7 +77,7 @@ def test_the_filter_passes_the_band_and_nothing_one_can_hear():
 
 
 def test_responses_are_sums_over_modes_in_either_order_of_time(model):
-    shapes = model.plate_modes.mode_shapes(POINTS[:2])
+    shapes = model.plate_modes.shapes(POINTS[:2])
     expected = np.einsum("pk,kj,kq->pjq", shapes, model.modal_band, model.forces, optimize=True)
     scale = np.abs(expected).max()
     assert model.responses(POINTS[:2], band_limited=True) == pytest.approx(expected, abs=1e-12 * scale)

@@ -15,7 +15,7 @@ from controller.physics.driver import DriverResponse
 from controller.physics.field import AROUND_S, LINE_M, half_width
 from controller.physics.focusing import balanced_weights, focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import PlateModes
+from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 from controller.physics.step_response import StepResponse
 
@@ -88,7 +88,7 @@ def test_changes_off_the_grid_of_bits_are_met_by_the_matrix_exponential(twin):
     for mode in (0, 1, 50, 200):
         matrix = np.zeros((5, 5))
         matrix[0, 1] = 1
-        matrix[1, :3] = -(twin.modes.angular_frequency[mode] ** 2), -2 * twin.modes.decay_rate, 1 / twin.modes.mass_kg
+        matrix[1, :3] = -(twin.modes.angular_frequency[mode] ** 2), -2 * twin.modes.decay_rate[mode], 1 / twin.modes.mass_kg[mode]
         matrix[2, 3] = 1 / driver.capacitance_f
         matrix[3, 2:] = np.array([-1.0, -driver.resistance_ohm, 1.0]) / driver.inductance_h
         state = np.zeros(5)
@@ -106,7 +106,7 @@ def test_the_ring_of_earlier_emissions_and_of_the_arming_is_carried_over(twin, m
     *_, third = twin.fields(capture_of_words(words, BIT, IDLE, short_ago, period, 3), CLOCK_HZ)
     # the same by superposition of everything: idle step at 0, three emissions and their ends
     step = StepResponse.of(twin.modes, DriverResponse.of(BOARD.driver))
-    shapes = twin.modes.mode_shapes(POINTS)
+    shapes = twin.modes.shapes(POINTS)
     end = short_ago + 2 * period + 1000 * BIT
     once = np.concatenate([[IDLE], words, [IDLE]])
     changes = [(0, 0, IDLE)]
@@ -224,7 +224,7 @@ def test_audible_energy_adds_up_to_the_energy_over_time(words, before):
     # a plate with few modes and few words, so that time can be sampled finely; 0.3 % is 0.013 dB
     plate = msgspec.structs.replace(BOARD.plate, thickness_mm=40.0)
     board = msgspec.structs.replace(BOARD, plate=plate)
-    modes = PlateModes.of(plate, 100e3)
+    modes = modes_of(board)
     assert 10 < modes.count < 40
     step = StepResponse.of(modes, DriverResponse.of(board.driver))
     forces = PlateTwin(board).forces

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benches import BENCHES, RUNS, make_variables
+from benches import BENCHES, RUNS, SLOW_RUNS, make_variables
 from verilog_coverage import MODULES, line_counts, load_waivers, read, readable, table, together, too_little, uncovered, waive
 
 from controller.bank.grid import Grid
@@ -44,7 +44,7 @@ def test_the_core_does_what_the_model_does_through_a_thousand_random_frames(simu
     perform("haptic_core", simulator, one_entry_bank, tmp_path, HAPTIC_PANEL_RANDOM_FRAMES="1000")
 
 
-@pytest.mark.parametrize("run", RUNS)
+@pytest.mark.parametrize("run", [*RUNS, *(pytest.param(run, marks=pytest.mark.slow) for run in SLOW_RUNS)])
 def test_bench(run, simulator, one_entry_bank, verilog_coverage, tmp_path):
     perform(run, simulator, one_entry_bank, tmp_path)
     if simulator == "verilator" and run in BENCHES:

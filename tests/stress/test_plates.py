@@ -18,7 +18,8 @@ from controller.cli import main
 from controller.errors import ConfigError
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import PlateModes, bending_wavelength_m, mode_cut_hz
+from controller.physics.plate import bending_wavelength_m
+from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
 
 LONG = pytest.mark.stress
@@ -55,7 +56,7 @@ def test_a_plate_of_any_size_has_a_bank_a_focus_and_a_twin_that_agree(board, tmp
     pitch_m = min(panel.plate.width_m / 5, 20 * waves_m)
     roomy = changed(panel, limits={"max_edge_rate_hz": panel.waveform.bit_clock_hz, "min_pulse_us": 0.4})
     report = build_bank(roomy, tmp_path / "bank", pitch_m, measure_sgemm=False)
-    assert report.modes == PlateModes.of(panel.plate, mode_cut_hz(panel.waveform)).count
+    assert report.modes == modes_of(panel).count
     assert verify_bank(tmp_path / "bank")["cells"] == report.cells
     twin = PlateTwin(panel)
     with Bank.open(tmp_path / "bank", roomy) as bank:

@@ -14,7 +14,8 @@ from scipy.special import j0
 from controller.bank.grid import Grid
 from controller.benchmark.methods.response_table import Stencil
 from controller.board.board import Board
-from controller.physics.plate import PlateModes
+from controller.physics.modes import Modes
+from controller.physics.plate import bending_wavelength_m
 
 Interpolation = Callable[[Grid, float, float], Stencil]
 LOOKUP_STEPS = 20  # of a pitch, for tabulated weights
@@ -72,14 +73,14 @@ class BandInterpolation:
     Parameters
     ----------
     board : Board
-    modes : PlateModes
+    modes : Modes
         Of its plate: they say which wave numbers are in the band.
     size : int
         Of the block of cells.
     """
 
     board: Board
-    modes: PlateModes
+    modes: Modes
     size: int
     _tables: dict[tuple[float, int, int], NDArray[np.float32]] = field(default_factory=dict)
 
@@ -114,10 +115,8 @@ class BandInterpolation:
 
     def _correlation(self, distance_m: NDArray[np.float64]) -> NDArray[np.float64]:
         low_hz, high_hz = self.board.waveform.band_low_hz, self.board.waveform.band_high_hz
-        number = np.sqrt(  # of the wave of each mode, in 1/m
-            (np.pi * self.modes.x_order / self.modes.length_m) ** 2 + (np.pi * self.modes.y_order / self.modes.width_m) ** 2
-        )
         hz = self.modes.angular_frequency / (2 * np.pi)
+        number = 2 * np.pi / bending_wavelength_m(self.board.plate, 1.0) * np.sqrt(hz)  # of the waves of each mode, in 1/m
         in_band: NDArray[Any] = number[(hz >= low_hz) & (hz <= high_hz)]
         far = np.linspace(0, float(distance_m.max()) + 1e-6, 2000)
         mean = j0(np.outer(far, in_band[:: max(len(in_band) // 256, 1)])).mean(axis=1)

@@ -76,7 +76,7 @@ class ModalBank:
         self.modes = len(kept)
         self._idle_word = idle_word
         self._plate = plate
-        self._x_index, self._y_index = plate.x_order[kept] - 1, plate.y_order[kept] - 1
+        self._kept = kept
         self._energy = energy[kept].astype(np.float32)
         self._couplings: Floats = model.forces[kept].astype(np.float32)
         kernel = np.ascontiguousarray(model.modal_band[kept, ::-1].T)
@@ -90,9 +90,7 @@ class ModalBank:
 
     def __call__(self, points: Sequence[Point]) -> Words:
         """Drive words for points of full amplitude."""
-        x = self._plate.x_sines([point[0] for point in points])[:, self._x_index]
-        y = self._plate.y_sines([point[1] for point in points])[:, self._y_index]
-        shapes = x * y
+        shapes = self._plate.shapes([point[:2] for point in points])[:, self._kept]
         sizes = np.sqrt(shapes**2 @ self._energy)  # proportional to the sum of absolute values, nearly
         combined = (shapes / np.maximum(sizes, 1e-30)[:, None]).sum(axis=0)
         total = self._kernel @ (self._couplings * combined[:, None].astype(np.float32))
