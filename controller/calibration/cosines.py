@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 OFF_PLACE = 0.15  # of a cell: how far a point may lie off its place in a grid
 WINDOW = 7  # places along each side of the square from which one of them is estimated
-JUDGED = 300  # places
+JUDGED = 100  # places
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +61,15 @@ class Lattice:
             np.abs(places - (np.arange(places.size) + 0.5) * (extent / places.size)).max() <= OFF_PLACE * extent / places.size
             for places, extent in ((self.x_m, length_m), (self.y_m, width_m))
         )
+
+    def window(self, place: int) -> NDArray[np.intp]:
+        """Places of a square around one, shifted where it would reach beyond the grid."""
+        sides = []
+        for at, count in zip(divmod(place, self.x_m.size), (self.y_m.size, self.x_m.size), strict=True):
+            first = max(min(at - WINDOW // 2, count - WINDOW), 0)
+            sides.append(np.arange(first, min(first + WINDOW, count)))
+        row, column = sides
+        return (row[:, None] * self.x_m.size + column).reshape(-1)
 
     def points(self) -> Floats:
         """All places: (place, 2) in m."""
@@ -115,7 +124,7 @@ def fill_places(
 ) -> Spectra:
     """Estimate places of a grid from their neighbours, as if they were missing; those that are missing get that estimate.
 
-    With none missing, neighbours weigh the same all over the plate but near its edges; with any, `JUDGED` places stand for all.
+    Where none is missing, neighbours weigh the same all over the plate but near its edges; else `JUDGED` places stand for all.
 
     Parameters
     ----------
@@ -134,33 +143,28 @@ def fill_places(
     (bin, place, channel) array
         Places as foreseen by their neighbours, NaN where that was not estimated.
     """
-    places, columns, rows = lattice.points(), lattice.x_m.size, lattice.y_m.size
+    places = lattice.points()
     measured, foreseen = values.copy() if not known.all() else values, np.full_like(values, np.nan)
     weights: dict[tuple[int, bytes], Floats] = {}  # by the place within its window, and what is known there
     groups = [channels for _, channels in alike(known)]
-    channels_used = np.concatenate(groups)
-    whole = known[:, channels_used].all(axis=1)
-    judged = np.flatnonzero(whole)
-    if not whole.all():
-        judged = np.random.default_rng(1).permutation(judged)[:JUDGED]
-    wanted = np.concatenate([np.flatnonzero(~whole), judged])
-    for done, place in enumerate(wanted.tolist(), 1):
-        row, column = divmod(place, columns)
-        first_row, first_column = (max(min(at - WINDOW // 2, count - WINDOW), 0) for at, count in ((row, rows), (column, columns)))
-        window = (
-            np.arange(first_row, min(first_row + WINDOW, rows))[:, None] * columns
-            + np.arange(first_column, min(first_column + WINDOW, columns))
-        ).reshape(-1)
-        for channels in groups:
-            usable = known[window, channels[0]] & (window != place)
-            near = window[usable]
-            name = (int(np.flatnonzero(window == place)[0]), usable.tobytes())
-            if name not in weights:
-                weights[name] = _weights(prior, places[[place]], places[near], len(values), noise)
-            foreseen[:, place, channels] = np.einsum("bp,bpc->bc", weights[name], measured[:, near][:, :, channels])
-        missing = channels_used[~known[place, channels_used]]
-        values[:, place, missing] = foreseen[:, place, missing]
-        progress(done, len(wanted))
+    work = []
+    for channels in groups:
+        there = known[:, channels[0]]
+        judged = np.flatnonzero(there)
+        if not there.all():
+            judged = np.random.default_rng(1).permutation(judged)[: JUDGED // len(groups)]
+        work += [(place, channels) for place in np.concatenate([np.flatnonzero(~there), judged]).tolist()]
+    for done, (place, channels) in enumerate(work, 1):
+        window = lattice.window(place)
+        usable = known[window, channels[0]] & (window != place)
+        near = window[usable]
+        name = (int(np.flatnonzero(window == place)[0]), usable.tobytes())
+        if name not in weights:
+            weights[name] = _weights(prior, places[[place]], places[near], len(values), noise)
+        foreseen[:, place, channels] = np.einsum("bp,bpc->bc", weights[name], measured[:, near][:, :, channels])
+        if not known[place, channels[0]]:
+            values[:, place, channels] = foreseen[:, place, channels]
+        progress(done, len(work))
     return foreseen
 
 
@@ -168,8 +172,7 @@ def _weights(prior: Prior, target_m: Floats, points_m: Floats, bins: int, noise:
     """Weights of points in the estimate at one target: (bin, point)."""
     among, between = prior.between(points_m, points_m), prior.between(points_m, target_m)
     whole = np.stack([among(bin_) for bin_ in range(bins)]) + noise * np.eye(len(points_m))
-    found: Floats = np.linalg.solve(whole, np.stack([between(bin_) for bin_ in range(bins)]))[:, :, 0]
-    return found
+    return np.linalg.solve(whole, np.stack([between(bin_) for bin_ in range(bins)]))[:, :, 0].astype(np.float64, copy=False)
 
 
 def _even(places_m: Floats) -> Floats | None:
@@ -182,6 +185,7 @@ def _even(places_m: Floats) -> Floats | None:
     means = np.array([some.mean() for some in np.split(ordered, np.flatnonzero(apart) + 1)])
     pitch_m = float(np.median(np.diff(means)))
     count = round((means[-1] - means[0]) / pitch_m) + 1
-    found = np.linspace(float(means[0]), float(means[-1]), count)
-    off_m = abs(found - places_m[:, None]).min(axis=1)
+    step_m = float(means[-1] - means[0]) / max(count - 1, 1)
+    found = np.array([float(means[0]) + index * step_m for index in range(count)])
+    off_m = np.abs(found - places_m[:, None]).min(axis=1)
     return found if count > 2 and off_m.max() <= OFF_PLACE * pitch_m else None

@@ -19,8 +19,8 @@ from controller.calibration.spectra import Bins
 from controller.calibration.wave_fit import WaveFit, fit_waves
 from controller.errors import CalibrationError
 
-LEAST_KEPT = 0.9  # of points left out, their median: worse responses are refused
-LEAST_POINTS = 30  # of any plate
+LEAST_KEPT = 0.93  # of points left out, their median: worse responses are refused
+LEAST_POINTS = 12  # of any plate
 PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
 MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
 
@@ -91,11 +91,11 @@ def interpolate(
     median, least = leave_out.summary()
     if not median >= LEAST_KEPT:
         raise CalibrationError(
-            f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are too"
-            f" few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
+            f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are"
+            f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
         )
     provenance = msgspec.structs.replace(learned.provenance, model=words, points=len(points_m), kept=(median, least))
-    return InterpolatedResponses(bins, field, provenance, leave_out, reach, points_m), waves
+    return InterpolatedResponses(board, bins, field, provenance, leave_out, reach, points_m), waves
 
 
 def _checked(board: Board, learned: LearnedResponses) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
@@ -133,8 +133,8 @@ def _refuse_coarse(board: Board, lattice: Lattice) -> None:
     limit_m = Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz) / 2
     if lattice.pitch_m > PITCH_SLACK * limit_m:
         raise CalibrationError(
-            f"the points are a regular grid of {lattice.pitch_m * 1e3:.2f} mm, above half a wavelength ({limit_m * 1e3:.2f} mm), which"
-            " mistakes waves for others: measure a finer grid, or scattered points (haptic-panel calibrate plan)"
+            f"the points are a regular grid of {lattice.pitch_m * 1e3:.2f} mm, above half a wavelength ({limit_m * 1e3:.2f} mm),"
+            " which mistakes waves for others: measure a finer grid, or scattered points (haptic-panel calibrate plan)"
         )
 
 
@@ -146,8 +146,10 @@ def _judged(
     known: NDArray[np.bool_],
 ) -> LeaveOut:
     """Leave-out error, points in blocks."""
-    kept = [
-        LeaveOut.of(points_m[some], bins.band_limited(spectra[:, some]), bins.band_limited(foreseen[:, some]), known[some]).kept
-        for some in (slice(first, first + 64) for first in range(0, len(points_m), 64))
-    ]
+    known = known & ~np.isnan(foreseen[0])
+    kept = []
+    for first in range(0, len(points_m), 64):
+        some = slice(first, first + 64)
+        there = np.where(known[some], foreseen[:, some], 0)
+        kept.append(LeaveOut.of(points_m[some], bins.band_limited(spectra[:, some]), bins.band_limited(there), known[some]).kept)
     return LeaveOut(points_m, np.concatenate(kept))

@@ -8,11 +8,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.bank.provenance import Provenance
+from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.calibration.kriging import Prior, foreseen_shares
 from controller.calibration.spectra import Bins, Spectra
 from controller.errors import CalibrationError
-from controller.physics.response_source import Provenance
 
 Floats = NDArray[np.float64]
 
@@ -45,9 +46,10 @@ class LeaveOut:
 
     @classmethod
     def of(cls, points_m: Floats, measured: NDArray[Any], foreseen: NDArray[Any], known: NDArray[np.bool_]) -> LeaveOut:
-        """From band-limited responses, (point, sample, channel), and what of them was measured, (point, channel)."""
-        magnitude = (np.abs(measured) * known[:, None]).sum(axis=(1, 2), dtype=np.float64)
-        agreed = (np.sign(foreseen) * measured * known[:, None]).sum(axis=(1, 2), dtype=np.float64)
+        """From band-limited responses, (point, sample, channel); `known`, (point, channel): measured, and foreseen."""
+        measured = measured * known[:, None]
+        magnitude = np.abs(measured).sum(axis=(1, 2), dtype=np.float64)
+        agreed = (np.sign(foreseen) * measured).sum(axis=(1, 2), dtype=np.float64)
         return cls(points_m, np.divide(agreed, magnitude, out=np.full(len(points_m), np.nan), where=magnitude > 0))
 
     def summary(self) -> tuple[float, float]:
@@ -60,6 +62,7 @@ class InterpolatedResponses:
 
     Parameters
     ----------
+    board : Board
     bins : Bins
     field : SpectralField
     provenance : Provenance
@@ -69,11 +72,20 @@ class InterpolatedResponses:
     """
 
     def __init__(
-        self, bins: Bins, field: SpectralField, provenance: Provenance, leave_out: LeaveOut, prior: Prior | None, points_m: Floats
+        self,
+        board: Board,
+        bins: Bins,
+        field: SpectralField,
+        provenance: Provenance,
+        leave_out: LeaveOut,
+        prior: Prior | None,
+        points_m: Floats,
     ) -> None:
         self.provenance = provenance
         self.leave_out = leave_out
         self.samples = bins.samples
+        self.bit_clock_hz = board.waveform.bit_clock_hz
+        self.plate_m = (board.plate.length_m, board.plate.width_m)
         self._bins = bins
         self._field = field
         self._prior = prior
@@ -109,6 +121,14 @@ class InterpolatedResponses:
             some = slice(first, first + POINTS_AT_ONCE)
             spectra = self._field.at(points[some])
             out[some] = self._bins.band_limited(spectra) if band_limited else self._bins.whole(spectra)
+        return out
+
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """As `ResponseSource` says. Errors as in `responses`."""
+        out = self.responses(points_m, True, dtype, out)
+        out[:] = out[:, ::-1].copy()
         return out
 
     def entry_responses(

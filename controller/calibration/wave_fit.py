@@ -19,10 +19,10 @@ from controller.errors import CalibrationError
 
 Floats = NDArray[np.float64]
 
-POINTS = 250  # at most, of those there are
+POINTS = 150  # at most, of those there are
 PARTS = 6  # of the band
 BINS = 3  # of each part
-COARSE: Floats = np.linspace(0.9, 1.1, 41)
+COARSE: Floats = np.linspace(0.9, 1.1, 21)
 FINE: Floats = np.linspace(-0.0075, 0.0075, 7)
 
 
@@ -106,7 +106,7 @@ def fit_waves(
     if best in (0, len(COARSE) - 1) or coarse[best] > 0.5 * float(np.median(coarse)):
         raise CalibrationError(
             f"no waves within 10 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
-            f" {min(coarse):.0%} of the energy is not foreseen): check positions, channels and [plate] of board.toml"
+            f" {min(coarse):.0%} of the energy is not foreseen): too few points, or check positions, channels, [plate]"
         )
     done, factors = len(COARSE), []
     for part in parts:
