@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+import msgspec
+
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.physics.closed_form import SimplySupported
 from controller.physics.modes import Modes
 from controller.physics.plate import mode_cut_hz
+from controller.physics.ritz_modes import RitzModes
 
 KEPT = 4  # plates whose modes are remembered
 
@@ -25,7 +28,7 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     Raises
     ------
     ConfigError
-        If there is none, or more than can be computed with; if the edges have no closed form.
+        If there is none, or more than can be computed with.
     """
     return _modes(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
 
@@ -33,4 +36,6 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
 @lru_cache(maxsize=KEPT)
 def _modes(plate: Plate, highest_hz: float) -> Modes:
     """Modes from all that they depend on, which must be hashable records."""
-    return SimplySupported.of(plate, highest_hz)
+    if set(msgspec.structs.astuple(plate.sides)) == {"simply_supported"}:
+        return SimplySupported.of(plate, highest_hz)
+    return RitzModes.of(plate, highest_hz)
