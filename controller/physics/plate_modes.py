@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import msgspec
@@ -39,3 +40,17 @@ def _modes(plate: Plate, highest_hz: float) -> Modes:
     if set(msgspec.structs.astuple(plate.sides)) == {"simply_supported"}:
         return SimplySupported.of(plate, highest_hz)
     return RitzModes.of(plate, highest_hz)
+
+
+def in_words(board: Board, modes: Modes) -> str:
+    """The plate model that `modes` of a board come from, for the header of a bank."""
+    plate = board.plate
+    sides = plate.sides
+    supports = (sides.x0, sides.x1, sides.y0, sides.y1)
+    each = supports[:1] if len(set(supports)) == 1 else supports
+    edges = " / ".join(support.replace("_", " ") for support in each)
+    highest_hz = float(modes.angular_frequency[-1]) / (2 * math.pi)
+    return (
+        f"{plate.theory.capitalize()} plate, edges {edges}, decay {plate.decay_time_ms:g} ms,"
+        f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"
+    )
