@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from controller.board.panel import Plate
 from controller.physics.modes import Modes
 from controller.physics.plate import bending_wavelength_m
-from controller.physics.retuned import retuned
+from controller.physics.retuned import Retuned, retuned
+from controller.physics.ritz_modes import RitzModes
 
 Floats = NDArray[np.float64]
 Rectangle = tuple[float, float, float, float]  # x from, to, y from, to, in m
@@ -46,7 +47,9 @@ def decay_rates(modes: Modes, plate: Plate) -> Floats:
     strips = foam_strips(plate)
     if strips and plate.foam is not None and plate.foam.dashpot_pa_s_m:
         per_area = plate.density_kg_m3 * plate.thickness_m
-        rate = rate + plate.foam.dashpot_pa_s_m / (2 * per_area) * strip_share(modes, strips, _shortest_m(modes, plate))
+        base = modes.base if isinstance(modes, Retuned) else modes
+        share = base.foam_share if isinstance(base, RitzModes) else strip_share(modes, strips, _shortest_m(modes, plate))
+        rate = rate + plate.foam.dashpot_pa_s_m / (2 * per_area) * share
     found: Floats = rate
     return found
 
