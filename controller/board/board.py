@@ -27,6 +27,7 @@ from controller.errors import ConfigError
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction
+LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
 
@@ -168,8 +169,12 @@ class Board(Record, frozen=True):
 
     def digest(self) -> bytes:
         """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform."""
-        tables = (self.plate, self.actuators, self.driver, self.waveform)
-        return _sha256(msgspec.json.encode(tables, order="deterministic"))
+        plate = msgspec.to_builtins(self.plate)
+        for key, left_out in LATER_KEYS.items():
+            if getattr(self.plate, key) == left_out:
+                del plate[key]
+        tables = (plate, self.actuators, self.driver, self.waveform)
+        return _sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 
 def _sha256(data: bytes) -> bytes:
