@@ -110,10 +110,10 @@ def test_a_simply_supported_plate_is_that_of_the_closed_form_in_all_that_modes_s
     assert stiffer.angular_frequency[:50] != pytest.approx(closed.angular_frequency[:50], rel=4e-3)
     apart = np.diff(closed.angular_frequency, prepend=0, append=np.inf) / 2 / np.pi
     alone = np.minimum(apart[1:], apart[:-1]) > 2.0  # Hz; shapes of modes that are nearer may mix
-    alone &= closed.angular_frequency < 2 * np.pi * 0.8 * SMALL_HZ  # a shape's error is the root of its frequency's
+    alone &= closed.angular_frequency < 2 * np.pi * 0.7 * SMALL_HZ  # a shape's error is the root of its frequency's
     points = np.random.default_rng(1).uniform(0, 1, (40, 2)) * (0.21, 0.148)
     assert found.mass_kg / found.mean_square == pytest.approx(closed.mass_kg / closed.mean_square)
-    assert np.abs(found.shapes(points))[:, alone] == pytest.approx(2 * np.abs(closed.shapes(points))[:, alone], abs=5e-4)
+    assert np.abs(found.shapes(points))[:, alone] == pytest.approx(2 * np.abs(closed.shapes(points))[:, alone], abs=1e-4)
     for actuator in BOARD.actuators[::9]:
         expected = 2 * np.abs(closed.coupling(actuator))[alone]
         assert np.abs(found.coupling(actuator))[alone] == pytest.approx(expected, abs=2e-4 * expected.max())
