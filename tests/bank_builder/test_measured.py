@@ -1,22 +1,29 @@
 """Banks of responses that are no model's: measured arrays, checked, built, and told by header, `bank info` and `doctor`."""
 
 import json
+import shutil
 from dataclasses import dataclass, replace
 
 import msgspec
 import numpy as np
 import pytest
-from small_plate import small_board
+from small_plate import WHOLE, small_board
 
+from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, fit, measured_at, verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.provenance import Provenance, SourceFile, provenance_of
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
+from controller.bank_builder.choice import settings
+from controller.board.board import load_board
+from controller.board.lookup import find_board
+from controller.board.paths import bank_path
 from controller.cli import main
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
-from controller.scene.scene import Spot
+from controller.scene.scene import Spot, load_scene
+from controller.scene.scene_file import find_scene
 from controller.waveform_design.descent import AIMS
 
 BOARD = small_board()
@@ -43,11 +50,12 @@ class Measured:
     samples: int = BOARD.waveform.samples
     plate_m: tuple[float, float] = (BOARD.plate.length_m, BOARD.plate.width_m)
     spoil: object = None
+    highest_hz: float = 70e3
 
     def __post_init__(self):
         plate = self.board.plate
         stiffer = msgspec.structs.replace(plate, young_modulus_pa=1.02 * plate.young_modulus_pa)
-        self.plate = ResponseModel(msgspec.structs.replace(self.board, plate=stiffer), 70e3)
+        self.plate = ResponseModel(msgspec.structs.replace(self.board, plate=stiffer), self.highest_hz)
 
     def _told(self, found):
         if self.spoil:
@@ -167,6 +175,44 @@ def test_a_measured_bank_fits_whichever_model_code_is_installed(built, monkeypat
     board = msgspec.structs.replace(BOARD, bank=msgspec.structs.replace(BOARD.bank, pitch_mm=10.0))
     monkeypatch.setattr("controller.bank.inspection.creator", lambda: "haptic-panel 0.1.0, model 00000000")
     assert fit(built[0], board, np.ones(24, bool)).reason == ""
+
+
+def test_run_does_not_replace_a_measured_bank_and_a_build_says_that_it_does(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    folder = tmp_path / "panel"
+    folder.mkdir()
+    text = (find_board("simulated") / "board.toml").read_text()
+    (folder / "board.toml").write_text(text.replace("pitch_mm = 2.5", "pitch_mm = 40\ncoarse = true"))
+    for name in ("scene.toml", "demo.evemu"):
+        shutil.copy(find_board("simulated") / name, folder)
+    board = load_board(folder)
+    source = ResponseModel(board, 30e3)
+    source.provenance = TOLD
+    one = np.arange(Grid.of(board.plate, 40e-3).cells) == 0
+    build_bank(board, bank_path(board), cells=one, measure_sgemm=False, source=source)
+    measured = bank_path(board).read_bytes()
+    assert main(["run", "--board", str(folder)]) == 78
+    told = capsys.readouterr().err
+    assert "its responses were measured, so it is not replaced" in told
+    assert "haptic-panel calibrate bank FOLDER" in told
+    assert bank_path(board).read_bytes() == measured
+    monkeypatch.setattr("controller.bank_builder.build.best_sgemm_rate", lambda: 1e9)  # a second
+    assert main(["bank", "build", "--board", str(folder)]) == 0
+    assert "its responses were measured, and become modelled" in capsys.readouterr().err
+    assert not measured_at(bank_path(board))
+
+
+def test_a_choice_is_made_by_the_measured_responses():
+    """What cells lose is known from the plate itself: a plate that does not move between cells has no error to choose by."""
+    scene = load_scene(find_scene(WHOLE, "keyboard"), WHOLE)
+
+    def still(found):
+        found[:] = 0
+
+    source = Measured(
+        WHOLE, samples=WHOLE.waveform.samples, plate_m=(WHOLE.plate.length_m, WHOLE.plate.width_m), spoil=still, highest_hz=5e3
+    )
+    assert {setting.error for setting in settings(WHOLE, scene, 5e-3, source)} == {0.0}
 
 
 def test_where_responses_come_from_is_read_from_older_banks_too():
