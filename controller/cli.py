@@ -23,6 +23,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "board": "check a board and its scene; describe the keys of both files",
     "gateware": "bring up an FPGA",
     "bank": "build, describe and verify banks of precomputed waveforms",
+    "design": "what a panel of given numbers will be, by the equations of the paper",
     "focus": "focus on given points of the plate model, and measure the focus",
     "benchmark": "compare methods of finding drive words: time, memory, bytes and energy against error",
     "record": "store the events of a touch panel",

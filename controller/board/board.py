@@ -16,7 +16,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
-from controller.board.lookup import board_places, in_system_folder
+from controller.board.lookup import board_places, find_board, in_system_folder
 from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
 from controller.board.records import Record, load_toml
 from controller.board.touch_panels import Touch
@@ -207,6 +207,7 @@ def load_board(path: Path) -> Board:
             f"{file}: waveform.duration_ms = {board.waveform.duration_ms:g} is longer than"
             f" limits.longest_emission_ms = {board.limits.longest_emission_ms:g}"
         )
+    _check_scaled_bit_clock(board, file)
     frame_ms = MAX_FRAME_BYTES * 8 / board.link.sck_hz * 1e3
     if frame_ms > board.limits.heartbeat_timeout_ms / 2:
         raise ConfigError(
@@ -214,6 +215,56 @@ def load_board(path: Path) -> Board:
             f" that one frame takes at link.sck_hz = {board.link.sck_hz}"
         )
     return msgspec.structs.replace(board, folder=file.parent)
+
+
+def other_board(name_or_path: str) -> Board:
+    """Read and check a second board: a name, a folder or any .toml file, such as `real.toml` beside a board.toml.
+
+    Raises
+    ------
+    ConfigError
+        As `find_board` and `load_board`.
+    """
+    file = Path(name_or_path)
+    return load_board(file if file.is_file() else find_board(name_or_path))
+
+
+def _check_scaled_bit_clock(board: Board, file: Path) -> None:
+    """Refuse a range of temperatures at whose bit clock the FPGA would take no drive word, or no emission."""
+    temperature, limits = board.temperature, board.limits
+    if temperature is None:
+        return
+    for key, at_c in (("lowest_c", temperature.lowest_c), ("highest_c", temperature.highest_c)):
+        scale = temperature.scale(at_c)
+        where = f"{file}: temperature.{key} = {at_c:g} scales the bit clock by {scale:.5g}"
+        if not 0.5 < scale < 2:
+            raise ConfigError(f"{where}: by coefficient_per_k = {temperature.coefficient_per_k:g}, which is no glass")
+        if board.waveform.duration_ms / scale > limits.longest_emission_ms:
+            raise ConfigError(
+                f"{where}: an emission of {board.waveform.duration_ms / scale:.5g} ms is longer than"
+                f" limits.longest_emission_ms = {limits.longest_emission_ms:g}"
+            )
+        word_ticks = int(board.link.clock_hz / board.waveform.bit_clock_hz / scale)
+        if word_ticks < max(MIN_BIT_TICKS, limits.min_pulse_us * 1e-6 * board.link.clock_hz):
+            raise ConfigError(
+                f"{where}: a drive word of {word_ticks} clocks of the FPGA is shorter than limits.min_pulse_us ="
+                f" {limits.min_pulse_us:g}, or than {MIN_BIT_TICKS} clocks"
+            )
+
+
+def on_plate_of(board: Board, real: Board) -> Board:
+    """The board on another one's plate: with its plate, patches and driver, but with what the host plays and the idle levels.
+
+    Raises
+    ------
+    ConfigError
+        If the other one's patches are of other channels.
+    """
+    idle = {actuator.channel: actuator.idle for actuator in board.actuators}
+    if set(idle) != {actuator.channel for actuator in real.actuators}:
+        raise ConfigError(f"{real.folder / 'board.toml'}: the patches are of other channels than those of board {board.name!r}")
+    patches = tuple(msgspec.structs.replace(patch, idle=idle[patch.channel]) for patch in real.actuators)
+    return msgspec.structs.replace(board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver)
 
 
 def simulated(board: Board) -> Board:

@@ -32,6 +32,8 @@ UNITS = {  # by what a key ends with; the longest ending counts
     "n_m3": "N/m³",
     "pa_s_m": "Pa s/m",
     "mm": "mm",
+    "um": "µm",
+    "mg": "mg",
     "us": "µs",
     "ms": "ms",
     "s": "s",

@@ -109,6 +109,14 @@ class Temperature(Record, frozen=True, kw_only=True):
     lowest_c: float = -20.0
     highest_c: float = 85.0
 
+    def __post_init__(self) -> None:
+        if not self.lowest_c <= self.reference_c <= self.highest_c:
+            raise ValueError(f"reference_c = {self.reference_c:g} is not between lowest_c and highest_c")
+
+    def scale(self, temperature_c: float) -> float:
+        """Factor of the bit clock at a temperature."""
+        return 1 + self.coefficient_per_k * (temperature_c - self.reference_c)
+
 
 class Realtime(Record, frozen=True, kw_only=True):
     """Scheduling of the event loop's thread; one warning where it is not permitted.

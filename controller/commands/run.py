@@ -7,12 +7,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from controller.board.board import Board, load_board, simulated
+import msgspec
+
+from controller.board.board import Board, load_board, on_plate_of, other_board, simulated
 from controller.board.lookup import find_board
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
-from controller.errors import ConfigError
+from controller.errors import ConfigError, UsageError
 from controller.log import Priority, line
 from controller.scene.edge_rate import edge_warnings
 from controller.scene.scene import load_scene
@@ -21,6 +23,7 @@ from controller.service.drivers import recording_path
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
+    from controller.simulation.drift import Drift
     from controller.simulation.focus_evaluation import Judged
 
 
@@ -46,6 +49,23 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     play.add_argument(
         "--speed", choices=["1", "max"], help="1: real time (default); max: as fast as the machine goes (always with --link rtl)"
     )
+    play.add_argument(
+        "--plate",
+        metavar="B",
+        help="simulated: play on the plate, patches and driver of another board: its name, folder or file",
+    )
+    drift = play.add_mutually_exclusive_group()
+    drift.add_argument(
+        "--drift-percent", type=float, metavar="D", help="simulated: all frequencies of the plate are higher by so much (-5 to 5)"
+    )
+    drift.add_argument(
+        "--drift", metavar="FILE", help="simulated: the same over time: CSV with time_s,drift_percent and, if it errs, sensor_c"
+    )
+    play.add_argument(
+        "--sensor",
+        choices=["board", "assumed", "none"],
+        help="of temperature, with a drift: the board's (default), one of -200 ppm/K, or none, so that nothing corrects the drift",
+    )
     play.add_argument("--plot", metavar="FILE", help="draw the plate at T, fingers and a cross-section (.png, .svg, .pdf)")
     play.set_defaults(command=run)
 
@@ -64,8 +84,9 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     from controller.commands.tables import service_table
     from controller.service.run import serve
 
-    if options.plot or options.speed == "max":
-        raise ConfigError("--plot and --speed max are for simulated panels: add --link model to simulate this board")
+    simulating = (options.plot, options.speed == "max", options.plate, options.drift_percent is not None, options.drift)
+    if any(simulating):
+        raise ConfigError("--plot, --speed max, --plate, --drift are for simulated panels: add --link model to simulate this board")
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     replay = None
@@ -92,6 +113,8 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     picture = picture_path(options)
     board = simulated(board)
+    plate = on_plate_of(board, other_board(options.plate)) if options.plate else None
+    board, drift = _drifting(options, board)
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)
     recording = Recording.open(recording_path(board, options.replay))
@@ -109,7 +132,17 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         overdone = [f"{scene_file}: {warning}" for warning in edge_warnings(scene, board, *bank.worst_edges)]
         for warning in overdone:
             print(f"haptic-panel: {warning}", file=sys.stderr)
-        done = simulated_run.play(board, scene, bank, recording, real_time=real_time, ready=ready, gateware=gateware)
+        done = simulated_run.play(
+            board,
+            scene,
+            bank,
+            recording,
+            real_time=real_time,
+            ready=ready,
+            gateware=gateware,
+            plate=plate,
+            drift=drift,
+        )
         judged = focus_evaluation.judge(done, progress_bar("plate"))
     if judged.left_out:
         print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
@@ -121,6 +154,27 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
     if picture:
         _plot_run(picture, board, judged, recording.name)
     return 0
+
+
+def _drifting(options: argparse.Namespace, board: Board) -> tuple[Board, Drift | None]:
+    """The board with the temperature sensor that is asked for, and the drift."""
+    from controller.simulation.drift import ASSUMED, Drift
+
+    if options.drift_percent is not None:
+        drift = Drift.constant(options.drift_percent)
+    elif options.drift:
+        drift = Drift.read(Path(options.drift))
+    else:
+        if options.sensor:
+            raise UsageError("--sensor is of no use without --drift-percent or --drift")
+        return board, None
+    if options.sensor == "assumed":
+        return msgspec.structs.replace(board, temperature=ASSUMED), drift
+    if options.sensor == "none":
+        return msgspec.structs.replace(board, temperature=None), drift
+    if board.temperature is None:
+        print("haptic-panel: the board has no [temperature], so nothing corrects the drift: add --sensor assumed", file=sys.stderr)
+    return board, drift
 
 
 def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:

@@ -27,6 +27,7 @@ def run_table(figures: dict[str, Any]) -> str:
         f"gateware: {figures['link']}, {_number(figures['gateware_speed'])} × real time",
         "ended with outputs " + ("off" if figures["outputs_off"] else "ON"),
         *_became(figures),
+        *_drift_line(figures["drift"]),
         "",
         f"{'latency (µs)':<26}{'count':>8}{'p50':>11}{'p99':>11}{'p99.9':>11}{'worst':>11}",
     ]
@@ -54,6 +55,15 @@ def run_table(figures: dict[str, Any]) -> str:
     if figures["spoiled"]:
         lines += ["", f"what was felt at worst is left out: {figures['spoiled']}"]
     return "\n".join(lines)
+
+
+def _drift_line(drift: dict[str, Any] | None) -> list[str]:
+    if drift is None:
+        return []
+    low, high = drift["least_percent"], drift["most_percent"]
+    by = f"{low:+g} %" if low == high else f"{low:+g} to {high:+g} %"
+    clock = f"bit clock at the end {drift['bit_clock_scale']:.6f} of the board's, in steps of {drift['bit_clock_step_ppm']:.2g} ppm"
+    return [f"frequencies of the plate drifted by {by}; " + (clock if drift["corrected"] else "nothing corrects that")]
 
 
 def _became(figures: dict[str, Any]) -> list[str]:

@@ -132,6 +132,21 @@ class Dispatcher:
             next_s = min(next_s, self._clock_estimate.host_s(self._scheduler.spots.next_s()) - self._timing.lead_s)
         return next_s
 
+    def pause_repetition(self, now_s: float) -> None:
+        """End a repetition for the FPGA to take a setting once its last emission has sounded; it goes on in its beat."""
+        occupancy = self._occupancy
+        if occupancy.repetition is None:
+            return
+        beat_s = occupancy.next_repetition_s(now_s) + occupancy.duration_s + self._timing.lead_s
+        self._stop_repeating(now_s, occupancy.next_repetition_s(beat_s))
+
+    def _stop_repeating(self, now_s: float, next_s: float) -> None:
+        """End a repetition, which goes on with the beat at `next_s`."""
+        last_s = self._playback.stop_repeating(now_s)
+        if last_s is not None:
+            self._source.emitted(last_s, last_s + self._occupancy.duration_s)
+            self._scheduler.spots.restart(self._clock_estimate.fpga_s(next_s))
+
     def _open_s(self) -> float:
         """Host time from which the next batch may be handed over: the wire is free, and the play before has begun."""
         free_s, last_start_s = self._session.link.wire_free_s(), self._occupancy.last_start_s
@@ -145,11 +160,7 @@ class Dispatcher:
         self._delayed |= due and self.quiet_until_s > now_s
         if not repeating or occupancy.next_repetition_s(now_s) >= self.quiet_until_s:
             return
-        next_s = occupancy.next_repetition_s(self.quiet_until_s)
-        last_s = self._playback.stop_repeating(now_s)
-        if last_s is not None:
-            self._source.emitted(last_s, last_s + occupancy.duration_s)
-            self._scheduler.spots.restart(self._clock_estimate.fpga_s(next_s))
+        self._stop_repeating(now_s, occupancy.next_repetition_s(self.quiet_until_s))
 
     def _may_play(self, now_s: float, fpga_s: FpgaTime) -> bool:
         """Whether what is due may be played: not if the panel listens, nor if plate or wire would not be free for the next beat."""

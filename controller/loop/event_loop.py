@@ -125,6 +125,10 @@ class EventLoop:
         """To be called with the factor by which emissions last longer than the bank says."""
         return self._playback.occupancy.set_time_scale
 
+    def pause_repetition(self, now_s: float) -> None:
+        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes: it goes on in its beat."""
+        self._dispatcher.pause_repetition(now_s)
+
     def stop(self) -> None:
         """Have `run` switch the outputs off and return after this turn."""
         self._stopped = True

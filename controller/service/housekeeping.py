@@ -10,12 +10,12 @@ from controller.board.panel_state import Condition, PanelState
 from controller.fpga.session import Session
 from controller.log import Priority, log
 from controller.loop.scene_source import PreparedScene
+from controller.service.bit_clock import BitClock
 from controller.service.observed import Panel, Thermometer, Watched
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
 
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
-FIRST_S = 0.1  # between attempts until the first temperature
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
 
 
@@ -39,8 +39,6 @@ class Housekeeping:
 
     Attributes
     ----------
-    scale : float
-        Factor of the bit clock that the FPGA uses now.
     condition : Condition
         State of the panel, as last reported.
     """
@@ -54,21 +52,17 @@ class Housekeeping:
         thermometer: Thermometer | None,
         reload_file: ReloadFile | None = None,
     ) -> None:
-        self.scale = 1.0
         self.condition = Condition()
-        self._session = session
         self._notifier = notifier
         self._watchdog = watchdog
-        self._thermometer = thermometer
         self._reload_file = reload_file or ReloadFile(None)
-        self._read_s = math.inf if thermometer is None else -math.inf
-        self._period_s = board.temperature.period_s if board.temperature else math.inf
+        self._bit_clock = None
+        if thermometer is not None and board.temperature is not None:
+            self._bit_clock = BitClock(session, thermometer, board.temperature.period_s)
         self._loop: Watched | None = None
         self._panel: Panel | None = None
         self._told: Callable[[Condition], None] = _nobody
         self._board_name = board.name
-        self._temperature_cause = ""
-        self._temperature_c: float | None = None
         self._reloading = False
         self._ready = False  # was reported
         self._scene_stays = ""
@@ -77,6 +71,11 @@ class Housekeeping:
         self._scene: PreparedScene | None = None  # taken over or refused since the last turn
         self._reloads = self._reloads_told = 0
         self._reload_refused = ""
+
+    @property
+    def scale(self) -> float:
+        """Factor of the bit clock that the FPGA uses now."""
+        return 1.0 if self._bit_clock is None else self._bit_clock.scale
 
     def watch(self, loop: Watched, panel: Panel | None, told: Callable[[Condition], None] | None = None) -> None:
         """Set what is reported.
@@ -129,8 +128,8 @@ class Housekeeping:
         ):  # else another one is being prepared, whose result the caller waits for too
             self._reloads_told = self._reloads
             self._reload_file.write(self._reloads, self._reload_refused)
-        if self._read_s <= now_s and loop.outputs.on:  # skip while the FPGA is unreachable: it cannot accept a new bit clock
-            self._follow_temperature(loop, now_s)
+        if self._bit_clock is not None and loop.outputs.on:  # skip while the FPGA is unreachable: it cannot accept a new bit clock
+            self._bit_clock.follow(loop, now_s)
 
     def _tell_scene(self, prepared: PreparedScene) -> None:
         """Report a scene that is in force, or why it was refused."""
@@ -149,6 +148,7 @@ class Housekeeping:
         outputs, panel = loop.outputs, self._panel
         on, state, cause = outputs.on, outputs.state, outputs.cause
         present = panel is None or panel.present
+        temperature_c = None if self._bit_clock is None else self._bit_clock.temperature_c
         if self._emission_started or loop.repeating:
             self._emission_started = False
             self._played_s = now_s
@@ -162,13 +162,13 @@ class Housekeeping:
             and state is before.state
             and on == before.outputs_on
             and present == before.panel_present
-            and self._temperature_c == before.temperature_c
+            and temperature_c == before.temperature_c
             and cause == before.cause
         ):
             return
         if not cause and state not in WORKING:
             return  # the outputs are being switched on: the result is not known yet
-        self.condition = Condition(state, cause, on, present, self._temperature_c)
+        self.condition = Condition(state, cause, on, present, temperature_c)
         self._log(before)
         if not self._ready:
             self._ready = True
@@ -197,27 +197,6 @@ class Housekeeping:
         now = self.condition
         said = f"{now.state.value} on board {self._board_name!r}" if now.state in WORKING else f"{now.state.value}: {now.cause}"
         return f"{said}; {self._scene_stays}" if self._scene_stays else said
-
-    def _follow_temperature(self, loop: Watched, now_s: float) -> None:
-        assert self._thermometer is not None
-        scale = self._thermometer.scale(now_s)
-        temperature_c = self._thermometer.temperature_c
-        unknown = math.isnan(temperature_c) and not self._thermometer.cause  # the sensor has not answered yet
-        self._read_s = now_s + (min(FIRST_S, self._period_s) if unknown else self._period_s)
-        self._temperature_c = None if math.isnan(temperature_c) else temperature_c
-        if self._thermometer.cause != self._temperature_cause:
-            self._temperature_cause = self._thermometer.cause
-            if self._temperature_cause:
-                log(self._temperature_cause, Priority.WARNING)
-            else:
-                log("the temperature sensor is read again")
-        if scale == self.scale:
-            return
-        if self._session.set_bit_period(scale):  # else an emission is playing: try again in a later turn
-            self.scale = scale
-            loop.stretch(1 / scale)
-        else:
-            self._read_s = now_s
 
 
 def _nobody(_: Condition) -> None:

@@ -69,3 +69,6 @@ class Watched(Protocol):
     @property
     def stretch(self) -> Callable[[float], None]:
         """Callable that takes the factor by which emissions are longer than in the bank."""
+
+    def pause_repetition(self, now_s: float) -> None:
+        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes."""

@@ -19,11 +19,6 @@ JUMP_C: Final = 5.0  # largest step between two readings; a larger one is accept
 RETRY_S: Final = 10.0  # after a failure: on a stuck bus each attempt takes BUS_TIMEOUT_MS
 
 
-def bit_clock_scale(settings: Temperature, temperature_c: float) -> float:
-    """Factor of the bit clock at a temperature, relative to the reference temperature."""
-    return 1 + settings.coefficient_per_k * (temperature_c - settings.reference_c)
-
-
 class Thermometer:
     """A temperature sensor with a check of its readings, which holds the last valid one while the sensor is missing.
 
@@ -62,7 +57,7 @@ class Thermometer:
             self._read(now_s)
         if now_s - self._good_s > HOLD_S:
             self.temperature_c = math.nan
-        return 1.0 if math.isnan(self.temperature_c) else bit_clock_scale(self._settings, self.temperature_c)
+        return 1.0 if math.isnan(self.temperature_c) else self._settings.scale(self.temperature_c)
 
     def close(self) -> None:
         """Close the sensor."""

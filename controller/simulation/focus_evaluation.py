@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import contextlib
 from bisect import bisect_right
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import groupby
 
 import numpy as np
 
+from controller.physics.drifted_modes import DriftedModes
 from controller.physics.field import Field, FocusMetrics
+from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
 from controller.scene.emission import Emission
+from controller.simulation.drift import FORGOTTEN, since
 from controller.simulation.simulated_run import Run
 from controller.touch.recording import Track
 
@@ -59,12 +63,10 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
     -------
     Judged
     """
-    twin = PlateTwin(run.board)
     meant = foci_meant(run)
     judged = Judged([], None, [], len(meant))
-    moments = zip(meant, twin.fields(run.capture, run.link.clock_hz), strict=True)
     with contextlib.suppress(KeyboardInterrupt):
-        for done, ((tick, emissions), field) in enumerate(moments, 1):
+        for done, ((tick, emissions), (twin, field)) in enumerate(zip(meant, _fields(run), strict=True), 1):
             together = _judge_moment(run, twin, field, run.link.time_s(tick) - run.start_s, emissions)
             better = _worth_showing(together, twin.scale.outside_m) > _worth_showing(judged.shown, twin.scale.outside_m)
             shown = (field, together) if better else (judged.field, judged.shown)
@@ -73,6 +75,23 @@ def judge(run: Run, progress: Callable[[int, int], None] | None = None) -> Judge
             if progress:
                 progress(done, len(meant))
     return judged
+
+
+def _fields(run: Run) -> Iterator[tuple[PlateTwin, Field]]:
+    """The twin as it is at every focus of a run, with its displacement then."""
+    drift = run.drift
+    if drift is None:
+        twin = PlateTwin(run.plate)
+        yield from ((twin, field) for field in twin.fields(run.capture, run.link.clock_hz))
+        return
+    modes = modes_of(run.plate)
+    remembered_ticks = round(FORGOTTEN / modes.decay_rate.min() * run.link.clock_hz)
+    ticks = run.capture.focus_ticks.tolist()
+    for by, some in groupby(ticks, lambda tick: drift.level(run.link.time_s(tick) - run.start_s)):
+        foci = np.array(list(some), np.uint64)
+        twin = PlateTwin(run.plate, modes=DriftedModes(modes, by))
+        part = replace(since(run.capture, int(foci[0]) - remembered_ticks), focus_ticks=foci)
+        yield from ((twin, field) for field in twin.fields(part, run.link.clock_hz))
 
 
 def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissions: tuple[Emission, ...]) -> list[Focus]:
@@ -95,7 +114,7 @@ def _judge_moment(run: Run, twin: PlateTwin, field: Field, time_s: float, emissi
 def foci_meant(run: Run) -> list[tuple[int, tuple[Emission, ...]]]:
     """(tick, emissions) of every focus in the run's capture: the emissions are those of the last start before it."""
     starts_ticks = [run.link.tick(played.trigger_s) if played.at_ticks is None else played.at_ticks for played in run.played]
-    most_ticks = round(0.99 * run.board.waveform.duration_s * run.link.clock_hz)
+    most_ticks = round(0.9 * run.board.waveform.duration_s * run.link.clock_hz)
     meant = []
     for tick in run.capture.focus_ticks.tolist():
         meant.append((tick, run.played[bisect_right(starts_ticks, tick - most_ticks) - 1].emissions))

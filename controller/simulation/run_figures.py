@@ -32,6 +32,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
     tracked = [focus for focus in foci if focus.emission.finger is not None]
     return {
         "board": run.board.name,
+        "plate": run.plate.name,
         "recording": {
             "file": run.recording.name,
             "reports": counts.reports,
@@ -64,10 +65,26 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "response_section_mapped": run.response_mapped,
         "latency_us": latency,
         "reference_us": {"copy_and_crc32_of_one_waveform": run.reference.summary_us()},
+        "drift": _drift(run),
         "spoiled": spoiled(counters, run.real_time),
         "focus": _figures(tracked),
         "together": _together(tracked),
         "untracked_spots": _figures([focus for focus in foci if focus.emission.finger is None]),
+    }
+
+
+def _drift(run: Run) -> dict[str, Any] | None:
+    """How the plate's frequencies drifted, and what the bit clock made of it; None without a drift."""
+    if run.drift is None:
+        return None
+    bit_clock, percent = run.bit_clock, 100 * run.drift.drift
+    return {
+        "least_percent": float(percent.min()),
+        "most_percent": float(percent.max()),
+        "corrected": bit_clock is not None,
+        "bit_clock_scale": 1.0 if bit_clock is None else bit_clock.scale,
+        "bit_clock_step_ppm": 1e6 / run.board.bit_period,
+        "sensor_c": None if bit_clock is None else bit_clock.temperature_c,
     }
 
 

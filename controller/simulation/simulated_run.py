@@ -23,10 +23,13 @@ from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
 from controller.loop.records import Played
 from controller.loop.skips import ALL, Skips
-from controller.loop.wiring import assemble
+from controller.loop.wiring import Assembly, assemble
 from controller.metrics import Counters, LatencyHistogram
 from controller.scene.scene import Scene
+from controller.service.bit_clock import BitClock
 from controller.service.drivers import open_session, open_simulated, tracked
+from controller.service.temperature import Thermometer
+from controller.simulation.drift import Drift
 from controller.touch.recording import Recording, Track
 from controller.touch.replay import RecordingSource
 
@@ -53,6 +56,9 @@ class Run:
     lookups: int
     response_mapped: bool
     reference: LatencyHistogram
+    plate: Board  # whose plate is played on
+    drift: Drift | None
+    bit_clock: BitClock | None  # that follows the plate's temperature
 
 
 def play(
@@ -65,6 +71,8 @@ def play(
     ready: Callable[[], None] = lambda: None,
     gateware: GatewareFactory = GatewareModel,
     skips: Skips = ALL,
+    plate: Board | None = None,
+    drift: Drift | None = None,
 ) -> Run:
     """Replay a recording through the event loop into the gateware.
 
@@ -84,6 +92,10 @@ def play(
         Makes the gateware: the model by default, or the compiled Verilog.
     skips : Skips
         What of the loop's work is left out.
+    plate : Board, optional
+        Whose plate and driver are behind the pins, if they are not the board's.
+    drift : Drift, optional
+        Of the plate's frequencies; the board's temperature sensor, if it has one, says the temperature that this means.
 
     Returns
     -------
@@ -106,7 +118,18 @@ def play(
     source = RecordingSource(recording, axes, start_s)
     contacts = {finger: [track] for finger, track in tracks.items()}
     tracker = tracked(source, board, lambda finger, contact: contacts[finger].append(tracks[contact]))
-    assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append, skips=skips)
+    bit_clock = None
+    if drift is not None and board.temperature is not None:
+        sensor = drift.sensor(board.temperature, lambda: clock.now_s() - start_s)
+        bit_clock = BitClock(session, Thermometer(board.temperature, sensor), board.temperature.period_s)
+    assembly: Assembly
+
+    def progress(now_s: float) -> None:  # what the service's housekeeping does about the temperature
+        if bit_clock is not None and assembly.loop.outputs.on:
+            bit_clock.follow(assembly.loop, now_s)
+
+    told: dict[str, Any] = {"progress": progress} if bit_clock else {}
+    assembly = assemble(board, scene, bank, clock, session, tracker, played=played.append, skips=skips, **told)
     assembly.loop.run(ready)
     link.close()
     return Run(
@@ -124,6 +147,9 @@ def play(
         lookups=bank.counters.lookups,
         response_mapped=assembly.selection.composes,
         reference=copy_and_checksum(board.waveform.samples * 4),
+        plate=board if plate is None else plate,
+        drift=drift,
+        bit_clock=bit_clock,
     )
 
 

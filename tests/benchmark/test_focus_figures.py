@@ -5,6 +5,7 @@ import pytest
 from controller.benchmark.focus_figures import MARGIN_M, figures, random_points, spread
 from controller.board.board import load_board
 from controller.board.lookup import find_board
+from controller.physics.design_figures import design_figures
 
 BOARD = load_board(find_board("simulated"))
 
@@ -44,6 +45,22 @@ def test_the_balanced_idle_word_is_worth_its_contrast_and_its_silence(measured):
 def test_float32_is_enough_for_the_bank(measured):
     assert measured["float32"]["bits_differing"]["max"] <= 1e-3
     assert measured["float32"]["amplitude_ratio"]["min"] >= 0.9999
+
+
+@pytest.mark.parametrize(
+    ("estimate", "figure", "within"),
+    [
+        ("possible_amplitude_um", "amplitude_um", 0.12),
+        ("contrast_all", "contrast_all", 0.08),
+        ("contrast_outside", "contrast", 0.15),
+        ("spot_mm", "spot_mm", 0.02),
+    ],
+)
+def test_the_calculator_foresees_what_is_simulated(measured, estimate, figure, within):
+    """Its statistics of modes against all modes of the plate: bits ring on into words, and patches stand near edges."""
+    estimated, simulated = design_figures(BOARD)[estimate], measured["single"][figure]["median"]
+    print(f"{figure}: design {estimated:.4g}, simulated {simulated:.4g} ({estimated / simulated - 1:+.1%}, within {within:.0%})")
+    assert estimated == pytest.approx(simulated, rel=within)
 
 
 def test_points_are_ten_millimetres_from_every_edge():

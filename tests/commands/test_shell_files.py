@@ -49,7 +49,7 @@ def test_every_option_stands_in_the_completion(shell, capsys):
     text = capsys.readouterr().out
     assert text == (SHELL_FILES / COMPLETIONS[shell]).read_text()
     long = {option for option in options() if option.startswith("--")}
-    offered = set(re.findall(r"--?[a-z][a-z-]+", text)) | {f"--{name}" for name in re.findall(r"[a-z-]+", text)}
+    offered = set(re.findall(r"--?[a-z][a-z0-9-]+", text)) | {f"--{name}" for name in re.findall(r"[a-z0-9-]+", text)}
     assert long <= offered, ELSE
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from controller.board.devices import Temperature
 from controller.board.worker import WorkerEnded
 from controller.service import temperature_sensors
-from controller.service.temperature import HOLD_S, JUMP_C, RETRY_S, Thermometer, bit_clock_scale
+from controller.service.temperature import HOLD_S, JUMP_C, RETRY_S, Thermometer
 from controller.service.temperature_sensors import ANSWER, HANGS_S, Hwmon, SensorProcess, lm75_c, serve_sensor
 
 SETTINGS = Temperature(kind="hwmon", device="plate", coefficient_per_k=-100e-6)
@@ -59,8 +59,8 @@ def test_the_words_of_the_datasheets(high, low, temperature_c):
 @given(st.floats(-40, 100), st.floats(-1e-2, 1e-2))
 def test_the_scale_is_one_at_the_reference_and_linear_in_between(reading_c, coefficient):
     settings = Temperature(kind="hwmon", device="x", coefficient_per_k=coefficient, reference_c=20.0)
-    assert bit_clock_scale(settings, 20.0) == 1
-    assert bit_clock_scale(settings, reading_c) == pytest.approx(1 + coefficient * (reading_c - 20))
+    assert settings.scale(20.0) == 1
+    assert settings.scale(reading_c) == pytest.approx(1 + coefficient * (reading_c - 20))
 
 
 def test_warm_glass_is_played_slower():

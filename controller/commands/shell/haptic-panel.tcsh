@@ -12,23 +12,29 @@ complete haptic-panel \
         'c/--bank=/f/' \
         'c/--link=/(model rtl)/' \
         'c/--speed=/(1 max)/' \
+        'c/--drift=/f/' \
+        'c/--sensor=/(board assumed none)/' \
         'c/--plot=/f/' \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
+        'c/--capacitance-f=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures at avoid-actuators bank baud bits board channel dask device figures ghosts grid help idle-figures json lag link margin-mm memory-mb no-chirps no-pictures no-skip no-timing optimise out pause-s pid pitch-mm plot points power quick record-ms reference repeats repetitions replay scene seconds seed settle-ms speed speed-mm-s targets version workers write)/' \
+        'c/--/(amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels dask decay-time-ms density-kg-m3 device drift drift-percent duration-ms figures finger-mg ghosts grid help idle-figures inductance-h json lag length-mm link margin-mm memory-mb moment-n-per-v no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quick record-ms reference repeats repetitions replay resistance-ohm scene seconds seed sensor settle-ms size-mm speed speed-mm-s supply-v sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
         'n/--link/(model rtl)/' \
         'n/--speed/(1 max)/' \
+        'n/--drift/f/' \
+        'n/--sensor/(board assumed none)/' \
         'n/--plot/f/' \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
+        'n/--capacitance-f/f/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
         'n/--targets/(3 4 5)/' \
-        'p/1/(run doctor board gateware bank focus benchmark record calibrate calibrate-touch reload completion)/' \
+        'p/1/(run doctor board gateware bank design focus benchmark record calibrate calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build choices info verify)/' \

@@ -1,0 +1,56 @@
+"""Picture of `haptic-panel design --sweep --plot`: one small diagram for each figure over what is swept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from controller.errors import ConfigError
+
+COLUMNS = 3
+
+
+def plot_sweep(
+    path: Path, swept: str, values: Sequence[float], rows: Sequence[Mapping[str, Any]], titles: Mapping[str, str]
+) -> None:
+    """Draw figures over a number of the design.
+
+    Parameters
+    ----------
+    path : Path
+        File to write: .png, .svg or .pdf.
+    swept : str
+        Name of the number.
+    values : sequence of float
+        Of the number.
+    rows : sequence of mapping
+        `design_figures` at each value.
+    titles : mapping
+        Of each figure that is drawn, its title.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be written.
+    """
+    lines = -(-len(titles) // COLUMNS)
+    figure = Figure(figsize=(11, 2.7 * lines), layout="constrained")
+    panels = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
+    for panel, (name, title) in zip(panels, titles.items(), strict=False):
+        drawn = np.array([np.nan if row[name] is None else row[name] for row in rows], np.float64)
+        panel.plot(values, drawn, color="black", lw=1, marker="." if len(values) < 40 else None)
+        panel.set_title(title, fontsize=9)
+        panel.margins(y=0.1)
+        panel.set_xlabel(swept)
+        panel.set_ylim(bottom=0)
+        panel.grid(color="0.85", lw=0.5)
+    for panel in panels[len(titles) :]:
+        panel.axis("off")
+    try:
+        figure.savefig(path, dpi=110)
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{path}: the picture cannot be written ({error})") from error
