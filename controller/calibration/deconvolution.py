@@ -12,7 +12,7 @@ zero.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -34,6 +34,7 @@ REGULARISATION = 1e-4
 RESOLVED = 0.9  # share of a channel's response that the drive determines, in the mean over the band
 EXCITED = 0.5  # the same at one frequency
 NYQUIST_SHARE = 0.9  # of the recorder's half rate that its filter passes
+EARLIEST_S = 0.6e-3  # before the pulse, where noise is looked for
 DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 
@@ -120,6 +121,10 @@ class Transfers:
         Share of the power of the records that a channel's drive explains, of what it and noise make, mean over the band.
     residual : float
         Power of the records that no drive explains, over all of their power; NaN where nothing is left.
+    at_end : float
+        Rms of the last twentieth of the records, over that of all; what noise gives where the plate is still.
+    clipped : int
+        Records that were left out since they are clipped.
     """
 
     transfer: NDArray[np.complex64]
@@ -127,6 +132,8 @@ class Transfers:
     variance: Floats
     coherence: Floats
     residual: float
+    at_end: float = 0.0
+    clipped: int = 0
 
 
 class Deconvolution:
@@ -136,8 +143,8 @@ class Deconvolution:
     ----------
     measurement : Measurement
     board : Board
-    longest_s : float
-        The longest record.
+    length : int
+        Samples of a record.
 
     Raises
     ------
@@ -145,9 +152,11 @@ class Deconvolution:
         If the recorder is too slow for the band, or what was played determines no channel, with what to do.
     """
 
-    def __init__(self, measurement: Measurement, board: Board, longest_s: float) -> None:
+    def __init__(self, measurement: Measurement, board: Board, length: int) -> None:
         settings = measurement.settings
-        self.bins = Bins.of(board, longest_s)
+        first_s = (settings.records.first_sample_us or 0.0) * 1e-6
+        self.length = length
+        self.bins = Bins.of(board, length / settings.sample_rate_hz + max(first_s, 0.0))
         highest_hz, half_hz = self.bins.frequency_hz[self.bins.gain > 0.5][-1], settings.sample_rate_hz / 2
         if highest_hz > NYQUIST_SHARE * half_hz:
             raise CalibrationError(
@@ -155,12 +164,13 @@ class Deconvolution:
                 f" {2 * highest_hz / NYQUIST_SHARE:.0f}: set the recorder to that or more"
             )
         self._rate_hz = settings.sample_rate_hz
-        self._first_s = (settings.records.first_sample_us or 0.0) * 1e-6
+        self._first_s = first_s
         period_s = (settings.records.period_ms or 0.0) * 1e-3
         shape = measurement.drive.emissions, measurement.repetitions
         self._starts_s = period_s * np.arange(shape[0] * shape[1], dtype=np.float64).reshape(shape)
         self._to_displacement = (2j * np.pi * self.bins.frequency_hz) ** -DERIVATIVES[settings.records.quantity[0]]
         drive = measurement.drive
+        self._duration_s = drive.duration_s
         played = drive.spectra(self.bins.frequency_hz[0], self.bins.step_hz, len(self.bins.gain), 1 / board.waveform.bit_clock_hz)
         self.driven: NDArray[np.bool_] = np.asarray(drive.drives.any(axis=0))
         self._drives = drive.drives[:, self.driven]
@@ -186,6 +196,20 @@ class Deconvolution:
         found *= np.exp(-2j * np.pi * frequency_hz * first_s[:, :, None])
         found *= self._to_displacement
         return found
+
+    def learn(self, records: PointRecords, clock_ppm: float) -> Transfers:
+        """Transfer functions of a point from what is `sound` of its records."""
+        found = self.transfers(self.spectra(records, clock_ppm), records.sound)
+        values = records.values[records.there]
+        rms = float(np.sqrt((values**2).mean())) if values.size else 0.0
+        end = values[:, -max(values.shape[1] // 20, 1) :]
+        at_end = float(np.sqrt((end**2).mean())) / rms if rms else 0.0
+        return replace(found, at_end=at_end, clipped=int(records.clipped.sum()))
+
+    @property
+    def spreads_noise(self) -> bool:
+        """Whether noise of a record comes to lie before the pulse too: not if what was played is short."""
+        return self._duration_s >= EARLIEST_S
 
     def transfers(self, spectra: Complex, there: NDArray[np.bool_]) -> Transfers:
         """Least squares over what is there.
