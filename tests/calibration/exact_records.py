@@ -25,7 +25,7 @@ NAMES = tuple(str(index + 1) for index in range(len(POINTS_M)))
 
 
 def displacement(volts, rate_hz, times_s, points_m=POINTS_M, order=0):
-    """Of points after drives, (32, sample) V held for 1 / rate_hz from time 0 on: (point, time); order 1: velocity, 2: acceleration.
+    """Displacement (point, time) after drives, (32, sample) V held for 1 / rate_hz from time 0 on; order 1: velocity, 2: acceleration.
 
     Every mode's poles are stepped exactly from sample to sample of the drive, and from there to each of `times_s`.
     """
@@ -36,7 +36,7 @@ def displacement(volts, rate_hz, times_s, points_m=POINTS_M, order=0):
     since = times_s - at / rate_hz
     started = times_s >= 0
     found = np.zeros((len(of_mode), len(times_s)))
-    poles = [(p, r, m) for p, r, m in zip(step.poles, step.residues, step.mode_of_pole, strict=True)]
+    poles = zip(step.poles, step.residues, step.mode_of_pole, strict=True)
     for pole, residue, mode in poles:
         state = lfilter([1], [1, -np.exp(pole / rate_hz)], of_mode[mode].astype(complex))
         found[mode] += (residue * pole**order * state[at] * np.exp(pole * since)).real * started
