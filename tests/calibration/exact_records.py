@@ -25,8 +25,9 @@ NAMES = tuple(str(index + 1) for index in range(len(POINTS_M)))
 
 
 def displacement(volts, rate_hz, times_s, points_m=POINTS_M, order=0):
-    """Displacement (point, time) after drives, (32, sample) V held for 1 / rate_hz from time 0 on; order 1: velocity, 2: acceleration.
+    """Displacement (point, time) after drives of (32, sample) V, held for 1 / rate_hz from time 0 on.
 
+    order 1: velocity, 2: acceleration.
     Every mode's poles are stepped exactly from sample to sample of the drive, and from there to each of `times_s`.
     """
     step, forces = model().step, model().forces
