@@ -263,6 +263,25 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
         where, found = folder / settings.points, _points_of_csv(folder / settings.points)
     else:
         where, found = folder / settings.records.files, _points_of_records(folder, settings)
+    names, points_m = _checked(where, found, board)
+    measurement = Measurement(folder, settings, names, points_m, drive)
+    _refuse_foreign_files(measurement)
+    return measurement
+
+
+def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Names and places in m of points, (point, 2), from a CSV file with point,x_mm,y_mm.
+
+    Raises
+    ------
+    CalibrationError
+        Naming file and point: unreadable, off the plate, twice, or none.
+    """
+    return _checked(file, _points_of_csv(file), board)
+
+
+def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Names and places in m of points that may be measured."""
     if not found:
         raise CalibrationError(f"{where}: no points")
     if len(found) > MOST_POINTS:
@@ -280,9 +299,7 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
     if len(set(names)) != len(names):
         twice = next(name for index, name in enumerate(names) if name in names[:index])
         raise CalibrationError(f"{where}: point {twice} is there twice")
-    measurement = Measurement(folder, settings, tuple(names), np.array([point[1:] for point in found]) * 1e-3, drive)
-    _refuse_foreign_files(measurement)
-    return measurement
+    return tuple(names), np.array([point[1:] for point in found]) * 1e-3
 
 
 def write_points(file: Path, names: tuple[str, ...], points_m: ArrayLike) -> None:

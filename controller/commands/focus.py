@@ -42,7 +42,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="MS",
         help="time from emission to emission for what repeating costs (default: their length)",
     )
-    point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
+    point.add_argument("--plot", metavar="FILE", help="draw the plate at T, and the first focus over time (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
 
 
@@ -84,9 +84,12 @@ def focus(options: argparse.Namespace) -> int:
     emission = emission_at(board, points_m, options.memory_mb)
     found = {"board": board.name, "foci": judged_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
     if picture:
+        from controller.physics.focus_series import focus_series
         from controller.physics.plot import plot_focus
 
-        plot_focus(picture, board, emission.field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
+        title = f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}"
+        series = focus_series(emission.twin, emission.words, points_m[0])
+        plot_focus(picture, board, emission.field, points_m, title, series)
     show(options, found, _table)
     return 0
 
