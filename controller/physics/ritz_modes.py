@@ -137,8 +137,7 @@ class RitzModes:
                 tuple(np.diff(basis.values([at_mm * 1e-3 - half, at_mm * 1e-3 + half], order), axis=0)[0] for order in (-1, 1))
                 for basis, at_mm in ((found.x, actuator.x_mm), (found.y, actuator.y_mm))
             )
-            flat = found.coefficients.reshape(found.y.count, -1)
-            mean, bent = ((factor @ flat).reshape(-1, found.x.count) for factor in (y_mean, y_bent))
+            mean, bent = np.tensordot([y_mean, y_bent], found.coefficients, (1, 0))
             coupling[numbers] = mean @ x_bent + bent @ x_mean
         return coupling
 
