@@ -26,6 +26,7 @@ GROUPS = 8  # whose scatter says how sure the ratio is
 WIDEST = 0.02
 COARSE: Floats = np.linspace(-WIDEST, WIDEST, 81)
 FINE: Floats = np.linspace(-0.0005, 0.0005, 11)
+UNSTRETCHED = 0.01  # of the drift: the drivers' part of the responses keeps its time
 LEAST_ALIKE = 0.5  # correlation of the two at best
 
 
@@ -66,8 +67,8 @@ def fit_drift(board: Board, earlier: LearnedResponses, later: LearnedResponses) 
     CalibrationError
         If they share no point, or are not of one plate whose frequencies differ by 2 % at most.
     """
-    distance_m, nearest = cKDTree(earlier.points_m).query(later.points_m)
-    places = [(int(nearest[point]), int(point)) for point in np.flatnonzero(np.asarray(distance_m) <= SAME_PLACE_M)]
+    distance_m, nearest = (np.asarray(found) for found in cKDTree(earlier.points_m).query(later.points_m))
+    places = [(int(nearest[point]), int(point)) for point in np.flatnonzero(distance_m <= SAME_PLACE_M)]
     pairs = [
         (one, other, int(channel)) for one, other in places for channel in np.flatnonzero(earlier.known[one] & later.known[other])
     ]
@@ -110,7 +111,8 @@ def fit_drift(board: Board, earlier: LearnedResponses, later: LearnedResponses) 
         if earlier.provenance.temperature_c is None or later.provenance.temperature_c is None
         else later.provenance.temperature_c - earlier.provenance.temperature_c
     )
-    return Drift(ratio, float(np.std(groups, ddof=1) / np.sqrt(GROUPS)), best, warmer)
+    scatter = float(np.std(groups, ddof=1) / np.sqrt(GROUPS))
+    return Drift(ratio, float(np.hypot(scatter, UNSTRETCHED * (ratio - 1))), best, warmer)
 
 
 def _band_limited(board: Board, records: NDArray[np.floating]) -> Floats:
