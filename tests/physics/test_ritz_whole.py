@@ -1,4 +1,4 @@
-"""All modes of the paper's plate to 80 kHz with any edges, and what a bank is worth on a plate with other edges than its model's."""
+"""All modes of the paper's plate to 80 kHz with any edges; and what a bank is worth where the edges are not its model's."""
 
 import time
 
