@@ -18,13 +18,14 @@ complete haptic-panel \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--capacitance-f=/f/' \
+        'c/--movie=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--points=/f/' \
         'c/--drive=/(chirp noise)/' \
         'c/--quantity=/(m m/s m/s^2)/' \
         'c/--rate-khz=/f/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm dask dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive duration-ms figures finger-mg ghosts grid help idle-figures inductance-h inverted json lag length-mm link margin-mm memory-mb missing moment-n-per-v no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm scattered scene seconds seed sensor settle-ms size-mm snr-db speed speed-mm-s supply-v swapped sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
+        'c/--/(amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm dask dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive duration-ms figures finger-mg ghosts grid help idle-figures inductance-h inverted json lag length-mm link margin-mm memory-mb missing moment-n-per-v movie movie-frames movie-from-ms movie-step-us movie-to-ms no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm scattered scene seconds seed sensor settle-ms size-mm snr-db speed speed-mm-s supply-v swapped sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -36,6 +37,7 @@ complete haptic-panel \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--capacitance-f/f/' \
+        'n/--movie/f/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
         'n/--points/f/' \
         'n/--drive/(chirp noise)/' \
