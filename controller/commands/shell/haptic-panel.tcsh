@@ -20,7 +20,7 @@ complete haptic-panel \
         'c/--capacitance-f=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels dask decay-time-ms density-kg-m3 device drift drift-percent duration-ms figures finger-mg ghosts grid help idle-figures inductance-h json lag length-mm link margin-mm memory-mb moment-n-per-v no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quick record-ms reference repeats repetitions replay resistance-ohm scene seconds seed sensor settle-ms size-mm speed speed-mm-s supply-v sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
+        'c/--/(amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels dask decay-time-ms density-kg-m3 device drift drift-percent duration-ms figures finger-mg ghosts grid help idle-figures inductance-h json lag length-mm link margin-mm markdown memory-mb moment-n-per-v no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quick record-ms reference repeats repetitions replay resistance-ohm scene seconds seed sensor settle-ms size-mm speed speed-mm-s supply-v sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -38,7 +38,7 @@ complete haptic-panel \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build choices info verify)/' \
-        'n/benchmark/(skipping)/' \
+        'n/benchmark/(skipping paper)/' \
         'n/calibrate/(plan)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
