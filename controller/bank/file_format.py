@@ -17,6 +17,7 @@ from typing import Any
 from controller import __version__
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS
+from controller.bank.provenance import Provenance, provenance_of
 from controller.errors import BankError
 from controller.kernel import load_frames_bytes
 
@@ -27,7 +28,6 @@ LINE = 64  # responses start on a cache line
 REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
 SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
-MODELLED = "modelled"  # build parameter `responses`: they come from a model, not from measurements
 
 # magic, version, header bytes, file bytes, creator, board digest, pitch, x0, y0, bit clock,
 # nx, ny, samples, channels, entries, parameters bytes, sections, compositions
@@ -122,6 +122,11 @@ class Header:
             and choice.get("composes") is self.composes
         )
         return choice if whole else None
+
+    @property
+    def provenance(self) -> Provenance | None:
+        """Where the responses come from; None if the header does not tell."""
+        return provenance_of(self.parameters.get("responses"))
 
     @property
     def rest_rows(self) -> int:

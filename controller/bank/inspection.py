@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import VERSION, Section, creator
+from controller.bank.file_format import VERSION, Section, creator, header_length, parse
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.board.board import Board
@@ -49,6 +49,7 @@ def bank_info(path: Path) -> dict[str, Any]:
             "compositions": header.compositions,
             "samples": header.samples,
             "bit_clock_hz": header.bit_clock_hz,
+            "responses": "not told" if header.provenance is None else header.provenance.in_words(),
             "parameters": header.parameters,
             "sections": {s.name: {"offset": s.offset, "bytes": s.size} for s in bank.sections.values()},
         }
@@ -159,7 +160,8 @@ def fit(path: Path, board: Board, cells: NDArray[np.bool_]) -> Fit:
         with Bank.open(path, board) as bank:
             if wrong := wrong_pitch(bank, board):
                 return Fit(wrong, cells)
-            if bank.header.creator != creator() or bank.header.parameters.get("channel_edges") is None:
+            model_counts = bank.header.provenance is None or not bank.header.provenance.from_measurements
+            if (model_counts and bank.header.creator != creator()) or bank.header.parameters.get("channel_edges") is None:
                 return Fit("it was built by another version", cells)
             there = bank.cells
         verify_bank(path)
@@ -180,6 +182,19 @@ def optimised_for(path: Path) -> str:
         return ""
     name = told.get("name") if isinstance(told, dict) else None
     return name if isinstance(name, str) and name.isprintable() else ""
+
+
+def measured_at(path: Path) -> bool:
+    """Whether the bank at `path` has responses that were measured, at least in part, even if it is damaged behind its header."""
+    try:
+        with path.open("rb") as file:
+            size = path.stat().st_size
+            length = header_length(file.read(16), size)
+            file.seek(0)
+            header, _ = parse(file.read(length), size)
+    except (OSError, BankError):
+        return False
+    return header.provenance is not None and header.provenance.from_measurements
 
 
 def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:

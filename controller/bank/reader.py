@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from controller.bank.file_format import COMPOSITION, FOCI, Header, Section, begins_as_bank, header_length, parse
 from controller.bank.packing import CHANNELS
+from controller.bank.provenance import MEASURE_AGAIN
 from controller.board.board import Board
 from controller.board.paths import build_line
 from controller.errors import BankError
@@ -107,6 +108,8 @@ class Bank:
             name = header.parameters.get("board")
             if not board and isinstance(name, str) and name.isprintable():
                 rebuild = build_line(path, name)
+            if header.provenance and header.provenance.from_measurements:
+                rebuild = MEASURE_AGAIN
             if board and header.board_digest != board.digest():
                 raise BankError(
                     f"was built for another board: digest {header.board_digest.hex()[:16]}, "

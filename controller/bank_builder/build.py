@@ -17,10 +17,12 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from controller.bank.file_format import MODELLED, Header, creator
+from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words, edges, quantise
+from controller.bank.provenance import as_parameter
 from controller.bank.writer import BankWriter
+from controller.bank_builder.checked_source import CheckedSource
 from controller.bank_builder.compositions import compositions
 from controller.bank_builder.interpolation_error import interpolation_error
 from controller.bank_builder.optimised import ALONE, Words, Workers, kept_path, optimised_words, remove_kept, told
@@ -28,12 +30,13 @@ from controller.board.board import Board
 from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.memory import cell_bytes, entries_bytes, require
+from controller.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
 from controller.physics.plate import mode_cut_hz
+from controller.physics.response_source import ResponseSource
 from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
 from controller.waveform_design.plain import SignOfSum
-from controller.waveform_design.prediction import Prediction
+from controller.waveform_design.prediction import FocusPrediction
 
 INDEX_BYTES = 200  # of a cell of the grid, in what is known of all cells: place, number, checksums
 WORDS_DEPEND_ON = ("pitch_mm", "highest_hz", "optimised")  # build parameters: optimised drive words of a cell
@@ -52,16 +55,21 @@ class BuildReport:
     path : str
     bytes : int
         Size of the file.
-    cells, modes : int
-        Entries written; modes in every response.
+    cells : int
+        Entries written.
+    modes : int or None
+        In every response; None: the responses do not come from modes.
+    responses : str
+        Where they come from, `Provenance.in_words`.
     seconds : float
         Of the whole build, by the clock.
     model_seconds, response_seconds : float
-        Processor time of the plate model and of the responses.
+        Processor time of the plate model (none of another source) and of the responses.
     sgemm_gflops : float or None
         Best rate of matrix multiplication of this machine, for a second of processor time; None: not measured.
     sgemm_share : float or None
-        Additions and multiplications that the responses need, over what this machine multiplies in `response_seconds` at that rate.
+        Additions and multiplications that the responses need, over what this machine multiplies in `response_seconds` at that rate;
+        None: not measured, or no model's.
     peak_memory_mb : float
         In MB of 10^6 bytes.
     worst_edge_rate_hz : float
@@ -77,7 +85,8 @@ class BuildReport:
     path: str
     bytes: int
     cells: int
-    modes: int
+    modes: int | None
+    responses: str
     seconds: float
     model_seconds: float
     response_seconds: float
@@ -106,6 +115,7 @@ def build_bank(
     memory_mb: float | None = None,
     aim: Aim | None = None,
     workers: Workers = ALONE,
+    source: ResponseSource | None = None,
 ) -> BuildReport:
     """Build a bank and put it in place of the one at `path`, if any.
 
@@ -138,19 +148,22 @@ def build_bank(
         Optimise every entry for this (`waveform_design/descent.py`). What is done of an interrupted build is kept beside `path`.
     workers : Workers
         Who optimises.
+    source : ResponseSource, optional
+        Of the responses; the board's plate model by default.
 
     Raises
     ------
     ConfigError
-        If the pitch leaves no cell, `cells` is empty, an entry would switch a channel more often than the board allows, or
-        the build does not fit into `memory_mb`.
+        If the pitch leaves no cell, `cells` is empty, an entry would switch a channel more often than the board allows,
+        the build does not fit into `memory_mb`, `source` is not of this board, or entries from it are to be optimised.
     BankError
         If the folder or disk does not take the file; an old bank is untouched.
     """
     started = time.perf_counter()
     if choice is not None:
         board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=choice["snap_mm"]))
-    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
+    if aim is not None and source is not None:
+        raise ConfigError(f"responses that are {source.provenance.kind} cannot be optimised: that takes a model of the whole plate")
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3 if pitch_m is None else pitch_m)
     wanted = np.ones(grid.cells, bool) if cells is None else np.asarray(cells, bool)
     if wanted.shape != (grid.cells,):
@@ -159,12 +172,18 @@ def build_bank(
         raise ConfigError(f"{scene or 'scene'}: no region reaches a cell of the {grid.pitch_m * 1e3:g} mm grid: nothing to build")
     numbers = np.flatnonzero(wanted)
     points_m = grid.points()[numbers]
+    highest_hz = mode_cut_hz(board.waveform) if highest_hz is None else highest_hz
+    model: ResponseModel | None = None
+    if source is None:
+        responses: ResponseSource = (model := ResponseModel(board, highest_hz))
+    else:
+        responses = CheckedSource(board, source)
     parameters: dict[str, Any] = {
         "board": board.key,
         "pitch_mm": grid.pitch_m * 1e3,
-        "highest_hz": highest_hz,
+        "highest_hz": highest_hz if model else None,
         "precision": "float32",
-        "responses": MODELLED,
+        "responses": as_parameter(responses.provenance),
         "scene": scene,
         "cells_sha256": hashlib.sha256(np.packbits(wanted).tobytes()).hexdigest(),
         **({} if choice is None else {"choice": choice, "composes": choice["composes"]}),
@@ -181,7 +200,7 @@ def build_bank(
         "amplitude_of_plain": aim and {"cells": 10**3, "least": 0.001, "median": 0.001, "most": 0.001},
         "interpolation_error": {},
     }
-    composed = compositions(board, grid, ResponseModel(board, highest_hz), spots) if spots else []
+    composed = compositions(board, grid, responses, spots) if spots else []
     header = Header(
         creator=maker,
         board_digest=board.digest(),
@@ -192,13 +211,16 @@ def build_bank(
         parameters=parameters,
         compositions=len(composed),
     )
-    model = ResponseModel(board, highest_hz)
-    least_bytes = entries_bytes(model.plate_modes, header.samples, grid.nx) + INDEX_BYTES * grid.cells
-    spare_bytes = require(least_bytes, memory_mb, f"a bank of {board.name!r} with {model.modes} modes and {grid.nx} cells a row")
+    if model:
+        row_bytes, many = entries_bytes(model.plate_modes, header.samples, grid.nx), f"{model.modes} modes and "
+    else:
+        row_bytes, many = BASE_BYTES + cell_bytes(header.samples) * grid.nx, ""
+    least_bytes = row_bytes + INDEX_BYTES * grid.cells
+    spare_bytes = require(least_bytes, memory_mb, f"a bank of {board.name!r} with {many}{grid.nx} cells a row")
     most = min(CELLS_PER_BLOCK, grid.nx + int(spare_bytes / cell_bytes(header.samples)))
     make_folder(path.parent)
     response_seconds = flops = 0.0
-    worst_edge_rate_hz = 0.0
+    worst_edge_rate_hz, moves = 0.0, False
     content = hashlib.sha256()
     blocks = _blocks(numbers, grid.nx, most)
     with (
@@ -209,7 +231,8 @@ def build_bank(
         tqdm(total=len(numbers), unit="cell", desc=f"bank {path.name}", disable=None if progress else True) as bar,
     ):
         before = time.process_time()
-        model.entry_kernel()
+        if model:
+            model.entry_kernel()
         model_seconds = time.process_time() - before
         optimised, optimise_seconds = None, 0.0
         if aim:
@@ -221,9 +244,9 @@ def build_bank(
         for block in blocks:
             places_m = points_m[block.start : block.stop]
             before = time.process_time()
-            entries = model.entry_responses(places_m, out=room[: len(block)])
+            entries = responses.entry_responses(places_m, out=room[: len(block)])
             response_seconds += time.process_time() - before
-            flops += model.entry_flops(places_m)
+            flops += model.entry_flops(places_m) if model else 0.0
             for index, entry in zip(block, entries, strict=True):
                 cell, words = int(numbers[index]), drive_words(entry[: header.samples], board.idle_word)
                 if optimised is not None:
@@ -231,26 +254,32 @@ def build_bank(
                 worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"cell {cell}", parameters))
                 levels, scale_m_per_v = quantise(entry)
                 writer.add(cell, words, levels, scale_m_per_v)
+                moves = moves or scale_m_per_v > 0
                 for part in (words, levels, np.float32(scale_m_per_v)):
                     content.update(part.data)
             bar.update(len(block))
+        if not moves:
+            raise ConfigError(
+                f"board {board.name!r}: no channel moves any of the {len(numbers)} cells: a bank of nothing is not written"
+            )
         for key, words in composed:
             worst_edge_rate_hz = max(worst_edge_rate_hz, _count_edges(board, words, f"{len(key)} spots", parameters))
             writer.add_composition(key, words)
             content.update(words.data)
         parameters["content_sha256"] = content.hexdigest()
         if optimised is not None:
-            parameters["amplitude_of_plain"] = _amplitude_of_plain(board, model, points_m, optimised)
-        parameters["interpolation_error"] = interpolation_error(board, model, grid, wanted).summary()
+            parameters["amplitude_of_plain"] = _amplitude_of_plain(board, responses, points_m, optimised)
+        parameters["interpolation_error"] = interpolation_error(board, responses, grid, wanted).summary()
     remove_kept(path)
     seconds = time.perf_counter() - started
     with threadpool_limits(1, "blas"):  # as many threads as the response step
-        rate = best_sgemm_rate() if measure_sgemm else None
+        rate = best_sgemm_rate() if measure_sgemm and model else None
     return BuildReport(
         path=str(path),
         bytes=header.file_bytes,
         cells=len(numbers),
-        modes=model.modes,
+        modes=model.modes if model else None,
+        responses=responses.provenance.in_words(),
         seconds=seconds,
         model_seconds=model_seconds,
         response_seconds=response_seconds,
@@ -270,10 +299,10 @@ def _inputs_sha256(board: Board, maker: str, parameters: dict[str, Any]) -> str:
     return hashlib.sha256(told.encode()).hexdigest()
 
 
-def _amplitude_of_plain(board: Board, model: ResponseModel, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
+def _amplitude_of_plain(board: Board, source: ResponseSource, points_m: NDArray[np.float64], words: Words) -> dict[str, Any]:
     """Amplitudes of optimised entries over those of plain ones, by all modes, at cells evenly spaced among those of the bank."""
     some = np.unique(np.linspace(0, len(points_m) - 1, CELLS_JUDGED).round().astype(int))
-    plain, prediction = SignOfSum(board, model), Prediction(board, model)
+    plain, prediction = SignOfSum(board, source), FocusPrediction(board, source)
     shares = [
         float(
             prediction.at_focus(words[index], points_m[index])[0] / (plain.design([(*points_m[index], 1.0)]).displacement_m[0] or 1)

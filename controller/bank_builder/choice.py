@@ -22,7 +22,8 @@ from controller.board.board import Board
 from controller.errors import ConfigError
 from controller.loop.spots import needs_responses
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import bending_wavelength_m, mode_cut_hz
+from controller.physics.plate import bending_wavelength_m
+from controller.physics.response_source import ResponseSource
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene
 
@@ -67,7 +68,7 @@ class Setting:
         return its != mine and all(a <= b for a, b in zip(its, mine, strict=True))
 
 
-def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
+def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource | None = None) -> list[Setting]:
     """All candidates for a scene.
 
     Parameters
@@ -76,9 +77,11 @@ def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
     scene : Scene
     margin_m : float
         As of `cells_needed`.
+    source : ResponseSource, optional
+        Of the responses; the board's plate model by default.
     """
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
-    model = ResponseModel(board, mode_cut_hz(board.waveform))
+    source = source or ResponseModel(board)
     alone = not needs_responses(scene) and board.application_socket is None
     ready = alone and len(scene.spots) > 1 and not any(region.felt for region in scene.regions)  # all composed beforehand
     judged: list[tuple[Grid, np.ndarray[Any, np.dtype[np.bool_]], InterpolationError]] = []
@@ -87,7 +90,7 @@ def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
             grid = Grid.of(board.plate, pitch_m)
             cells = cells_needed(scene, grid.points(), pitch_m, margin_m)
             if cells.any():
-                judged.append((grid, cells, interpolation_error(board, model, grid, cells)))
+                judged.append((grid, cells, interpolation_error(board, source, grid, cells)))
     apart_m = np.concatenate([error.distance_m for *_, error in judged] or [np.zeros(0)])
     lost = np.concatenate([error.nearest for *_, error in judged] or [np.zeros(0)])
 
@@ -110,7 +113,7 @@ def settings(board: Board, scene: Scene, margin_m: float) -> list[Setting]:
     return found
 
 
-def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float) -> dict[str, Any]:
+def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source: ResponseSource | None = None) -> dict[str, Any]:
     """What `compose.method = "auto"` chooses for a scene, to be written into its bank.
 
     Parameters
@@ -121,6 +124,8 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float) -> dic
         Where the scene was read.
     margin_m : float
         As of `cells_needed`.
+    source : ResponseSource, optional
+        Of the responses; the board's plate model by default.
 
     Returns
     -------
@@ -133,7 +138,7 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float) -> dic
     ConfigError
         If no setting keeps both bounds.
     """
-    found = settings(board, scene, margin_m)
+    found = settings(board, scene, margin_m, source)
     front = [one for one in found if not any(one.beaten_by(other) for other in found)]
     bounds = board.compose
     kept = [one for one in front if one.error <= bounds.max_error and one.time_us <= bounds.max_time_us]

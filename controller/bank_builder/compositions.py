@@ -15,7 +15,7 @@ from controller.errors import ConfigError
 from controller.kernel import Point
 from controller.loop.batching import select_batch
 from controller.loop.spots import Spots
-from controller.physics.impulse_response import ResponseModel
+from controller.physics.response_source import ResponseSource
 from controller.scene.emission import Emission
 from controller.scene.scene import Spot
 from controller.waveform_design.exact_composition import ExactComposition
@@ -48,7 +48,7 @@ def played_together(spots: Sequence[Spot], duration_s: float) -> list[tuple[Poin
     return list(found.values())[:MOST]
 
 
-def compositions(board: Board, grid: Grid, model: ResponseModel, spots: Sequence[Spot]) -> list[Composition]:
+def compositions(board: Board, grid: Grid, source: ResponseSource, spots: Sequence[Spot]) -> list[Composition]:
     """Keys and drive words of what a scene's spots play together, and of single ones that no cell of the grid serves.
 
     Raises
@@ -56,7 +56,7 @@ def compositions(board: Board, grid: Grid, model: ResponseModel, spots: Sequence
     ConfigError
         If a spot is where nothing can move.
     """
-    method, found = ExactComposition(board, model), []
+    method, found = ExactComposition(board, source), []
     for points in played_together(spots, board.waveform.duration_s):
         if len(points) == 1 and points[0][2] == 1 and grid.nearest(*points[0][:2])[1] <= board.bank.snap_mm * 1e-3:
             continue

@@ -18,8 +18,8 @@ from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, channel_bits, drive_words
 from controller.board.board import Board
 from controller.errors import ConfigError
-from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import bending_wavelength_m
+from controller.physics.response_source import ResponseSource
 
 Floats = NDArray[np.float64]
 
@@ -59,13 +59,13 @@ class InterpolationError:
         return figures
 
 
-def interpolation_error(board: Board, model: ResponseModel, grid: Grid, cells: NDArray[np.bool_]) -> InterpolationError:
+def interpolation_error(board: Board, source: ResponseSource, grid: Grid, cells: NDArray[np.bool_]) -> InterpolationError:
     """Judge a grid at random places between cells that are built.
 
     Parameters
     ----------
     board : Board
-    model : ResponseModel
+    source : ResponseSource
         Of this board.
     grid : Grid
     cells : (cells of the grid,) bool array
@@ -79,8 +79,8 @@ def interpolation_error(board: Board, model: ResponseModel, grid: Grid, cells: N
     for row, places_m in _sample(grid, cells):
         columns = np.array([(place[0] - grid.x0_m) // grid.pitch_m for place in places_m], int)
         firsts = row * grid.nx + columns
-        exact = _responses(board, model, places_m)
-        around = np.stack([_responses(board, model, _cell_places(grid, firsts + by)) for by in (0, 1, grid.nx, grid.nx + 1)])
+        exact = _responses(board, source, places_m)
+        around = np.stack([_responses(board, source, _cell_places(grid, firsts + by)) for by in (0, 1, grid.nx, grid.nx + 1)])
         for index, (x_m, y_m) in enumerate(places_m.tolist()):
             weights = np.array(grid.corners(x_m, y_m)[1], np.float32)
             rests = np.repeat(exact[index, board.waveform.samples :], REST_SAMPLES, axis=0)[: board.waveform.samples]
@@ -119,9 +119,9 @@ def _cell_places(grid: Grid, cells: NDArray[np.intp]) -> Floats:
     return np.array([grid.place(cell) for cell in cells.tolist()])
 
 
-def _responses(board: Board, model: ResponseModel, places_m: Floats) -> NDArray[np.floating[Any]]:
+def _responses(board: Board, source: ResponseSource, places_m: Floats) -> NDArray[np.floating[Any]]:
     rows = board.waveform.samples + math.ceil(board.waveform.samples / REST_SAMPLES)
-    return model.entry_responses(places_m, out=np.empty((len(places_m), rows, CHANNELS), np.float32))
+    return source.entry_responses(places_m, out=np.empty((len(places_m), rows, CHANNELS), np.float32))
 
 
 def _displacement(words: NDArray[np.uint32], whole: NDArray[np.floating[Any]], idle_word: int) -> float:

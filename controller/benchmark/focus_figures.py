@@ -21,7 +21,6 @@ from controller.physics.audible import surface_energy
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.memory import focus_bytes, require
 from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
@@ -185,51 +184,3 @@ def float32_against_float64(board: Board, model: ResponseModel, points_m: Iterab
 def spread(values: Sequence[float]) -> dict[str, float]:
     """Return the smallest, median and largest value."""
     return {"min": float(np.min(values)), "median": float(np.median(values)), "max": float(np.max(values))}
-
-
-def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
-    """Focus on several points at once, without a bank.
-
-    Parameters
-    ----------
-    board : Board
-    points_m : sequence of (x_m, y_m)
-        Places of the foci.
-    memory_mb : float, optional
-        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
-
-    Returns
-    -------
-    field : Field
-        The plate at T.
-    rows : list of dict
-        Figures of each focus, in the order of `points_m`.
-
-    Raises
-    ------
-    ConfigError
-        If it does not fit into `memory_mb`.
-    """
-    twin = PlateTwin(board)
-    needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s))
-    require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")
-    places = np.array(points_m)
-    words = focus(twin.responses.drive_order_responses(places, dtype=np.float64), [1.0] * len(places), board.idle_word)
-    field = emit(twin, words)
-    rows = []
-    for x_m, y_m in points_m:
-        judged = field.focus_metrics(x_m, y_m, points_m)
-        reference_m = twin.reference_amplitude(x_m, y_m)
-        rows.append(
-            {
-                "x_mm": x_m * 1e3,
-                "y_mm": y_m * 1e3,
-                "amplitude_um": judged.amplitude_m * 1e6,
-                "relative_amplitude": judged.amplitude_m / reference_m if reference_m else 0.0,  # so near the edge nothing moves
-                "contrast": judged.contrast,
-                "contrast_all": judged.contrast_all,
-                "spot_mm": judged.spot_m * 1e3,
-                "peak_offset_us": judged.peak_offset_s * 1e6,
-            }
-        )
-    return field, rows

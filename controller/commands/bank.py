@@ -12,7 +12,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import Fit, asked_of, bank_info, choice_of, fit, optimised_for, verify_bank, wrong_pitch
+from controller.bank.inspection import (
+    Fit,
+    asked_of,
+    bank_info,
+    choice_of,
+    fit,
+    measured_at,
+    optimised_for,
+    verify_bank,
+    wrong_pitch,
+)
+from controller.bank.provenance import MEASURE_AGAIN
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
@@ -96,6 +107,8 @@ def bank_build(options: argparse.Namespace) -> int:
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
     name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
+    if measured_at(path):
+        print(f"haptic-panel: {path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}", file=sys.stderr)
     report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
     show(options, asdict(report), _build_table)
     if path != bank_path(board):
@@ -185,6 +198,11 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     pitch_m = _pitch_m(board, choice)
     found = found or fit(path, board, _cells(board, pitch_m, scene))
     if found.reason:
+        if measured_at(path):
+            raise BankError(
+                f"{path}: {found.reason}; its responses were measured, so it is not replaced by one from the plate model: build it"
+                f" again, {MEASURE_AGAIN}, or give another with --bank"
+            )
         count = int(found.cells.sum())
         print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
         if aim := optimised_for(path):

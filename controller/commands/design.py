@@ -44,6 +44,8 @@ ROWS = {  # what is printed of each figure; numbers in brackets are those of the
     "linear_share": "share of an endless emission, linear",
     "energy_uj": "energy at T (µJ) (6)",
     "energy_of_band_uj": "energy of the band's modes (µJ)",
+    "energy_with_background_uj": "energy at T (µJ), estimate",
+    "kinetic_share": "of that kinetic, estimate",
     "energy_decay_ms": "decay of energy (ms)",
     "mechanical_power_mw": "mechanical power in T (mW)",
     "resistors_w": "resistors, all emitting (W)",

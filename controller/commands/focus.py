@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
@@ -36,13 +36,20 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     point.add_argument(
         "--memory-mb", type=float, metavar="M", help="memory that --at may take, in MB (default: 1500); refused if it needs more"
     )
-    point.add_argument("--plot", metavar="FILE", help="draw the plate at T (.png, .svg, .pdf)")
+    point.add_argument(
+        "--period-ms",
+        type=float,
+        metavar="MS",
+        help="time from emission to emission for what repeating costs (default: their length)",
+    )
+    point.add_argument("--plot", metavar="FILE", help="draw the plate at T, and the first focus over time (.png, .svg, .pdf)")
     point.set_defaults(command=focus)
 
 
 def focus(options: argparse.Namespace) -> int:
     """Focus on points of the plate and print figures of merit; or measure the figures of the README."""
-    from controller.benchmark.focus_figures import figures, focus_on
+    from controller.benchmark.focus_emission import emission_at, emission_figures, judged_foci
+    from controller.benchmark.focus_figures import figures
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
@@ -73,13 +80,39 @@ def focus(options: argparse.Namespace) -> int:
     if not options.at:
         raise ConfigError("focus where? give --at X_MM Y_MM once for each point, or --figures, --idle-figures, --amplitude-figures")
     points_m = [(_on_plate(x_mm, board.plate.length_mm), _on_plate(y_mm, board.plate.width_mm)) for x_mm, y_mm in options.at]
-    field, rows = focus_on(board, points_m, options.memory_mb)
+    period_s = _period_s(options.period_ms, board.waveform.duration_s)
+    emission = emission_at(board, points_m, options.memory_mb)
+    found = {"board": board.name, "foci": judged_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
     if picture:
+        from controller.physics.focus_series import focus_series
         from controller.physics.plot import plot_focus
 
-        plot_focus(picture, board, field, points_m, f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}")
-    show(options, {"board": board.name, "foci": rows}, lambda shown: "\n\n".join(map(plain_table, shown["foci"])))
+        title = f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}"
+        series = focus_series(emission.twin, emission.words, points_m[0])
+        plot_focus(picture, board, emission.field, points_m, title, series)
+    show(options, found, _table)
     return 0
+
+
+def _table(found: dict[str, Any]) -> str:
+    """Each focus, then the emission; its channels one by one are only in --json."""
+    emission = {name: value for name, value in found["emission"].items() if name != "channels"}
+    return "\n\n".join(map(plain_table, [*found["foci"], {"emission": emission}]))
+
+
+def _period_s(period_ms: float | None, duration_s: float) -> float:
+    """Time in s from one emission to the next.
+
+    Raises
+    ------
+    ConfigError
+        If emissions would overlap.
+    """
+    if period_ms is None:
+        return duration_s
+    if not duration_s <= period_ms * 1e-3 + 1e-9 < 1e3:  # NaN too
+        raise ConfigError(f"--period-ms {period_ms:g}: from {duration_s * 1e3:g} ms, the length of an emission, to 1000000")
+    return period_ms * 1e-3
 
 
 def _on_plate(position_mm: float, extent_mm: float) -> float:

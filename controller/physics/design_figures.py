@@ -56,12 +56,13 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     contrast = design.contrast(width_hz, tc_s, given.channels, duration_s, decay_s)
     repeated = design.repetition_factor(period_s, decay_s)
     outside_m = OUTSIDE_M * kirchhoff_m[1] / WAVELENGTH_M
-    energy_j = spectrum.energy_j(amplitude_m)
+    spots_j = spectrum.energy_j(amplitude_m)
     resistors_w = given.channels * driver.capacitance_f * driver.supply_v**2 / 2 * spectrum.crossings_hz
     finger_kg, spot_m = given.finger_mg * 1e-6, spectrum.width_m()
     left = spectrum.mass_attenuation(finger_kg)
     cells = design.learning_grid(plate, mindlin_m[2])
     background = (tc_s * width_hz / contrast**2) - 1  # of eq. (1), over the spot's own part
+    energy_j = spots_j * (1 + background)  # half of which moves at T
     figures: Figures = {
         "tc_ms": tc_s * 1e3,
         "modes_in_band": tc_s * width_hz,
@@ -87,7 +88,9 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
         "one_bit_share": design.one_bit_share(duration_s, decay_s),
         "linear_share": design.linear_share(duration_s, decay_s),
         "energy_uj": design.energy_j(plate, amplitude_m, resolution_m) * 1e6,
-        "energy_of_band_uj": energy_j * 1e6,
+        "energy_of_band_uj": spots_j * 1e6,
+        "energy_with_background_uj": energy_j * 1e6,
+        "kinetic_share": background / 2 / (1 + background),
         "energy_decay_ms": decay_s / 2 * 1e3,
         "mechanical_power_mw": energy_j / duration_s * 1e3,
         "resistors_w": resistors_w,

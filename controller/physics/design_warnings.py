@@ -46,10 +46,10 @@ def _warnings(found: Figures, given: Figures) -> Iterator[str]:
             f"the plate is {waves['thickness_of_shortest']:.2g} of its shortest wave thick: not even Mindlin's theory holds"
             " above 0.3; take a lower band"
         )
-    if _differ(found["energy_uj"], found["energy_of_band_uj"], 0.1):
+    if _differ(found["energy_uj"], found["energy_with_background_uj"], 0.1):
         yield (
-            f"eq. (6) takes all modes from 0 Hz alike: {_uj(found['energy_uj'])}; modes of the band, weighted as patches drive,"
-            f" hold {_uj(found['energy_of_band_uj'])}, from which the mechanical power is taken"
+            f"eq. (6) takes all modes from 0 Hz alike, at rest at T: {_uj(found['energy_uj'])}; modes of the band hold"
+            f" {_uj(found['energy_of_band_uj'])} in the spot, {_uj(found['energy_with_background_uj'])} with what surrounds it"
         )
     if _differ(found["finger_left"], found["finger_left_of_band"], 0.05):
         yield (

@@ -129,6 +129,13 @@ class Field:
         modal: Floats = self.level + self.step.by_mode(self.pole_amplitudes.real) + self.driver_amplitudes.real.sum(1)
         return modal
 
+    @cached_property
+    def modal_velocity(self) -> Floats:
+        """Velocity of each mode at T in m/s: (mode,)."""
+        of_poles = self.step.by_mode((self.step.poles * self.pole_amplitudes).real)
+        velocity: Floats = of_poles + (self.driver_amplitudes * self.step.driver_poles).real.sum(1)
+        return velocity
+
     def at(self, points_m: ArrayLike) -> Floats:
         """Displacement at T in m, (point,), at `points_m`, (point, 2)."""
         return at_points(self.modes, self.modal, points_m)
@@ -215,7 +222,7 @@ def half_width(line: Floats, line_m: Floats = LINE_M) -> float:
     top = len(line_m) // 2
     half = float(line[top]) / 2
     step = float(line_m[1] - line_m[0])
-    return step * (_crossing(line[top:], half) + _crossing(line[top::-1], half))
+    return step * (crossing(line[top:], half) + crossing(line[top::-1], half))
 
 
 def _vertex(values: Floats, top: int) -> float:
@@ -227,7 +234,7 @@ def _vertex(values: Floats, top: int) -> float:
     return 0.5 * (before - after) / curvature if curvature else 0.0
 
 
-def _crossing(falling: Floats, half: float) -> float:
+def crossing(falling: Floats, half: float) -> float:
     """Samples from the first to where the line falls to `half`."""
     below = np.flatnonzero(falling <= half)
     if not below.size or below[0] == 0:

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from controller.bank.file_format import REST_SAMPLES
+from controller.bank.provenance import Provenance
 from controller.board.board import Board
 from controller.board.panel import CHANNELS
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_response import band_limited_response, modes_at_once, pulse_response
 from controller.physics.modes import Modes, slowest_decay_s
-from controller.physics.plate_modes import modes_of
+from controller.physics.plate_modes import in_words, modes_of
 from controller.physics.row_responses import RowResponses, flops_in_rows, in_rows
 from controller.physics.step_response import StepResponse, channel_forces
 
@@ -27,7 +28,7 @@ POINTS_PER_GEMM = 16  # 512 columns: large enough for full speed, small enough t
 
 
 class ResponseModel:
-    """Responses of any point of a board's plate.
+    """Responses of any point of a board's plate, from its modes: a `ResponseSource`.
 
     Parameters
     ----------
@@ -39,6 +40,9 @@ class ResponseModel:
 
     Attributes
     ----------
+    provenance : Provenance
+    samples : int
+    bit_clock_hz : float
     plate_modes : Modes
     step : StepResponse
     forces : (mode, 32) array
@@ -49,7 +53,9 @@ class ResponseModel:
         self.plate_modes = modes_of(board, highest_hz) if modes is None else modes
         self.step = StepResponse.of(self.plate_modes, DriverResponse.of(board.driver))
         self.forces = channel_forces(board, self.plate_modes)
+        self.provenance = Provenance("modelled", in_words(board, self.plate_modes))
         waveform = board.waveform
+        self.bit_clock_hz = waveform.bit_clock_hz
         self.samples = waveform.samples
         self._bit_period_s = waveform.bit_period_s
         self._band_hz = waveform.band_low_hz, waveform.band_high_hz
@@ -79,6 +85,11 @@ class ResponseModel:
         """Modes in blocks whose responses are computed at once."""
         at_once = modes_at_once(self.step, self._bit_period_s, self.samples, self._band_hz, self._decay_time_s)
         return [slice(first, min(first + at_once, self.modes)) for first in range(0, self.modes, at_once)]
+
+    @property
+    def plate_m(self) -> tuple[float, float]:
+        """Extent of the plate along x and y."""
+        return self.plate_modes.length_m, self.plate_modes.width_m
 
     @property
     def modes(self) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from controller.board.panel import Plate, Waveform
+from controller.physics.mindlin import MindlinPlate
 
 LEAST_CUT_HZ = 100e3  # bits of a low band still excite what lies far above it: their corners pass the driver up to here
 
@@ -24,6 +25,8 @@ def bending_stiffness(plate: Plate) -> float:
 
 
 def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Wavelength of a bending wave in the free plate at a frequency, in m."""
+    """Wavelength of a bending wave in the free plate at a frequency, in m, by the plate's theory."""
+    if plate.theory == "mindlin":
+        return float(2 * np.pi / MindlinPlate.of(plate).wavenumber(2 * np.pi * frequency_hz))
     per_area = plate.density_kg_m3 * plate.thickness_m
     return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
+
+import msgspec
 
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.physics.closed_form import SimplySupported
+from controller.physics.damping import damped
+from controller.physics.mindlin import MindlinPlate
 from controller.physics.modes import Modes
 from controller.physics.plate import mode_cut_hz
+from controller.physics.ritz_modes import RitzModes
 
 KEPT = 4  # plates whose modes are remembered
 
@@ -25,12 +31,41 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     Raises
     ------
     ConfigError
-        If there is none, or more than can be computed with; if the edges have no closed form.
+        If there is none, or more than can be computed with.
     """
     return _modes(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
 
 
 @lru_cache(maxsize=KEPT)
 def _modes(plate: Plate, highest_hz: float) -> Modes:
-    """Modes from all that they depend on, which must be hashable records."""
-    return SimplySupported.of(plate, highest_hz)
+    """Modes from all that they depend on, which must be hashable records: edges, then theory, then damping."""
+    if plate.theory == "mindlin":
+        theory = MindlinPlate.of(plate)
+        modes = theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
+    else:
+        modes = _of_edges(plate, highest_hz)
+    return damped(modes, plate)
+
+
+def _of_edges(plate: Plate, highest_hz: float) -> Modes:
+    """Modes by Kirchhoff's theory."""
+    if set(msgspec.structs.astuple(plate.sides)) == {"simply_supported"}:
+        return SimplySupported.of(plate, highest_hz)
+    return RitzModes.of(plate, highest_hz)
+
+
+def in_words(board: Board, modes: Modes) -> str:
+    """The plate model that `modes` of a board come from, for the header of a bank."""
+    plate = board.plate
+    sides = plate.sides
+    supports = (sides.x0, sides.x1, sides.y0, sides.y1)
+    each = supports[:1] if len(set(supports)) == 1 else supports
+    edges = " / ".join(support.replace("_", " ") for support in each)
+    highest_hz = float(modes.angular_frequency[-1]) / (2 * math.pi)
+    shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
+    decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
+    layers = f" of {len(plate.layers)} layers" if plate.layers else ""
+    return (
+        f"{plate.theory.capitalize()} plate{layers}, edges {edges}, decay {decay} ms,"
+        f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"
+    )

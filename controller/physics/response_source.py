@@ -2,49 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, Protocol
+from typing import Any, Protocol
 
-import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from controller.bank.provenance import Provenance, SourceFile
 
-class SourceFile(msgspec.Struct, frozen=True):
-    """A file that responses were learned from: its name and the SHA-256 of its bytes, in hex."""
-
-    name: str
-    sha256: str
-
-
-class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Origin of responses, kept in a bank's header.
-
-    Attributes
-    ----------
-    kind
-        `modelled`, `measured`, or `completed`: measured, with gaps filled by a model.
-    model
-        Plate model in words: theory, edges, damping; of measured responses, what interpolates between points.
-    files
-        Measurements.
-    date
-        Of the measurements, ISO 8601.
-    temperature_c
-        Of the plate while it was measured.
-    points
-        Number of points that were measured.
-    kept
-        Expected share of the amplitude that drive words from these responses keep on the plate they come from: (median, least)
-        over points left out. Absent for models, which say nothing about a plate.
-    """
-
-    kind: Literal["modelled", "measured", "completed"]
-    model: str
-    files: tuple[SourceFile, ...] = ()
-    date: str | None = None
-    temperature_c: float | None = None
-    points: int | None = None
-    kept: tuple[float, float] | None = None
+__all__ = ["Provenance", "ResponseSource", "SourceFile"]
 
 
 class ResponseSource(Protocol):
@@ -58,6 +23,14 @@ class ResponseSource(Protocol):
     def samples(self) -> int:
         """Samples of a response: those of an emission."""
 
+    @property
+    def bit_clock_hz(self) -> float:
+        """Rate of the samples."""
+
+    @property
+    def plate_m(self) -> tuple[float, float]:
+        """Extent along x and y of the plate that they are of."""
+
     def responses(
         self,
         points_m: ArrayLike,
@@ -70,10 +43,15 @@ class ResponseSource(Protocol):
         Sample j is the displacement (j + 1) bit periods after the start of the pulse. Zero for channels without an actuator.
         """
 
+    def drive_order_responses(
+        self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
+    ) -> NDArray[np.floating[Any]]:
+        """`responses`, band-limited and reversed in time: sample n belongs to drive word n, and sum(v * response) is u at T."""
+
     def entry_responses(
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
-        """What a bank keeps: band-limited and reversed in time, then what the band leaves out as means over `REST_SAMPLES`.
+        """What a bank keeps: `drive_order_responses`, then what the band leaves out as means over `REST_SAMPLES`.
 
         (point, sample + row of rest, 32).
         """

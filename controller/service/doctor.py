@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import msgspec
 
-from controller.bank.file_format import MODELLED
 from controller.bank.inspection import wrong_pitch
 from controller.bank.reader import Bank
 from controller.board.board import Board
@@ -203,9 +202,9 @@ def _bank(board: Board) -> str:
 def _responses(board: Board) -> str | Finding:
     """Whether the bank was computed from measured or modelled responses."""
     with Bank.open(bank_path(board)) as bank:
-        source = bank.header.parameters.get("responses", MODELLED)
-    if source != MODELLED:
-        return f"the bank's responses are {source}"
+        provenance = bank.header.provenance
+    if provenance and provenance.from_measurements:
+        return f"the bank's responses are {provenance.in_words()}"
     said = "the bank was computed from a model of the plate: it moves the panel, but a real one is not focused by it (README.md)"
     return Finding("responses", True, said, warns=True)
 

@@ -21,9 +21,9 @@ from controller.bank.packing import CHANNELS, WORD, channel_bits
 from controller.board.board import Board
 from controller.kernel import Point
 from controller.kernel.words_twin import masking_threshold
-from controller.physics.impulse_response import ResponseModel
+from controller.physics.response_source import ResponseSource
 from controller.waveform_design.dual import Bits, Floats, cheapest, farthest, flip, likely_polarities
-from controller.waveform_design.prediction import Prediction
+from controller.waveform_design.prediction import FocusPrediction
 from controller.waveforms.composition import BLOCK_S, MAX_FOCI
 from controller.waveforms.design import Place, WaveformDesign
 
@@ -42,16 +42,16 @@ class ExactComposition:
     Parameters
     ----------
     board : Board
-    model : ResponseModel
+    source : ResponseSource
         Of this board.
     """
 
     name = "exact composition"
 
-    def __init__(self, board: Board, model: ResponseModel) -> None:
+    def __init__(self, board: Board, source: ResponseSource) -> None:
         self.idle_word, self.bit_period_s = board.idle_word, board.waveform.bit_period_s
-        self._model = model
-        self._prediction = Prediction(board, model)
+        self._source = source
+        self._prediction = FocusPrediction(board, source)
         idle = channel_bits(np.array([board.idle_word], np.uint32))[0]
         self.volts = np.where(idle, -1.0, 1.0) * board.driver.supply_v  # of a bit that deviates from idle, (32,)
 
@@ -60,13 +60,13 @@ class ExactComposition:
         if quiet:
             raise ValueError(f"{self.name} keeps no place quiet")
         places_m, asked = checked_points(points)
-        words = self.words(places_m, asked, np.zeros((0, self._model.samples * CHANNELS)))
+        words = self.words(places_m, asked, np.zeros((0, self._source.samples * CHANNELS)))
         return WaveformDesign(words, self._prediction.at_focus(words, places_m), np.zeros(0))
 
     def words(self, places_m: Floats, asked: Floats, quiet: Floats) -> NDArray[np.uint32]:
         """Drive words for points at which (point,) amplitudes are asked for, and rows (row, bit) that shall stay zero."""
-        in_band = self.deviations(self._model.drive_order_responses(places_m, dtype=np.float64))
-        whole = self.deviations(self._model.responses(places_m)[:, ::-1])
+        in_band = self.deviations(self._source.drive_order_responses(places_m, dtype=np.float64))
+        whole = self.deviations(self._source.responses(places_m)[:, ::-1])
         with threadpool_limits(1, "blas"):  # small products
             bits = best_bits(in_band, whole, asked, quiet, round(BLOCK_S / self.bit_period_s))
         packed: NDArray[np.uint32] = np.packbits(bits.reshape(-1, CHANNELS), axis=1, bitorder="little").view(WORD)[:, 0]

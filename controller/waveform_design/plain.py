@@ -10,8 +10,8 @@ import numpy as np
 from controller.board.board import Board
 from controller.kernel import Point
 from controller.physics.focusing import focus
-from controller.physics.impulse_response import ResponseModel
-from controller.waveform_design.prediction import Prediction
+from controller.physics.response_source import ResponseSource
+from controller.waveform_design.prediction import FocusPrediction
 from controller.waveforms.design import Place, WaveformDesign
 
 
@@ -21,15 +21,15 @@ class SignOfSum:
     Parameters
     ----------
     board : Board
-    model : ResponseModel
+    source : ResponseSource
         Of this board.
     """
 
     name = "sign of the sum"
 
-    def __init__(self, board: Board, model: ResponseModel) -> None:
-        self._idle_word, self._model = board.idle_word, model
-        self._prediction = Prediction(board, model)
+    def __init__(self, board: Board, source: ResponseSource) -> None:
+        self._idle_word, self._source = board.idle_word, source
+        self._prediction = FocusPrediction(board, source)
 
     def design(self, points: Sequence[Point], quiet: Sequence[Place] = ()) -> WaveformDesign:
         """As `DesignMethod.design`."""
@@ -38,7 +38,7 @@ class SignOfSum:
         if quiet or any(amplitude != 1 for _, _, amplitude in points):
             raise ValueError(f"{self.name} keeps no place quiet and has no less than full amplitude")
         places_m = np.array(points)[:, :2]
-        responses = self._model.drive_order_responses(places_m, dtype=np.float64)
+        responses = self._source.drive_order_responses(places_m, dtype=np.float64)
         sizes = np.abs(responses).sum(axis=(1, 2))
         weights = np.divide(1, sizes, out=np.zeros_like(sizes), where=sizes > 0)
         words = focus(responses, weights.tolist(), self._idle_word)

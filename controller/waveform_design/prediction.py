@@ -12,18 +12,46 @@ from controller.bank.packing import channel_bits
 from controller.board.board import Board
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.modal_response import pulse_response
+from controller.physics.response_source import ResponseSource
 
 NEAR_S = 25e-6  # a quiet place is judged this long before and after T
 
 
-class Prediction:
-    """Displacements that drive words cause, from rest at the idle word.
+class FocusPrediction:
+    """Displacements at T that drive words cause, from rest at the idle word.
+
+    Parameters
+    ----------
+    board : Board
+    source : ResponseSource
+        Of this board or another, whose plate then is the one that plays.
+    """
+
+    def __init__(self, board: Board, source: ResponseSource) -> None:
+        self._source = source
+        self._supply_v = board.driver.supply_v
+        self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
+
+    def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
+        """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
+        responses = self._source.responses(points_m)[:, ::-1]
+        reached: NDArray[np.floating[Any]] = responses.reshape(len(responses), -1) @ self._volts(words).ravel()
+        return reached
+
+    def _volts(self, words: NDArray[np.uint32]) -> NDArray[np.floating[Any]]:
+        """Voltage of each channel above that at rest: (sample, 32)."""
+        above: NDArray[np.floating[Any]] = (channel_bits(words) - self._idle_bits) * self._supply_v
+        return above
+
+
+class Prediction(FocusPrediction):
+    """The same, and before and after T, which takes a model: responses that go on after an emission.
 
     Parameters
     ----------
     board : Board
     model : ResponseModel
-        Of this board or another, whose plate then is the one that plays.
+        As of `FocusPrediction`.
 
     Attributes
     ----------
@@ -32,17 +60,11 @@ class Prediction:
     """
 
     def __init__(self, board: Board, model: ResponseModel) -> None:
+        super().__init__(board, model)
         self._model = model
-        self._supply_v = board.driver.supply_v
-        self._idle_bits = channel_bits(np.array([board.idle_word], np.uint32))[0].astype(np.float64)
         self._bit_period_s = board.waveform.bit_period_s
         self._modal: NDArray[np.float64] | None = None  # of each mode, longer than an emission
         self.near_samples = math.ceil(NEAR_S / self._bit_period_s)
-
-    def at_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
-        """Displacement at T of each of `points_m`, (point, 2): (point,) in m."""
-        reached: NDArray[np.floating[Any]] = self._whole(points_m) @ self._volts(words).ravel()
-        return reached
 
     def near_focus(self, words: NDArray[np.uint32], points_m: ArrayLike) -> NDArray[np.floating[Any]]:
         """Displacement of each of `points_m`, (point, 2), at every sample within 25 us of T: (point, time) in m.
@@ -68,12 +90,3 @@ class Prediction:
         drive_order = np.zeros((samples + 2 * near, response.shape[1]))
         drive_order[: len(response)] = response[::-1]
         return np.array([drive_order[near - late : near - late + samples] for late in range(-near, near + 1)])
-
-    def _whole(self, points_m: ArrayLike) -> NDArray[np.floating[Any]]:
-        responses = self._model.responses(points_m)[:, ::-1]
-        return responses.reshape(len(responses), -1)
-
-    def _volts(self, words: NDArray[np.uint32]) -> NDArray[np.floating[Any]]:
-        """Voltage of each channel above that at rest: (sample, 32)."""
-        above: NDArray[np.floating[Any]] = (channel_bits(words) - self._idle_bits) * self._supply_v
-        return above

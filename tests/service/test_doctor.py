@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from controller.bank.provenance import Provenance, SourceFile
 from controller.bank_builder.build import build_bank
 from controller.board import lookup
 from controller.board.board import load_board
@@ -26,6 +27,7 @@ from controller.fpga.session import Session
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 from controller.gateware_model.simulated_link import SimulatedLink
+from controller.physics.impulse_response import ResponseModel
 from controller.service import doctor
 from controller.service.doctor import look
 from controller.service.link_examination import arriving_sck_hz, examine_link, judged_sck
@@ -194,6 +196,20 @@ def test_a_modelled_bank_on_a_real_panel_is_warned_of(panel, board, capsys, monk
     main(["doctor", "--board", str(panel.folder)])
     assert re.search(r"^WARNING responses +the bank was computed from a model", capsys.readouterr().out, re.MULTILINE)
     assert "responses" not in {finding.about for finding in look(board, VirtualClock().now_s)}, "simulated, it is the right one"
+
+
+def test_a_measured_bank_is_told_with_its_files_date_temperature_and_expected_share(panel, monkeypatch):
+    monkeypatch.setattr(doctor, "service_user", lambda: None)
+    told = Provenance("measured", "cosines", (SourceFile("plate.npz", "ab" * 32),), "2026-11-20", 23.5, 2072, (0.997, 0.99))
+    model = ResponseModel(panel)
+    model.provenance = told
+    build_bank(panel, bank_path(panel), measure_sgemm=False, source=model)
+    (finding,) = [finding for finding in look(panel, VirtualClock().now_s) if finding.about == "responses"]
+    assert (finding.good, finding.warns) == (True, False)
+    assert finding.said == (
+        "the bank's responses are measured: 2072 points; plate.npz; 2026-11-20; 23.5 °C; cosines; keeps 0.997 of the amplitude,"
+        " 0.99 at least"
+    )
 
 
 def examined(board, model, channels=range(32)):

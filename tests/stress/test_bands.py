@@ -7,7 +7,7 @@ from stress.boards import changed
 from controller.bank.packing import channel_bits
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.focus_figures import focus_on
+from controller.benchmark.focus_emission import focus_on
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin

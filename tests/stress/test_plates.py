@@ -12,7 +12,8 @@ from controller.bank.inspection import verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.focus_figures import emit, focus_on
+from controller.benchmark.focus_emission import focus_on
+from controller.benchmark.focus_figures import emit
 from controller.board.panel import Actuator
 from controller.cli import main
 from controller.errors import ConfigError
