@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.packing import WORD, channel_bits
+from controller.benchmark.focus_emission import emission_figures
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
-from controller.benchmark.power import resistor_loss_j
 from controller.physics import design
 from controller.physics.field import Field
 from controller.physics.modal_history import Energy, modal_energy, modal_history
@@ -44,36 +43,36 @@ def energy_rows(panel: PaperPanel, energies: list[Energy]) -> list[Row]:
     """
     plate, waveform = panel.board.plate, panel.board.waveform
     count, last = len(energies), waveform.samples - 1
-    kinetic = np.array([energy.kinetic_j[last] for energy in energies])
-    total = kinetic + [energy.potential_j[last] for energy in energies]
-    duration_s = waveform.samples * waveform.bit_period_s
+    judged = [emission_figures(emission, waveform.duration_s) for emission in panel.emissions[:count]]
+    total_uj, kinetic, power_mw, heat_w = (
+        np.array([one[name] for one in judged]) for name in ("energy_uj", "kinetic_share", "mechanical_power_mw", "stages_w")
+    )
     amplitudes_m = panel.amplitudes_m[:count]
     spots_m = [
         field.focus_metrics(*point).spot_m for field, point in zip(panel.fields[:count], panel.points_m.tolist(), strict=False)
     ]
     printed = [design.energy_j(plate, a, s) for a, s in zip(amplitudes_m, spots_m, strict=True)]
     decay_s = [_decay_s(energy, last, waveform.bit_period_s) for energy in energies]
-    heat = [_heat_j(panel, index) for index in range(count)]
     return [
         Row.of(
             "energy_uj",
             "energy at T (µJ)",
             90.0,
-            total * 1e6,
+            total_uj,
             "all modes, kinetic part included; see the scan below",
         ),
         Row.of(
             "energy_scan_uj",
             "energy at T as a scan of 2 mm shows it, kinetic part included (µJ)",
             90.0,
-            (kinetic + [scanned_energy_j(panel, field, SCAN_M) for field in panel.fields[:count]]) * 1e6,
+            kinetic * total_uj + [scanned_energy_j(panel, field, SCAN_M) * 1e6 for field in panel.fields[:count]],
             "eq. (8) with differences over 2 mm misses a fifth; how the paper took its derivatives it does not say",
         ),
         Row.of(
             "energy_kinetic",
             "of it kinetic",
             0.0,
-            kinetic / total,
+            kinetic,
             "appendix B takes the plate at rest at T; what does not focus is not",
         ),
         Row.of(
@@ -90,12 +89,12 @@ def energy_rows(panel: PaperPanel, energies: list[Energy]) -> list[Row]:
             band_energy_j(panel, amplitudes_m) * 1e6,
             "the same derivation with the band's own modes: near what the paper measured",
         ),
-        Row.of("power_mw", "mechanical power over T (mW)", 45.0, total / duration_s * 1e3, "E / T, as the paper has it"),
+        Row.of("power_mw", "mechanical power over T (mW)", 45.0, power_mw, "E / T, as the paper has it"),
         Row.of(
             "resistor_w",
             "heat in the 32 series resistors while emitting (W)",
             None,
-            np.array(heat) / duration_s,
+            heat_w,
             "not in the paper, whose 45 mW are the plate's: C V² of the edges is 180 times as much",
         ),
         Row.of(
@@ -151,11 +150,3 @@ def _decay_s(energy: Energy, last: int, bit_period_s: float) -> float:
     total = (energy.kinetic_j + energy.potential_j)[last + round(SETTLED_S / bit_period_s) :]
     slope = np.polyfit(np.arange(len(total)) * bit_period_s, np.log(total), 1)[0]
     return float(-1 / slope)
-
-
-def _heat_j(panel: PaperPanel, index: int) -> float:
-    """Heat in all resistors of one emission, from idle to idle."""
-    words = np.concatenate([[panel.board.idle_word], panel.words[index], [panel.board.idle_word]]).astype(WORD)
-    used = [actuator.channel for actuator in panel.board.actuators]
-    levels = channel_bits(words)[:, used].astype(np.int8)
-    return float(resistor_loss_j(panel.board.driver, levels, panel.board.waveform.bit_period_s).sum())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from controller.benchmark.focus_emission import field_of_pulse, pulse_s
 from controller.benchmark.focus_figures import emit, idling_low
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
@@ -18,8 +19,7 @@ HALF_POWER = 0.5**0.5
 def focus_rows(panel: PaperPanel) -> list[Row]:
     """Rows of single foci."""
     judged = [field.focus_metrics(*point) for field, point in zip(panel.fields, panel.points_m.tolist(), strict=True)]
-    around_s = panel.twin.scale.around_s
-    lasting = [half_width(field.around(tuple(point)), around_s) for field, point in zip(panel.fields, panel.points_m, strict=True)]
+    lasting = [pulse_s(field_of_pulse(emission), *emission.points_m[0]) for emission in panel.emissions]
     narrow = [spot_m(field, point, HALF_POWER) for field, point in zip(panel.fields, panel.points_m.tolist(), strict=True)]
     return [
         Row.of(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from controller.bank.packing import channel_bits
+from controller.benchmark.focus_emission import Emission
 from controller.benchmark.focus_figures import emit, random_points
 from controller.board.board import Board
 from controller.physics.field import Field
@@ -73,6 +74,12 @@ class PaperPanel:
     def fields(self) -> list[Field]:
         """The plate at T of each focus."""
         return [emit(self.twin, words) for words in self.words]
+
+    @cached_property
+    def emissions(self) -> list[Emission]:
+        """The same with all that was played."""
+        foci = zip(self.words, self.fields, self.points_m.tolist(), strict=True)
+        return [Emission(self.twin, words, field, [(x_m, y_m)]) for words, field, (x_m, y_m) in foci]
 
     @cached_property
     def amplitudes_m(self) -> Floats:
