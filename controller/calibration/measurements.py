@@ -62,6 +62,11 @@ class PointRecords:
     clipped: NDArray[np.bool_]
     files: tuple[Path, ...]
 
+    @property
+    def sound(self) -> NDArray[np.bool_]:
+        """Records that are there and not clipped: (emission, repetition)."""
+        return self.there & ~self.clipped
+
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -404,7 +409,8 @@ def _refuse_foreign_files(measurement: Measurement) -> None:
     records = measurement.settings.records
     if "point" not in records.fields:
         return
-    expected = {file for point in range(len(measurement.names)) for _, file in measurement._files(point)}
+    expected = set(measurement.common_files)
+    expected |= {file for point in range(len(measurement.names)) for _, file in measurement._files(point)}
     for file in sorted(measurement.folder.glob(re.sub(r"\{\w+\}", "*", records.files))):
         if file not in expected:
             raise CalibrationError(f"{file}: of no point, emission or repetition that {NAME} and its points have")
