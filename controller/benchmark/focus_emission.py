@@ -172,9 +172,9 @@ def emission_figures(emission: Emission, period_s: float) -> Figures:
     middle_m = bending_wavelength_m(plate, (waveform.band_low_hz + waveform.band_high_hz) / 2)
     return {
         "energy_uj": total_j * 1e6,
-        "kinetic_share": float(energy.kinetic_j[0]) / total_j,
+        "kinetic_share": float(energy.kinetic_j[0]) / total_j if total_j else 0.0,  # so near the edge nothing moves
         "energy_integrated_uj": integrated_j * 1e6,
-        "kinetic_share_integrated": float(integrated.kinetic_j[0]) / integrated_j,
+        "kinetic_share_integrated": float(integrated.kinetic_j[0]) / integrated_j if integrated_j else 0.0,
         "mechanical_power_mw": total_j / waveform.duration_s * 1e3,
         "stages_uj": float(heat_uj[used].sum()),
         "channel_uj": {"median": float(np.median(heat_uj[used])), "max": float(heat_uj[used].max())},

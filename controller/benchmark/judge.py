@@ -244,7 +244,7 @@ def detuned(board: Board, ratio: float) -> Board:
     """The same board with all modal frequencies multiplied by `ratio`."""
     if ratio == 1:
         return board
-    stiffer = msgspec.structs.replace(board.plate, young_modulus_pa=board.plate.young_modulus_pa * ratio**2)
+    stiffer = board.plate.with_stiffness(ratio**2)
     return msgspec.structs.replace(board, plate=stiffer)
 
 

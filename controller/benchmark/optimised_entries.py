@@ -37,8 +37,7 @@ Figures = dict[str, Any]
 
 def drifted(board: Board, by: float) -> Board:
     """The same board, its plate's frequencies higher by this share."""
-    stiffer = board.plate.young_modulus_pa * (1 + by) ** 2
-    return msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, young_modulus_pa=stiffer))
+    return msgspec.structs.replace(board, plate=board.plate.with_stiffness((1 + by) ** 2))
 
 
 def figures(board: Board, cells: int, seed: int) -> Figures:

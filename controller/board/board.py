@@ -7,6 +7,8 @@ names file, key and value. The reference for users (reference.md) is generated f
 from __future__ import annotations
 
 import os
+import tomllib
+from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
@@ -18,13 +20,14 @@ from msgspec import Meta
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, find_board, in_system_folder
 from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
-from controller.board.records import Record, load_toml
+from controller.board.records import Record, as_record, load_toml
 from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
 
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
 TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction
+LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
 
@@ -166,8 +169,12 @@ class Board(Record, frozen=True):
 
     def digest(self) -> bytes:
         """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform."""
-        tables = (self.plate, self.actuators, self.driver, self.waveform)
-        return _sha256(msgspec.json.encode(tables, order="deterministic"))
+        plate = msgspec.to_builtins(self.plate)
+        for key, left_out in LATER_KEYS.items():
+            if getattr(self.plate, key) == left_out:
+                del plate[key]
+        tables = (plate, self.actuators, self.driver, self.waveform)
+        return _sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 
 def _sha256(data: bytes) -> bytes:
@@ -217,16 +224,34 @@ def load_board(path: Path) -> Board:
     return msgspec.structs.replace(board, folder=file.parent)
 
 
-def other_board(name_or_path: str) -> Board:
-    """Read and check a second board: a name, a folder or any .toml file, such as `real.toml` beside a board.toml.
+def on_other_plate(board: Board, given: Sequence[str]) -> Board:
+    """The board on the plate that a command line asks for.
+
+    Parameters
+    ----------
+    board : Board
+    given : sequence of str
+        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free; the latter change
+        what is there, in their order.
 
     Raises
     ------
     ConfigError
-        As `find_board` and `load_board`.
+        If there is no such board, key or value.
     """
-    file = Path(name_or_path)
-    return load_board(file if file.is_file() else find_board(name_or_path))
+    for text in given:
+        key, equals, value = text.partition("=")
+        if equals and not Path(text).exists():
+            try:
+                parsed = tomllib.loads(f"value = {value}")["value"]
+            except ValueError:
+                parsed = value.strip()
+            tables = msgspec.to_builtins(board.plate) | {key.strip(): parsed}
+            tables = {name: kept for name, kept in tables.items() if kept is not None}
+            board = msgspec.structs.replace(board, plate=as_record(f"--plate {text}: ", tables, Plate))
+        else:
+            board = on_plate_of(board, load_board(Path(text) if Path(text).is_file() else find_board(text)))
+    return board
 
 
 def _check_scaled_bit_clock(board: Board, file: Path) -> None:

@@ -29,6 +29,7 @@ UNITS = {  # by what a key ends with; the longest ending counts
     "n_per_v": "N/V",
     "per_s": "1/s",
     "kg_m3": "kg/m³",
+    "kg_m2": "kg/m²",
     "n_m3": "N/m³",
     "pa_s_m": "Pa s/m",
     "mm": "mm",

@@ -91,7 +91,8 @@ def schema(kind: type, named: Mapping[str, type] | None = None) -> dict[str, Any
         for name, item in (named or {}).items():
             if cls is kind and name in properties:
                 properties[name]["additionalProperties"] = {"$ref": f"#/$defs/{item.__name__}"}
-    return {"$schema": SCHEMA_DIALECT} | found
+    as_in_a_file: dict[str, Any] = msgspec.json.decode(msgspec.json.encode({"$schema": SCHEMA_DIALECT} | found))  # no tuples
+    return as_in_a_file
 
 
 def attributes(cls: type) -> dict[str, str]:

@@ -62,6 +62,11 @@ class PointRecords:
     clipped: NDArray[np.bool_]
     files: tuple[Path, ...]
 
+    @property
+    def sound(self) -> NDArray[np.bool_]:
+        """Records that are there and not clipped: (emission, repetition)."""
+        return self.there & ~self.clipped
+
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -263,6 +268,25 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
         where, found = folder / settings.points, _points_of_csv(folder / settings.points)
     else:
         where, found = folder / settings.records.files, _points_of_records(folder, settings)
+    names, points_m = _checked(where, found, board)
+    measurement = Measurement(folder, settings, names, points_m, drive)
+    _refuse_foreign_files(measurement)
+    return measurement
+
+
+def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Names and places in m of points, (point, 2), from a CSV file with point,x_mm,y_mm.
+
+    Raises
+    ------
+    CalibrationError
+        Naming file and point: unreadable, off the plate, twice, or none.
+    """
+    return _checked(file, _points_of_csv(file), board)
+
+
+def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Names and places in m of points that may be measured."""
     if not found:
         raise CalibrationError(f"{where}: no points")
     if len(found) > MOST_POINTS:
@@ -280,9 +304,7 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
     if len(set(names)) != len(names):
         twice = next(name for index, name in enumerate(names) if name in names[:index])
         raise CalibrationError(f"{where}: point {twice} is there twice")
-    measurement = Measurement(folder, settings, tuple(names), np.array([point[1:] for point in found]) * 1e-3, drive)
-    _refuse_foreign_files(measurement)
-    return measurement
+    return tuple(names), np.array([point[1:] for point in found]) * 1e-3
 
 
 def write_points(file: Path, names: tuple[str, ...], points_m: ArrayLike) -> None:
@@ -387,7 +409,8 @@ def _refuse_foreign_files(measurement: Measurement) -> None:
     records = measurement.settings.records
     if "point" not in records.fields:
         return
-    expected = {file for point in range(len(measurement.names)) for _, file in measurement._files(point)}
+    expected = set(measurement.common_files)
+    expected |= {file for point in range(len(measurement.names)) for _, file in measurement._files(point)}
     for file in sorted(measurement.folder.glob(re.sub(r"\{\w+\}", "*", records.files))):
         if file not in expected:
             raise CalibrationError(f"{file}: of no point, emission or repetition that {NAME} and its points have")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from controller.board.board import Board, load_board, on_plate_of, other_board, simulated
+from controller.board.board import Board, load_board, on_other_plate, simulated
 from controller.board.lookup import find_board
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
@@ -52,7 +52,10 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     play.add_argument(
         "--plate",
         metavar="B",
-        help="simulated: play on the plate, patches and driver of another board: its name, folder or file",
+        action="append",
+        default=[],
+        help="simulated: play on the plate, patches and driver of another board, by name, folder or file; or KEY=VALUE of [plate], "
+        "such as edges=free; may be repeated",
     )
     drift = play.add_mutually_exclusive_group()
     drift.add_argument(
@@ -84,7 +87,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
     from controller.commands.tables import service_table
     from controller.service.run import serve
 
-    simulating = (options.plot, options.speed == "max", options.plate, options.drift_percent is not None, options.drift)
+    simulating = (options.plot, options.speed == "max", bool(options.plate), options.drift_percent is not None, options.drift)
     if any(simulating):
         raise ConfigError("--plot, --speed max, --plate, --drift are for simulated panels: add --link model to simulate this board")
     scene_file = find_scene(board, options.scene)
@@ -113,7 +116,7 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     picture = picture_path(options)
     board = simulated(board)
-    plate = on_plate_of(board, other_board(options.plate)) if options.plate else None
+    plate = on_other_plate(board, options.plate)
     board, drift = _drifting(options, board)
     scene_file = find_scene(board, options.scene)
     scene = load_scene(scene_file, board)

@@ -6,6 +6,7 @@ import numpy as np
 
 from controller.board.board import Board
 from controller.board.panel import Plate, Waveform
+from controller.physics.mindlin import MindlinPlate
 
 # On the paper's plate, in whose band's middle waves are 10.54 mm long; `wave_scale` says what they are on others
 MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
@@ -27,7 +28,9 @@ def bending_stiffness(plate: Plate) -> float:
 
 
 def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """Wavelength of a bending wave in the free plate at a frequency, in m."""
+    """Wavelength of a bending wave in the free plate at a frequency, in m, by the plate's theory."""
+    if plate.theory == "mindlin":
+        return float(2 * np.pi / MindlinPlate.of(plate).wavenumber(2 * np.pi * frequency_hz))
     per_area = plate.density_kg_m3 * plate.thickness_m
     return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)
 

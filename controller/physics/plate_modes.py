@@ -10,6 +10,8 @@ import msgspec
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.physics.closed_form import SimplySupported
+from controller.physics.damping import damped
+from controller.physics.mindlin import MindlinPlate
 from controller.physics.modes import Modes
 from controller.physics.plate import mode_cut_hz
 from controller.physics.ritz_modes import RitzModes
@@ -36,7 +38,17 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
 
 @lru_cache(maxsize=KEPT)
 def _modes(plate: Plate, highest_hz: float) -> Modes:
-    """Modes from all that they depend on, which must be hashable records."""
+    """Modes from all that they depend on, which must be hashable records: edges, then theory, then damping."""
+    if plate.theory == "mindlin":
+        theory = MindlinPlate.of(plate)
+        modes = theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
+    else:
+        modes = _of_edges(plate, highest_hz)
+    return damped(modes, plate)
+
+
+def _of_edges(plate: Plate, highest_hz: float) -> Modes:
+    """Modes by Kirchhoff's theory."""
     if set(msgspec.structs.astuple(plate.sides)) == {"simply_supported"}:
         return SimplySupported.of(plate, highest_hz)
     return RitzModes.of(plate, highest_hz)
@@ -49,8 +61,13 @@ def in_words(board: Board, modes: Modes) -> str:
     supports = (sides.x0, sides.x1, sides.y0, sides.y1)
     each = supports[:1] if len(set(supports)) == 1 else supports
     edges = " / ".join(support.replace("_", " ") for support in each)
+    if plate.foam is not None and "foam" in supports:
+        edges += f" ({plate.foam.stiffness_n_m3:.3g} N/m³, {plate.foam.width_mm:g} mm)"
     highest_hz = float(modes.angular_frequency[-1]) / (2 * math.pi)
+    shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
+    decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
+    layers = f" of {len(plate.layers)} layers" if plate.layers else ""
     return (
-        f"{plate.theory.capitalize()} plate, edges {edges}, decay {plate.decay_time_ms:g} ms,"
+        f"{plate.theory.capitalize()} plate{layers}, edges {edges}, decay {decay} ms,"
         f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"
     )

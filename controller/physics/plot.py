@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,6 +14,8 @@ from matplotlib.patches import Circle, Rectangle
 from controller.board.board import Board
 from controller.errors import ConfigError
 from controller.physics.field import Field
+from controller.physics.focus_series import FocusSeries
+from controller.physics.plot_series import draw_series
 
 KINDS = (".png", ".svg", ".pdf")
 Point = tuple[float, float]
@@ -32,13 +35,17 @@ def check_picture(path: Path) -> None:
         raise ConfigError(f"{path}: the picture cannot be written there")
 
 
-def plot_focus(path: Path, board: Board, field: Field, foci: Sequence[Point], title: str) -> None:
+def plot_focus(
+    path: Path, board: Board, field: Field, foci: Sequence[Point], title: str, series: FocusSeries | None = None
+) -> None:
     """Draw the field to a PNG, SVG or PDF file.
 
     Parameters
     ----------
     foci : sequence of (x_m, y_m)
         Where the fingers are; the first one gets the cross-section along x.
+    series : FocusSeries, optional
+        Drawn beside the plate: what happens over time at the first focus.
 
     Raises
     ------
@@ -52,12 +59,17 @@ def plot_focus(path: Path, board: Board, field: Field, foci: Sequence[Point], ti
     section_um = field.at(np.column_stack([across_m, np.full_like(across_m, section_y_m)])) * 1e6
     largest = float(abs(u_um).max()) or 1.0
 
-    figure = Figure(figsize=(8, 8.2), layout="constrained")
-    above, below = figure.subplots(2, 1, height_ratios=[2.4, 1], sharex=True)
+    figure = Figure(figsize=(8 if series is None else 14, 8.2), layout="constrained")
+    left: Any = figure
+    if series is not None:
+        halves = figure.add_gridspec(1, 2, width_ratios=[8, 6])
+        left = figure.add_subfigure(halves[0])
+        draw_series(figure.add_subfigure(halves[1]), board, series)
+    above, below = left.subplots(2, 1, height_ratios=[2.4, 1], sharex=True)
     picture = above.pcolormesh(
         x * 1e3, y * 1e3, u_um, cmap="RdBu_r", vmin=-largest, vmax=largest, shading="nearest", rasterized=True
     )
-    figure.colorbar(picture, ax=above, label="displacement at T (µm)")
+    left.colorbar(picture, ax=above, label="displacement at T (µm)")
     for actuator in board.actuators:
         corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
         above.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))

@@ -6,8 +6,10 @@ import pytest
 from controller.bank.packing import channel_bits
 from controller.benchmark.focus_emission import emission_at, emission_figures, field_of_pulse, judged_foci, pulse_s, repeated_field
 from controller.benchmark.focus_figures import SETTLED
+from controller.physics.focus_series import focus_series
 from controller.physics.modal_history import modal_energy, modal_history
 from controller.physics.plate_twin import capture_of_words
+from controller.physics.plot import plot_focus
 
 POINT = (0.052, 0.031)
 
@@ -98,3 +100,34 @@ def test_the_papers_plate_has_the_energy_pulse_and_heat_that_other_simulations_g
     assert 7.1 < row["pulse_us"] < 11
     assert row["spot_wavelengths"] == pytest.approx(row["spot_mm"] / 10.54, rel=1e-3)
     assert 0.97 < row["contrast_repeated"] / row["contrast"] < 1
+
+
+def test_a_series_passes_through_the_focus_and_ends_at_rest(emission):
+    board = emission.twin.board
+    series = focus_series(emission.twin, emission.words, POINT)
+    at_t = int(np.argmin(abs(series.time_s)))
+    assert series.displacement_m[at_t] == pytest.approx(emission.field.at(POINT)[0], rel=1e-9)
+    assert list(series.channels) == [0, 8, 16, 24]
+    bits = channel_bits(emission.words[-1:].astype("<u4"))[0, series.channels]
+    assert np.array_equal(series.stage_v[at_t], bits * board.driver.supply_v), "the last bit ends at T"
+    idle = [board.idle_word >> int(channel) & 1 for channel in series.channels]
+    assert series.piezo_v[-1] == pytest.approx(np.array(idle) * board.driver.supply_v, abs=1e-3)
+    assert series.piezo_v.min() > -20, "a driver overshoots, but not so far"
+
+
+def test_the_spectrum_of_a_focus_is_in_its_band(emission):
+    series = focus_series(emission.twin, emission.words, POINT)
+    frequency_hz, size = series.spectrum()
+    band = (frequency_hz >= 20e3) & (frequency_hz <= 70e3)
+    assert (size[band] ** 2).sum() > 0.9 * (size**2).sum()
+    step_s, step_hz = series.time_s[1] - series.time_s[0], frequency_hz[1]
+    assert 2 * (size**2).sum() * step_hz == pytest.approx((series.displacement_m**2).sum() * step_s, rel=1e-3), "Parseval"
+
+
+@pytest.mark.slow  # a command of the README draws one in the normal run
+def test_a_picture_has_the_plate_and_the_series(emission, tmp_path):
+    series = focus_series(emission.twin, emission.words, POINT)
+    alone, both = tmp_path / "focus.png", tmp_path / "both.png"
+    plot_focus(alone, emission.twin.board, emission.field, [POINT], "focus")
+    plot_focus(both, emission.twin.board, emission.field, [POINT], "focus", series)
+    assert both.stat().st_size > 1.3 * alone.stat().st_size

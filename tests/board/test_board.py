@@ -1,12 +1,15 @@
 """board.toml: the shipped board loads, and everything that cannot be meant is refused with file, key and value."""
 
+import hashlib
 import re
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
+from controller.board.panel import Damping
 from controller.errors import ConfigError
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import recording_path
@@ -57,6 +60,17 @@ def test_no_two_discs_are_mirror_images():
             assert all(abs(image[0] - u) + abs(image[1] - v) > 2 for u, v in discs)
 
 
+MATERIAL = """thickness_mm = 0.5
+young_modulus_pa = 72.9e9  # D263 borosilicate glass
+poisson_ratio = 0.208
+density_kg_m3 = 2510.0
+"""
+GLASS = "{ thickness_mm = 0.7, young_modulus_pa = 72.9e9, poisson_ratio = 0.208, density_kg_m3 = 2510 }"
+SOFT = "{ thickness_mm = 0.1, young_modulus_pa = 1e6, poisson_ratio = 0.49, density_kg_m3 = 1000 }"
+GLUE = "{ thickness_mm = 0.1, young_modulus_pa = 4e9, poisson_ratio = 0.35, density_kg_m3 = 1200 }"
+AT_10_KHZ = "{ frequency_hz = 10e3, decay_time_ms = 1.0 }"
+
+
 @pytest.mark.parametrize(
     ("was", "becomes", "said"),
     [
@@ -68,6 +82,29 @@ def test_no_two_discs_are_mirror_images():
         ("thickness_mm = 0.5", "thickness_mm = 1e-6", r"plate\.thickness_mm = 1e-06"),
         ("thickness_mm = 0.5", "thickness_mm = 1e300", r"plate\.thickness_mm = 1e\+300"),
         ("decay_time_ms = 1.0", "decay_time_ms = 20e3", r"plate\.decay_time_ms = 20000"),
+        (
+            "thickness_mm = 0.5\n",
+            "",
+            r"plate\.thickness_mm is missing: a number from 0\.05 to 20 mm",
+        ),
+        (
+            'theory = "kirchhoff"',
+            f"layers = [{GLASS}]",
+            r"thickness_mm = 0\.5 beside layers, which make it 0\.7: leave it out",
+        ),
+        (MATERIAL, f"layers = [{GLASS}, {SOFT}, {GLASS}]\n", r"layers\[1\]\.young_modulus_pa = 1e\+06 is soft: .* slide on it"),
+        (
+            MATERIAL,
+            f"layers = [{GLASS}, {GLUE}, {GLASS}]\n",
+            r'layers\[1\]\.young_modulus_pa .* leaves out; set theory = "mindlin"',
+        ),
+        ("decay_time_ms = 1.0", "decay_time_ms = 1.0\ndamping = { loss_factor = 0.6 }", r"plate\.damping\.loss_factor = 0\.6"),
+        (
+            "decay_time_ms = 1.0",
+            f"decay_time_ms = 1.0\ndamping = {{ decay_times = [{AT_10_KHZ}, {AT_10_KHZ}] }}",
+            r"decay_times\[1\]\.frequency_hz = 10000 is not above the one before, 10000",
+        ),
+        ('theory = "kirchhoff"', 'theory = "reissner"', r"plate\.theory = 'reissner': must be one of 'kirchhoff', 'mindlin'"),
         ("capacitance_f = 2.0e-9", "capacitance_f = 1e26", r"driver\.capacitance_f = 1e\+26"),
         ("heartbeat_timeout_ms = 100.0", "heartbeat_timeout_ms = 1e-6", r"limits\.heartbeat_timeout_ms = 1e-06"),
         ("length_mm = 210.0", 'length_mm = "210"', r"plate\.length_mm = '210': must be a number from 20 to 4000"),
@@ -254,3 +291,22 @@ def test_patches_that_lie_on_each_other_are_refused_and_those_that_touch_are_not
     (tmp_path / "board.toml").write_text(SHIPPED.replace("size_mm = 4.6", "size_mm = 5.0"))
     load_board(tmp_path)
     assert "5.01 mm" in refused(tmp_path, SHIPPED.replace("size_mm = 4.6", "size_mm = 5.01"))
+
+
+def test_a_plate_of_layers_needs_neither_thickness_nor_material(tmp_path):
+    folder = tmp_path / "layered"
+    folder.mkdir()
+    layered = SHIPPED.replace(MATERIAL, f"layers = [{GLASS}, {GLUE}, {GLASS}]\n").replace('"kirchhoff"', '"mindlin"')
+    (folder / "board.toml").write_text(layered)
+    plate = load_board(folder).plate
+    assert plate.thickness_mm == pytest.approx(1.5)
+    assert plate.density_kg_m3 == pytest.approx((2 * 0.7 * 2510 + 0.1 * 1200) / 1.5)
+
+
+def test_the_digest_changes_where_a_key_of_the_plate_is_given_and_not_where_it_is_left_out(board):
+    tables = (msgspec.to_builtins(board.plate), board.actuators, board.driver, board.waveform)
+    del tables[0]["layers"], tables[0]["damping"]
+    assert hashlib.sha256(msgspec.json.encode(tables)).digest() == board.digest()
+    for change in ({"theory": "mindlin"}, {"damping": Damping()}, {"decay_time_ms": 1.1}):
+        changed = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, **change))
+        assert changed.digest() != board.digest()

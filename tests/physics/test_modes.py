@@ -49,8 +49,7 @@ class Dense:
         return (self.modes.shapes(points_m) * self.size).astype(dtype)
 
     def on_grid(self, amplitudes, x_m, y_m):
-        x, y = np.meshgrid(x_m, y_m)
-        return (self.shapes(np.column_stack([x.ravel(), y.ravel()])) @ amplitudes).reshape(x.shape)
+        return self.modes.on_grid(amplitudes * self.size, x_m, y_m)
 
     def coupling(self, actuator):
         return self.modes.coupling(actuator) * self.size

@@ -11,7 +11,7 @@ from small_plate import small_board
 
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.board.board import load_board, on_plate_of, other_board
+from controller.board.board import load_board, on_other_plate
 from controller.board.devices import Temperature
 from controller.cli import main
 from controller.clocks import VirtualClock
@@ -269,8 +269,22 @@ def test_another_boards_plate_under_what_the_host_plays(board, tmp_path):
         .replace("thickness_mm = 0.5", "thickness_mm = 0.6")
     )
     (tmp_path / "real.toml").write_text(text.replace('name = "simulated"', 'name = "real"'))
-    on = on_plate_of(board, other_board(str(tmp_path / "real.toml")))
+    on = on_other_plate(board, [str(tmp_path / "real.toml")])
     assert (on.name, on.plate.thickness_mm, on.idle_word) == ("real", 0.6, board.idle_word)
     (tmp_path / "real.toml").write_text("\n".join(line for line in text.split("\n") if "channel = 31" not in line))
     with pytest.raises(ConfigError, match="other channels"):
-        on_plate_of(board, other_board(str(tmp_path / "real.toml")))
+        on_other_plate(board, [str(tmp_path / "real.toml")])
+
+
+def test_keys_of_the_plate_one_by_one(board):
+    on = on_other_plate(
+        board, ["simulated", "edges=free", "thickness_mm = 0.7", "edges={x0 = 'free', x1 = 'free', y0 = 'free', y1 = 'clamped'}"]
+    )
+    assert (on.plate.thickness_mm, on.plate.edges.y1) == (0.7, "clamped")
+    for text, said in (
+        ("thickness_mm=thick", "plate thickness_mm=thick: thickness_mm = 'thick'"),
+        ("thick=1", "unknown key"),
+        ("a/b", "not found"),
+    ):
+        with pytest.raises(ConfigError, match=said):
+            on_other_plate(board, [text])

@@ -1,0 +1,84 @@
+"""The recorder's clock against the player's: the rate at which the records contradict a plate that is linear and causal least.
+
+With a wrong rate, what was played at different times does not fit one transfer function, and responses begin before their pulse.
+Records that run through tell the rate to a hundredth of a ppm; records of noise that are triggered one by one to a few ppm;
+triggered impulses and single sweeps not at all, and need it no better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from controller.calibration.deconvolution import Complex, Deconvolution
+from controller.calibration.measurements import PointRecords
+
+WIDEST_PPM = 600.0
+COARSE_PPM = 100.0
+TOLD = 0.05  # rise of the contradiction, over its least, within `COARSE_PPM`
+BEFORE_S = 20e-6, 1e-3  # before its pulse there is no response; nearer the band's own length blurs it
+
+
+@dataclass(frozen=True)
+class Clock:
+    """What the records tell of the recorder's clock.
+
+    Attributes
+    ----------
+    ppm : float
+        By which it is faster than the player's; 0 where the records do not tell.
+    told : bool
+    """
+
+    ppm: float
+    told: bool
+
+
+def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], delay_s: float) -> Clock:
+    """Estimate it.
+
+    Parameters
+    ----------
+    deconvolution : Deconvolution
+    records : sequence of PointRecords
+        Of a few points.
+    delay_s : float
+        Of the records; to 20 us.
+    """
+    span_s = max(float(one.first_s.max()) for one in records)
+    at_once = [deconvolution.spectra(one) for one in records[:1]]
+    frequency_hz = deconvolution.bins.frequency_hz
+
+    def shifted(ppm: float) -> float:
+        """Contradiction of one point, whose records are moved only."""
+        turn = np.exp(2j * np.pi * frequency_hz * (1e-6 * ppm * records[0].first_s[:, :, None]))
+        return _contradiction(deconvolution, at_once[0] * turn, records[0], delay_s)
+
+    def exact(ppm: float) -> float:
+        return float(np.mean([_contradiction(deconvolution, deconvolution.spectra(one, ppm), one, delay_s) for one in records]))
+
+    near, step = 0.0, COARSE_PPM
+    if span_s > 0:
+        step = min(0.2e6 / (frequency_hz[-1] * span_s), COARSE_PPM)
+        tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
+        near = float(tried[np.argmin([shifted(ppm) for ppm in tried])])
+    else:
+        tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
+        near = float(tried[np.argmin([exact(ppm) for ppm in tried])])
+    found = minimize_scalar(exact, bounds=(near - step, near + step), method="bounded", options={"xatol": step * 1e-3})
+    ppm = float(found.x)
+    told = min(exact(ppm - step), exact(ppm + step)) > (1 + TOLD) * float(found.fun)
+    return Clock(round(ppm, 2), True) if told else Clock(0.0, False)
+
+
+def _contradiction(deconvolution: Deconvolution, spectra: Complex, records: PointRecords, delay_s: float) -> float:
+    """Power that no drive explains, and that of responses before their pulse, each as a share."""
+    found = deconvolution.transfers(spectra, records.sound)
+    response = deconvolution.bins.response(found.transfer[found.resolved], delay_s)
+    first, last = (round(before_s * deconvolution.bins.bit_clock_hz) for before_s in BEFORE_S)
+    power = float((response**2).sum())
+    early = float((response[:, -last:-first] ** 2).sum()) / power if power else 0.0
+    return early + (0.0 if np.isnan(found.residual) else found.residual)

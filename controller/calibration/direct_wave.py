@@ -1,0 +1,140 @@
+"""The wave that reaches a point straight from a patch, before any edge has sent it back: what geometry alone foresees.
+
+    G = -i m A S(k) / (8 D) sqrt(2 / (pi k r)) exp(-i (k r - pi / 4)),
+
+for a square patch of area A at distance r, with moment m per V, its directivity S, and k by Mindlin's dispersion: the far field of
+a moment on an infinite plate, whatever holds the edges. Regression of measured transfer functions on G over many points gives each
+channel's sign and strength, which patch it drives, and the delay of the records. What comes back from edges does not correlate with
+G from point to point.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board.board import Board
+from controller.board.panel import CHANNELS
+from controller.calibration.deconvolution import Bins
+from controller.calibration.dispersion import Dispersion
+from controller.calibration.drives import held_spectrum
+from controller.physics.driver import DriverResponse
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+FACTORS = np.arange(0.95, 1.0501, 0.0025)  # of the wavenumber, on what board.toml gives
+LEAST_PEAK = 4.0  # of the pulse that all records make together, over its rms
+RIDGE = 1e-2  # of patches so near to each other that their waves are alike
+ELSEWHERE_S = (90e-6, 130e-6, 170e-6, 210e-6)  # later than the direct wave: what chance gives
+NEAR_WAVELENGTHS = 1.0  # nearer to a patch than this, G does not hold
+
+
+@dataclass(frozen=True, eq=False)
+class DirectWaves:
+    """What regression on the direct wave gives.
+
+    Attributes
+    ----------
+    delay_s : float
+        By which the records are later than they say.
+    factor : float
+        Of the wavenumber, on that of board.toml.
+    strength : (32, 32) array
+        Row: data of a channel; column: patch of a channel. 1 where it is as board.toml says; NaN without data or patch.
+    error : (32,) array
+        Of a row's numbers, standard deviation.
+    """
+
+    delay_s: float
+    factor: float
+    strength: Floats
+    error: Floats
+
+
+def direct_transfer(board: Board, bins: Bins, points_m: Floats, factor: float = 1.0) -> Complex:
+    """G of each point and patch, (point, actuator, bin) in m s per V; zero nearer than a wavelength."""
+    frequency_hz = bins.frequency_hz
+    dispersion = replace(Dispersion.of(board.plate), factor=factor)
+    k = dispersion.wavenumber(frequency_hz)
+    places_m = np.array([(a.x_mm, a.y_mm) for a in board.actuators]) * 1e-3
+    size_m = np.array([a.size_mm for a in board.actuators])[:, None] * 1e-3
+    away_m = points_m[:, None] - places_m
+    r = np.maximum(np.hypot(away_m[..., 0], away_m[..., 1]), 1e-9)[..., None]
+    along, across = (size_m * away_m[..., axis, None] / r * k / (2 * np.pi) for axis in (0, 1))
+    drive = DriverResponse.of(board.driver).transfer(2j * np.pi * frequency_hz) * held_spectrum(frequency_hz, 1 / bins.bit_clock_hz)
+    strength = -1j * board.driver.moment_n_per_v * size_m**2 / (8 * dispersion.stiffness_nm) * np.sinc(along) * np.sinc(across)
+    wave: Complex = drive * strength * np.sqrt(2 / (np.pi * k * r)) * np.exp(-1j * (k * r - np.pi / 4))
+    return np.where(k * r > 2 * np.pi * NEAR_WAVELENGTHS, wave, 0)
+
+
+def direct_waves(
+    board: Board, bins: Bins, points_m: Floats, transfers: NDArray[np.complexfloating], resolved: NDArray[np.bool_], widest_s: float
+) -> DirectWaves | None:
+    """Regression of transfer functions on the direct wave.
+
+    Parameters
+    ----------
+    board : Board
+    bins : Bins
+    points_m : (point, 2) array
+    transfers : (point, 32, bin) complex array
+        In m s per V.
+    resolved : (point, 32) bool array
+    widest_s : float
+        Delays are looked for from minus this to this; half of the longest record at most.
+
+    Returns
+    -------
+    DirectWaves or None
+        None where it does not stand out: too few points, too near to the patches, or nothing like this board.
+    """
+    channels = [a.channel for a in board.actuators]
+    measured = transfers[:, channels] * np.sqrt(bins.gain)
+    shown = resolved[:, channels]
+    power = (abs(measured) ** 2).sum(axis=2)
+    level = np.median(power[shown & (power > 0)]) if (shown & (power > 0)).any() else 0.0
+    if not level:
+        return None
+    measured = measured / np.sqrt(np.where(power > 100 * level, power / level, 1))[..., None]  # no single record decides
+    lags_s = np.fft.fftfreq(bins.length) * bins.length / bins.bit_clock_hz
+    near = abs(lags_s) <= widest_s
+    best: tuple[float, float, float, float] | None = None
+    for factor in sorted(FACTORS, key=lambda value: abs(value - 1)):
+        wave = direct_transfer(board, bins, points_m, factor) * np.sqrt(bins.gain) * shown[..., None]
+        spectrum = np.zeros(bins.length, np.complex128)
+        spectrum[bins.first : bins.first + len(bins.gain)] = np.einsum("pak,pak->k", measured, wave.conj())
+        pulse = abs(np.fft.ifft(spectrum)).astype(np.float64)  # at a lag: how well the records fit if they are so much later
+        found = int(np.where(near, pulse, 0).argmax())
+        height = float(pulse[found] / np.sqrt((abs(wave) ** 2).sum() or np.inf))
+        if best is None or height > 1.03 * best[0]:
+            best = height, float(factor), _peak(pulse, found) / bins.bit_clock_hz, float(pulse[found] / np.sqrt((pulse**2).mean()))
+    assert best is not None
+    _, factor, delay_s, stands_out = best
+    if stands_out < LEAST_PEAK:
+        return None
+    wave = direct_transfer(board, bins, points_m, factor) * np.sqrt(bins.gain) * shown[..., None]
+    gram = np.einsum("pak,pbk->ab", wave, wave.conj()).real
+    scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    whitened = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
+
+    def strength(late_s: float) -> Floats:
+        aligned = measured * np.exp(2j * np.pi * bins.frequency_hz * late_s)
+        on_each = np.einsum("pak,pbk->ab", aligned, wave.conj()).real
+        return np.asarray(np.linalg.solve(whitened, (on_each * scale).T).T * scale)
+
+    elsewhere = np.stack([strength(delay_s + away_s) for away_s in ELSEWHERE_S])
+    whole = np.full((CHANNELS, CHANNELS), np.nan)
+    whole[np.ix_(channels, channels)] = strength(delay_s)
+    error = np.full(CHANNELS, np.nan)
+    error[channels] = np.sqrt((elsewhere**2).mean(axis=(0, 2)))
+    return DirectWaves(delay_s, factor, whole, error)
+
+
+def _peak(pulse: Floats, at: int) -> float:
+    """Place of a maximum between samples, by a parabola; beyond the half of the samples below zero."""
+    before, here, after = pulse[at - 1], pulse[at], pulse[(at + 1) % len(pulse)]
+    below = before - 2 * here + after
+    place = at + (0.5 * float(before - after) / float(below) if below else 0.0)
+    return place - len(pulse) if place > len(pulse) / 2 else place

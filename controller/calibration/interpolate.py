@@ -1,0 +1,155 @@
+"""From responses at measured points to those of every place: which method, with which wavenumbers, how good it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board.board import Board
+from controller.calibration.cosines import Cosines, Lattice, fill_places
+from controller.calibration.dispersion import Dispersion
+from controller.calibration.interpolated import InterpolatedResponses, LeaveOut
+from controller.calibration.kriging import Kriged, Waves, krige
+from controller.calibration.learned import LearnedResponses
+from controller.calibration.point_plan import scattered_count
+from controller.calibration.spectra import Bins
+from controller.calibration.wave_fit import WaveFit, fit_waves
+from controller.errors import CalibrationError
+
+LEAST_KEPT = 0.93  # of points left out, their median: worse responses are refused
+LEAST_POINTS = 12  # of any plate
+PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
+MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
+
+Progress = Callable[[str, int, int], None]
+
+
+def interpolate(
+    board: Board, learned: LearnedResponses, progress: Progress = lambda _what, _done, _total: None
+) -> tuple[InterpolatedResponses, WaveFit]:
+    """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
+
+    Parameters
+    ----------
+    board : Board
+    learned : LearnedResponses
+    progress : callable
+        Called with what is done, how much of it, and all of it.
+
+    Returns
+    -------
+    InterpolatedResponses
+    WaveFit
+
+    Raises
+    ------
+    CalibrationError
+        If records, points or channels are too few, points lie on a grid too coarse, or points left out are not foreseen well.
+    """
+    waveform = board.waveform
+    band_hz = waveform.band_low_hz, waveform.band_high_hz
+    known, used = _checked(board, learned)
+    points_m = learned.points_m[used]
+    bins = Bins.of(waveform, learned.responses.shape[1])
+    spectra = bins.of_records(learned.responses[used])
+    spectra *= known[None].astype(np.float32)
+    lattice = Lattice.found_in(points_m)
+    if lattice is not None:
+        _refuse_coarse(board, lattice)
+    waves = fit_waves(
+        points_m,
+        spectra,
+        known,
+        bins,
+        Dispersion.of(board.plate),
+        band_hz,
+        lambda done, total: progress("wavelengths", done, total),
+    )
+    prior = Waves.of(waves.dispersion, bins, band_hz[1])
+    if lattice is not None and lattice.covers(board.plate.length_m, board.plate.width_m):
+        places = lattice.points()
+        values = np.zeros((len(bins.frequency_hz), len(places), known.shape[1]), np.complex64)
+        there = np.zeros((len(places), known.shape[1]), bool)
+        values[:, lattice.place], there[lattice.place] = spectra, known
+        foreseen = fill_places(lattice, values, there, prior, progress=lambda done, total: progress("neighbours", done, total))
+        leave_out = _judged(bins, places, values, foreseen, there)
+        field: Cosines | Kriged = Cosines.of(values, lattice.x_m.size, (board.plate.length_m, board.plate.width_m))
+        words = f"cosines between {len(places)} cells of {lattice.pitch_m * 1e3:.2f} mm"
+        reach = None
+    else:
+        if len(points_m) > MOST_SCATTERED:
+            raise CalibrationError(
+                f"{len(points_m):,} points are neither a grid of cells of the whole plate nor {MOST_SCATTERED:,} or less"
+            )
+        field, foreseen = krige(points_m, spectra, known, prior, progress=lambda done, total: progress("points", done, total))
+        leave_out = _judged(bins, points_m, spectra, foreseen, known)
+        words = f"waves between {len(points_m)} points"
+        reach = prior
+    median, least = leave_out.summary()
+    if not median >= LEAST_KEPT:
+        raise CalibrationError(
+            f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are"
+            f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
+        )
+    provenance = msgspec.structs.replace(learned.provenance, model=words, points=len(points_m), kept=(median, least))
+    return InterpolatedResponses(board, bins, field, provenance, leave_out, reach, points_m), waves
+
+
+def _checked(board: Board, learned: LearnedResponses) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """What was measured of the channels that have actuators, at the points where anything was: known, and which points."""
+    waveform = board.waveform
+    if not abs(learned.bit_clock_hz / waveform.bit_clock_hz - 1) < 1e-9:
+        raise CalibrationError(
+            f"responses at {learned.bit_clock_hz:g} Hz do not fit the board's bit_clock_hz = {waveform.bit_clock_hz:g}"
+        )
+    samples = learned.responses.shape[1]
+    if samples < waveform.samples:
+        raise CalibrationError(
+            f"responses of {samples / learned.bit_clock_hz * 1e3:.2f} ms are shorter than an emission of"
+            f" {waveform.duration_ms:g} ms: record for longer"
+        )
+    channels = np.zeros(learned.known.shape[1], bool)
+    channels[[actuator.channel for actuator in board.actuators]] = True
+    known = learned.known & channels
+    used = np.flatnonzero(known.any(axis=1))
+    if len(used) < LEAST_POINTS:
+        raise CalibrationError(
+            f"{len(used)} points were measured: {LEAST_POINTS} is the least, this plate needs {scattered_count(board)}"
+        )
+    silent = np.flatnonzero(channels & (known.sum(axis=0) < LEAST_POINTS))
+    if silent.size:
+        named = ", ".join(map(str, silent.tolist()))
+        raise CalibrationError(
+            f"channels measured at fewer than {LEAST_POINTS} points: {named}; measure them, or take them from the board"
+        )
+    return known[used], used
+
+
+def _refuse_coarse(board: Board, lattice: Lattice) -> None:
+    """Raise for a regular grid of more than half a wavelength: waves in it are mistaken for others."""
+    limit_m = Dispersion.of(board.plate).wavelength_m(board.waveform.band_high_hz) / 2
+    if lattice.pitch_m > PITCH_SLACK * limit_m:
+        raise CalibrationError(
+            f"the points are a regular grid of {lattice.pitch_m * 1e3:.2f} mm, above half a wavelength ({limit_m * 1e3:.2f} mm),"
+            " which mistakes waves for others: measure a finer grid, or scattered points (haptic-panel calibrate plan)"
+        )
+
+
+def _judged(
+    bins: Bins,
+    points_m: NDArray[np.float64],
+    spectra: NDArray[np.complex64],
+    foreseen: NDArray[np.complex64],
+    known: NDArray[np.bool_],
+) -> LeaveOut:
+    """Leave-out error, points in blocks."""
+    known = known & ~np.isnan(foreseen[0])
+    kept = []
+    for first in range(0, len(points_m), 64):
+        some = slice(first, first + 64)
+        there = np.where(known[some], foreseen[:, some], 0)
+        kept.append(LeaveOut.of(points_m[some], bins.band_limited(spectra[:, some]), bins.band_limited(there), known[some]).kept)
+    return LeaveOut(points_m, np.concatenate(kept))

@@ -1,0 +1,281 @@
+"""From a measurement folder to learned responses: read, deconvolve, find what is wrong, correct what can be corrected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.board.board import Board
+from controller.board.panel import CHANNELS
+from controller.calibration.checks import (
+    NOISY_COHERENCE,
+    Finding,
+    clipped_records,
+    dead_channels,
+    listed,
+    misplaced_channels,
+    noisy_records,
+    raise_fatal,
+    wrong_strength,
+)
+from controller.calibration.clock import Clock, clock_of
+from controller.calibration.deconvolution import Deconvolution, Transfers
+from controller.calibration.direct_wave import DirectWaves, direct_waves
+from controller.calibration.learned import LearnedResponses
+from controller.calibration.measurements import Measurement, read_measurement, sha256_of
+from controller.calibration.point_cache import PointCache
+from controller.errors import CalibrationError
+from controller.physics.response_source import Provenance, SourceFile
+
+Floats = NDArray[np.float64]
+CLOCK_POINTS = 4  # that the clock is found from
+WAVE_POINTS = 64  # that the direct wave is found from
+STATED_DELAY_S = 60e-6  # how far from its stated delay a record is searched
+DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
+CLOCK_TOLERANCE_PPM = 1.0
+EARLY_S = 0.1e-3, 0.6e-3  # before the pulse: noise alone
+STILL = 0.03  # of a record's rms that may be left at its end
+
+
+@dataclass(frozen=True, eq=False)
+class Learned:
+    """What a measurement gives.
+
+    Attributes
+    ----------
+    measurement : Measurement
+    responses : LearnedResponses
+    findings : tuple of Finding
+    clock : Clock
+    delay_s : float
+        By which the records were later than they say; corrected.
+    waves : DirectWaves or None
+    excited_hz : (float, float)
+        What was played excites this band.
+    residual : (point,) array
+        Share of the records' power that no drive explains.
+    learned_anew : int
+        Points that were not in the cache.
+    """
+
+    measurement: Measurement
+    responses: LearnedResponses
+    findings: tuple[Finding, ...]
+    clock: Clock
+    delay_s: float
+    waves: DirectWaves | None
+    excited_hz: tuple[float, float]
+    residual: Floats
+    learned_anew: int
+
+    def require(self, accepted: Collection[str] = ()) -> LearnedResponses:
+        """The responses, if nothing is wrong that would make a wrong bank.
+
+        Raises
+        ------
+        CalibrationError
+            Naming all that is wrong and not `accepted`.
+        """
+        raise_fatal(str(self.measurement.folder), self.findings, accepted)
+        return self.responses
+
+
+def learn(
+    folder: Path,
+    board: Board,
+    *,
+    samples: int | None = None,
+    cache: Path | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> Learned:
+    """Learn the responses of a board's plate from a measurement folder.
+
+    Parameters
+    ----------
+    folder : Path
+    board : Board
+    samples : int, optional
+        Of a response; twice an emission by default, or what the records hold.
+    cache : Path, optional
+        Folder for results of points, by the hash of their files: an interrupted run goes on where it was.
+    progress : callable
+        Called with the points done and their number.
+
+    Raises
+    ------
+    CalibrationError
+        If the folder cannot be read or determines nothing. What else is wrong is in `findings`.
+    """
+    measurement = read_measurement(folder, board)
+    there = [point for point in range(len(measurement.names)) if point not in measurement.missing]
+    if not there:
+        raise CalibrationError(f"{folder}: no record of any point: {measurement.settings.records.files} names no file")
+    first = measurement.records(there[0])
+    length = first.values.shape[2]
+    end_s = length / measurement.settings.sample_rate_hz + (measurement.settings.records.first_sample_us or 0) * 1e-6
+    deconvolution = Deconvolution(measurement, board, length)
+    excited_hz = deconvolution.excited_hz
+    stated = measurement.settings.records.first_sample_us is not None
+    widest_s = STATED_DELAY_S if stated else end_s / 2
+    clock, delay_s = _clock_and_delay(measurement, board, deconvolution, there, widest_s)
+    results, files, anew = _transfers(measurement, board, deconvolution, there, clock, cache, progress)
+    waves = _waves(measurement, board, deconvolution, results, widest_s)
+    if waves is not None:
+        delay_s = waves.delay_s
+    elif not stated:
+        raise CalibrationError(
+            f"{folder}: when the records begin cannot be found from {len(there)} points: give records.first_sample_us, the time of"
+            " their first sample after the start of the drive"
+        )
+    if stated and abs(delay_s) <= DELAY_TOLERANCE_S:
+        delay_s = 0.0
+    count = 2 * board.waveform.samples if samples is None else samples
+    responses = _responses(measurement, board, deconvolution, results, count, delay_s, files)
+    findings = _findings(measurement, board, deconvolution, results, responses, clock, delay_s, waves)
+    residual = np.full(len(measurement.names), np.nan)
+    for point, found in results.items():
+        residual[point] = found.residual
+    return Learned(measurement, responses, tuple(findings), clock, delay_s, waves, excited_hz, residual, anew)
+
+
+def _clock_and_delay(
+    measurement: Measurement, board: Board, deconvolution: Deconvolution, there: list[int], widest_s: float
+) -> tuple[Clock, float]:
+    """From a few points; the delay roughly."""
+    some = there[:: max(len(there) // CLOCK_POINTS, 1)][:CLOCK_POINTS]
+    records = {point: measurement.records(point) for point in some}
+    rough = {point: deconvolution.transfers(deconvolution.spectra(one), one.sound) for point, one in records.items()}
+    waves = _waves(measurement, board, deconvolution, rough, widest_s)
+    delay_s = 0.0 if waves is None else waves.delay_s
+    return clock_of(deconvolution, list(records.values()), delay_s), delay_s
+
+
+def _waves(
+    measurement: Measurement, board: Board, deconvolution: Deconvolution, results: dict[int, Transfers], widest_s: float
+) -> DirectWaves | None:
+    points = list(results)[:: max(len(results) // WAVE_POINTS, 1)]
+    transfers = np.stack([results[point].transfer for point in points])
+    resolved = np.stack([results[point].resolved for point in points])
+    return direct_waves(board, deconvolution.bins, measurement.points_m[points], transfers, resolved, widest_s)
+
+
+def _transfers(
+    measurement: Measurement,
+    board: Board,
+    deconvolution: Deconvolution,
+    there: list[int],
+    clock: Clock,
+    cache: Path | None,
+    progress: Callable[[int, int], None],
+) -> tuple[dict[int, Transfers], dict[Path, str], int]:
+    """Of every point that is there, the hashes of all files, and how many points were learned anew."""
+    hashes = {file: sha256_of(file) for file in measurement.common_files}
+    kept = PointCache(cache, [*hashes.values(), board.digest().hex(), f"{clock.ppm:.2f} {deconvolution.bins.length}"])
+    results: dict[int, Transfers] = {}
+    anew = 0
+    for done, point in enumerate(there):
+        progress(done, len(there))
+        files = measurement.files(point)
+        hashes |= {file: sha256_of(file) for file in files if file not in hashes}
+        own = [hashes[file] for file in files]
+        found = kept.find(measurement.names[point], own)
+        if found is None:
+            records = measurement.records(point)
+            if records.values.shape[2] != deconvolution.length:
+                raise CalibrationError(
+                    f"{files[0]}: point {measurement.names[point]}: {records.values.shape[2]:,} samples, and point"
+                    f" {measurement.names[there[0]]} has {deconvolution.length:,}: all records are of one length"
+                )
+            found = deconvolution.learn(records, clock.ppm)
+            kept.keep(measurement.names[point], own, found)
+            anew += 1
+        results[point] = found
+    progress(len(there), len(there))
+    kept.forget_others()
+    return results, hashes, anew
+
+
+def _responses(
+    measurement: Measurement,
+    board: Board,
+    deconvolution: Deconvolution,
+    results: dict[int, Transfers],
+    samples: int,
+    delay_s: float,
+    files: dict[Path, str],
+) -> LearnedResponses:
+    """In time, with the noise of each: from the variance of its transfer function, else from what precedes the pulse."""
+    bins, count = deconvolution.bins, len(measurement.names)
+    samples = min(samples, bins.length - round(EARLY_S[1] * bins.bit_clock_hz))
+    responses = np.zeros((count, samples, CHANNELS), np.float32)
+    known = np.zeros((count, CHANNELS), bool)
+    coherence, noise = (np.full((count, CHANNELS), np.nan) for _ in range(2))
+    early = slice(*(bins.length - round(time_s * bins.bit_clock_hz) for time_s in reversed(EARLY_S)))
+    for point, found in results.items():
+        whole = bins.response(found.transfer, delay_s)
+        coherence[point] = found.coherence
+        noise[point] = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz
+        if not np.isfinite(noise[point][found.resolved]).any() and deconvolution.spreads_noise:
+            noise[point] = np.where(found.resolved, whole[:, early].std(axis=1), np.nan)
+        known[point] = found.resolved & ~(coherence[point] < NOISY_COHERENCE)
+        responses[point] = np.where(known[point], whole[:, :samples].T, 0)
+    settings = measurement.settings
+    low_hz, high_hz = deconvolution.excited_hz
+    provenance = Provenance(
+        kind="measured",
+        model=f"deconvolved from {low_hz / 1e3:.0f} to {high_hz / 1e3:.0f} kHz",
+        files=tuple(SourceFile(str(file.relative_to(measurement.folder)), sha256) for file, sha256 in sorted(files.items())),
+        date=settings.date,
+        temperature_c=settings.temperature_c,
+        points=len(results),
+    )
+    return LearnedResponses(measurement.points_m, responses, known, coherence, noise, board.waveform.bit_clock_hz, provenance)
+
+
+def _findings(
+    measurement: Measurement,
+    board: Board,
+    deconvolution: Deconvolution,
+    results: dict[int, Transfers],
+    responses: LearnedResponses,
+    clock: Clock,
+    delay_s: float,
+    waves: DirectWaves | None,
+) -> list[Finding]:
+    names, settings = measurement.names, measurement.settings
+    points = list(results)
+    channels = sorted(a.channel for a in board.actuators)
+    power = np.stack([(abs(found.transfer) ** 2).sum(axis=1) for found in results.values()]).astype(np.float64)
+    taken_off = np.stack([np.nan_to_num(found.variance) for found in results.values()]) * len(deconvolution.bins.gain)
+    resolved = np.stack([found.resolved for found in results.values()])
+    power = np.where(resolved, np.maximum(power - taken_off, 0), np.nan)
+    findings = dead_channels(power, responses.coherence[points], channels)
+    dead = {channel for finding in findings for channel in finding.channels}
+    alive = [channel for channel in channels if channel not in dead]
+    if waves is not None:
+        findings += misplaced_channels(waves, alive) + wrong_strength(waves, alive)
+    findings += clipped_records({names[point]: found.clipped for point, found in results.items()})
+    if missing := [names[point] for point in measurement.missing]:
+        findings.append(Finding("missing", f"no records of point {listed(missing)}: left unknown", points=tuple(missing)))
+    of_living = np.array([channel in alive for channel in range(CHANNELS)])
+    findings += noisy_records(responses.coherence, np.array([[p in results] for p in range(len(names))]) & of_living, names)
+    if delay_s and settings.records.first_sample_us is not None:
+        later = "later" if delay_s > 0 else "earlier"
+        text = f"records begin {abs(delay_s) * 1e6:.1f} us {later} than records.first_sample_us says, by the first waves: corrected"
+        findings.append(Finding("delay", text))
+    if abs(clock.ppm) > CLOCK_TOLERANCE_PPM:
+        text = f"the recorder's clock is {abs(clock.ppm):.1f} ppm {'fast' if clock.ppm > 0 else 'slow'}: corrected"
+        findings.append(Finding("clock", text))
+    if settings.board_sha256 is not None and settings.board_sha256 != board.digest().hex():
+        findings.append(
+            Finding("board", f"measured with another board.toml than {board.name} has now ({settings.board_sha256[:12]}…)")
+        )
+    at_end = float(np.median([found.at_end for found in results.values()]))
+    if at_end > STILL:
+        text = f"the plate still moves when records end, by {at_end:.0%} of their rms: record for longer"
+        findings.append(Finding("short", text))
+    return findings

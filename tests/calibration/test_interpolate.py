@@ -1,0 +1,118 @@
+"""Responses between measured points, against those of a plate whose true ones are known."""
+
+import numpy as np
+import pytest
+from calibration.true_plate import TruePlate, random_places
+from small_plate import small_board
+
+from controller.bank.file_format import REST_SAMPLES
+from controller.calibration.interpolate import interpolate
+from controller.calibration.point_plan import grid_points, scattered_points
+from controller.errors import CalibrationError
+
+BOARD = small_board()
+HARDER = {"young_modulus_pa": 1.02 * BOARD.plate.young_modulus_pa, "decay_time_ms": 0.7}
+
+
+@pytest.fixture(scope="module")
+def plate():
+    """A plate 2 % stiffer than its board says, whose waves are 0.5 % longer, and recorded for 1.6 ms."""
+    return TruePlate(BOARD, 1.6, **HARDER)
+
+
+@pytest.fixture(scope="module")
+def scattered(plate):
+    return interpolate(BOARD, plate.learned(scattered_points(BOARD, 110, 2e-3)))
+
+
+@pytest.fixture(scope="module")
+def gridded(plate):
+    return interpolate(BOARD, plate.learned(grid_points(BOARD)))
+
+
+def judged(plate, source, label):
+    found = [plate.kept(source, random_places(BOARD, 12, *at)) for at in ((12e-3,), (3e-3, 12e-3))]
+    print(f"{label}: kept {found[0].mean():.4f} inside, {found[1].mean():.4f} near edges; left out {source.provenance.kept}")
+    return [some.mean() for some in found]
+
+
+def test_a_grid_of_cells_keeps_next_to_all(plate, gridded):
+    inside, near_edges = judged(plate, gridded[0], "grid")
+    assert inside > 0.998
+    assert near_edges > 0.99
+    assert gridded[0].provenance.kept[0] > 0.99
+    assert "cosines between 204 cells" in gridded[0].provenance.model
+
+
+def test_scattered_points_keep_nearly_as_much(plate, scattered):
+    inside, near_edges = judged(plate, scattered[0], "scattered")
+    assert inside > 0.985
+    assert near_edges > 0.96
+    assert 0.9 < scattered[0].provenance.kept[0] < inside, "a point left out is farther from the others than a place between them"
+    assert scattered[0].provenance.points == 110
+
+
+def test_wavelengths_are_fitted(scattered, gridded):
+    """2 % of stiffness is 0.995 in wavenumber and 1.01 in frequency; 1 % more or less of the frequency would be seen."""
+    for source, waves in (scattered, gridded):
+        print(f"{source.provenance.model}: {waves}")
+        # the model has no shear: its waves are longer than Mindlin's by 0.7 % at 45 kHz besides
+        assert waves.dispersion.factor == pytest.approx(1.02**-0.25 * 0.99285, abs=3e-3)
+        assert waves.factor_error < 2e-3
+
+
+def test_a_missing_record_is_estimated_from_its_neighbours(plate):
+    learned = plate.learned(grid_points(BOARD), missing=0.05)
+    learned.known[:3, 5] = False
+    source, _ = interpolate(BOARD, learned)
+    inside, near_edges = judged(plate, source, "grid, a twentieth missing")
+    assert inside > 0.995
+    assert near_edges > 0.97
+
+
+def test_responses_are_those_of_the_protocol(plate, scattered):
+    points = random_places(BOARD, 3, 10e-3)
+    source = scattered[0]
+    whole, band = source.responses(points), source.responses(points, band_limited=True)
+    entries = source.entry_responses(points)
+    assert whole.shape == band.shape == (3, BOARD.waveform.samples, 32)
+    np.testing.assert_allclose(entries[:, : source.samples], band[:, ::-1], rtol=1e-5, atol=1e-6 * abs(band).max())
+    np.testing.assert_array_equal(source.drive_order_responses(points), band[:, ::-1].astype(np.float32))
+    rest = (whole - band)[:, ::-1].reshape(3, -1, REST_SAMPLES, 32).mean(axis=2)
+    np.testing.assert_allclose(entries[:, source.samples :], rest, atol=1e-5 * abs(rest).max())
+    true = plate.model.entry_responses(points)[:, source.samples :]
+    same = np.corrcoef(true.reshape(-1), entries[:, source.samples :].reshape(-1))[0, 1]
+    assert same > 0.95, "what is below the band was measured"
+    assert not whole[:, :, [q for q in range(32) if q not in {a.channel for a in BOARD.actuators}]].any()
+
+
+def test_what_cannot_be_interpolated_is_refused(plate):
+    def refused(points_m, match, board=BOARD, **changes):
+        learned = plate.learned(points_m)
+        for name, value in changes.items():
+            object.__setattr__(learned, name, value(getattr(learned, name)))
+        with pytest.raises(CalibrationError, match=match) as raised:
+            interpolate(board, learned)
+        assert "\n" not in str(raised.value)
+        assert raised.value.exit_code == 78
+
+    coarse = np.stack(np.meshgrid(np.arange(4e-3, 0.07, 6e-3), np.arange(4e-3, 0.05, 6e-3)), axis=-1).reshape(-1, 2)
+    some = scattered_points(BOARD, 80, 2e-3)
+    refused(coarse, r"regular grid of 6.00 mm, above half a wavelength \(4.18 mm\)")
+    refused(scattered_points(BOARD, 34, 2e-3), "34 points are too few")
+    refused(some[:10], "10 points were measured: 12 is the least")
+    refused(some, "of 0.20 ms are shorter than an emission of 0.8 ms", responses=lambda h: h[:, :100])
+    refused(some, "do not fit the board's bit_clock_hz", bit_clock_hz=lambda f: f * 1.001)
+    refused(some, "fewer than 12 points: 4, 5", known=lambda k: k & ~np.isin(np.arange(32), (4, 5)))
+    refused(some, "waves within 10 %", responses=lambda h: np.random.default_rng(1).permutation(h))
+
+
+def test_no_place_far_from_all_points_is_estimated(plate):
+    points = scattered_points(BOARD, 110, 2e-3)
+    source, _ = interpolate(BOARD, plate.learned(points[points[:, 0] < 0.045]))
+    source.responses([[0.04, 0.02]])
+    near, far = source.foreseen([[0.04, 0.02], [0.065, 0.02]])
+    assert near > 0.98
+    assert far < 0.8
+    with pytest.raises(CalibrationError, match=r"x = 65.0 mm, y = 20.0 mm is too far from the measured points"):
+        source.responses([[0.04, 0.02], [0.065, 0.02]])
