@@ -61,6 +61,8 @@ def in_words(board: Board, modes: Modes) -> str:
     supports = (sides.x0, sides.x1, sides.y0, sides.y1)
     each = supports[:1] if len(set(supports)) == 1 else supports
     edges = " / ".join(support.replace("_", " ") for support in each)
+    if plate.foam is not None and "foam" in supports:
+        edges += f" ({plate.foam.stiffness_n_m3:.3g} N/m³, {plate.foam.width_mm:g} mm)"
     highest_hz = float(modes.angular_frequency[-1]) / (2 * math.pi)
     shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
     decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"

@@ -204,7 +204,7 @@ def test_modes_of_a_board_are_in_closed_form_only_where_all_edges_are_simply_sup
 
 def test_more_than_a_basis_can_give_is_refused_with_the_limit():
     floor = msgspec.structs.replace(PAPER, length_mm=4000.0, width_mm=3000.0, thickness_mm=20.0, edges="free")
-    with pytest.raises(ConfigError, match=r"are computed up to 4.*e\+04 Hz on this plate, not to 100000 Hz: take edges"):
+    with pytest.raises(ConfigError, match=r"are computed up to 3.52e[+]04 Hz on this plate, not to 100000 Hz: take edges"):
         RitzModes.of(floor, 100e3)
     with pytest.raises(ConfigError, match="more than 30000 modes below 100000 Hz: too large or too thin"):
         RitzModes.of(msgspec.structs.replace(floor, thickness_mm=1.0), 100e3)
