@@ -18,8 +18,9 @@ from controller.errors import ConfigError
 from controller.physics import design
 from controller.physics.design_inputs import NUMBERS, DesignInputs, inputs_of
 from controller.physics.design_warnings import design_warnings
-from controller.physics.field import OUTSIDE_M, WAVELENGTH_M
+from controller.physics.field import OUTSIDE_M
 from controller.physics.focal_spectrum import FocalSpectrum
+from controller.physics.plate import WAVELENGTH_M
 from controller.physics.plate_modes import modes_of
 
 Figures = dict[str, Any]

@@ -47,15 +47,6 @@ def test_state_at_t_is_what_stepping_bit_by_bit_gives(emission):
     assert emission_figures(emission, 1e-3)["energy_uj"] == pytest.approx(total_uj, rel=1e-9)
 
 
-def test_only_the_bits_asked_for_are_shown(emission):
-    twin = emission.twin
-    period_s = twin.board.waveform.bit_period_s
-    shown = np.arange(len(emission.words)) % 90 == 7
-    some = np.concatenate([m.displacement for m in modal_history(twin.step, twin.forces, volts(emission), period_s, shown)])
-    every = np.concatenate([m.displacement for m in modal_history(twin.step, twin.forces, volts(emission), period_s)])
-    assert some == pytest.approx(every[shown], rel=1e-9, abs=1e-12 * abs(every).max())
-
-
 def test_endless_repetition_is_the_limit_of_many(emission):
     """Twenty emissions in a row, played on the twin; what is left of the first has decayed by e^-40, but for slow modes' 1e-5."""
     twin, board = emission.twin, emission.twin.board
