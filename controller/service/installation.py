@@ -14,7 +14,7 @@ from urllib.parse import unquote, urlsplit
 
 DISTRIBUTION = "haptic-panel"
 OFFLINE = frozenset(
-    {"scipy", "matplotlib", "mpl_toolkits", "tqdm", "threadpoolctl", "dask", "distributed"}
+    {"scipy", "matplotlib", "mpl_toolkits", "PIL", "tqdm", "threadpoolctl", "dask", "distributed"}
 )  # installed by the extra `offline`
 MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
