@@ -18,7 +18,7 @@ from controller.errors import ConfigError
 from controller.physics.plate_modes import modes_of
 
 BOARD = load_board(find_board("simulated"))
-SMALL = Effort(foci=2, over_time=1, repeated=1, thrown=1, loaded=1)
+SMALL = Effort(foci=2, over_time=1, repeated=1, thrown=1, loaded=1, plates=1, foam=False)
 
 # By hand from the constants of the paper's section IV-A (Y 72.9 GPa, nu 0.208, rho 2510, 210 x 148 x 0.5 mm, 20-70 kHz, Q 32,
 # T 2 ms, tau 1 ms; R 2 kOhm, L 6.8 mH, C 2 nF), to eight digits: nothing but rounding is allowed for.
