@@ -46,7 +46,7 @@ class Effort:
 
 
 QUICK = Effort(foci=10, over_time=3, repeated=2, thrown=2, loaded=4, plates=paper_plates.CLOSED_FORM, foam=False)
-FULL = Effort(foci=60, over_time=20, repeated=20, thrown=20, loaded=20, plates=len(paper_plates.OTHERS), foam=True)
+FULL = Effort(foci=100, over_time=20, repeated=20, thrown=20, loaded=20, plates=len(paper_plates.OTHERS), foam=True)
 
 
 def paper_figures(board: Board, effort: Effort, seed: int = 1, progress: Progress = lambda _done, _total: None) -> Figures:
@@ -84,7 +84,7 @@ def paper_figures(board: Board, effort: Effort, seed: int = 1, progress: Progres
 
         def repetition() -> list[Row]:
             curves["repetition"] = paper_several.repetition_curve(panel, effort.repeated)
-            return paper_several.repetition_rows(panel, effort.repeated)
+            return paper_several.repetition_rows(panel, effort.repeated, curves["repetition"])
 
         def finger() -> list[Row]:
             found, curves["finger"] = paper_finger.finger_rows(panel, effort.loaded)

@@ -11,7 +11,7 @@ from controller.benchmark.paper_row import Row
 from controller.physics import design
 from controller.physics.finger import Finger, point_motion
 
-MASSES_MG = (10.0, 20.0, 50.0, 100.0, 140.0, 230.0)
+MASSES_MG = (10.0, 20.0, 35.0, 50.0, 70.0, 100.0, 140.0, 230.0)
 PAPER_KEPT = 3 / 7  # fig. 11 at 1 N
 PAPER_RESOLUTION_M = 5e-3  # section V
 NEAR_S = 12e-6  # of T: half a period at 42 kHz, within which the peak is looked for; mass makes it late
