@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Kind = TypeVar("Kind", np.bool_, np.float64, np.complex64)
 
-REGULARISATION = 1e-4
+REGULARISATION = 1e-5  # one sequence of noise leaves a bias of its root
 RESOLVED = 0.9  # share of a channel's response that the drive determines, in the mean over the band
 EXCITED = 0.5  # the same at one frequency
 NYQUIST_SHARE = 0.9  # of the recorder's half rate that its filter passes
@@ -91,7 +91,7 @@ class Bins:
         transfer : (..., bin) complex array
             In m s per V.
         delay_s : float
-            By which the records are later than they say; taken out.
+            By which what happened is later in the records than they say; taken out.
 
         Returns
         -------
@@ -192,7 +192,7 @@ class Deconvolution:
         there = np.where(records.there[:, :, None], records.values, 0.0)
         frequency_hz = self.bins.frequency_hz
         found = transform(there, rate_hz, frequency_hz[0], self.bins.step_hz, len(frequency_hz)) / rate_hz
-        first_s = self._first_s + records.first_s * (self._rate_hz / rate_hz) - self._starts_s
+        first_s = self._first_s + records.first_s * (self._rate_hz / rate_hz) - self._starts_s[:, : records.first_s.shape[1]]
         found *= np.exp(-2j * np.pi * frequency_hz * first_s[:, :, None])
         found *= self._to_displacement
         return found

@@ -36,7 +36,7 @@ CLOCK_POINTS = 4  # that the clock is found from
 WAVE_POINTS = 64  # that the direct wave is found from
 STATED_DELAY_S = 60e-6  # how far from its stated delay a record is searched
 DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
-CLOCK_TOLERANCE_PPM = 1.0
+CLOCK_TOLERANCE_PPM = 5.0
 EARLY_S = 0.1e-3, 0.6e-3  # before the pulse: noise alone
 STILL = 0.03  # of a record's rms that may be left at its end
 
@@ -52,7 +52,7 @@ class Learned:
     findings : tuple of Finding
     clock : Clock
     delay_s : float
-        By which the records were later than they say; corrected.
+        By which what happened is later in the records than they say; corrected.
     waves : DirectWaves or None
     excited_hz : (float, float)
         What was played excites this band.
@@ -221,6 +221,8 @@ def _responses(
         noise[point] = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz
         if not np.isfinite(noise[point][found.resolved]).any() and deconvolution.spreads_noise:
             noise[point] = np.where(found.resolved, whole[:, early].std(axis=1), np.nan)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                coherence[point] = np.maximum(1 - noise[point] ** 2 / (whole**2).mean(axis=1), 0)
         known[point] = found.resolved & ~(coherence[point] < NOISY_COHERENCE)
         responses[point] = np.where(known[point], whole[:, :samples].T, 0)
     settings = measurement.settings
@@ -264,8 +266,9 @@ def _findings(
     of_living = np.array([channel in alive for channel in range(CHANNELS)])
     findings += noisy_records(responses.coherence, np.array([[p in results] for p in range(len(names))]) & of_living, names)
     if delay_s and settings.records.first_sample_us is not None:
-        later = "later" if delay_s > 0 else "earlier"
-        text = f"records begin {abs(delay_s) * 1e6:.1f} us {later} than records.first_sample_us says, by the first waves: corrected"
+        right_us = settings.records.first_sample_us - delay_s * 1e6
+        late = f"{abs(delay_s) * 1e6:.1f} us {'later' if delay_s > 0 else 'earlier'}"
+        text = f"waves arrive {late} than records.first_sample_us says, which should be {right_us:.0f}: corrected"
         findings.append(Finding("delay", text))
     if abs(clock.ppm) > CLOCK_TOLERANCE_PPM:
         text = f"the recorder's clock is {abs(clock.ppm):.1f} ppm {'fast' if clock.ppm > 0 else 'slow'}: corrected"

@@ -342,15 +342,17 @@ def sha256_of(file: Path) -> str:
 
 
 def is_clipped(record: Numbers) -> bool:
-    """Whether three or more samples in a row stand at the largest or smallest number of the record, as a full converter's do."""
+    """Whether samples pile up at the largest or smallest number of the record, as those of a full converter do.
+
+    Three or more, and three times as many as stand at each of the next numbers.
+    """
     lowest, highest = record.min(), record.max()
     if lowest == highest:
         return False  # silent: a dead channel, not a loud one
-    for extreme in (lowest, highest):
-        at = record == extreme
-        if (at[2:] & at[1:-1] & at[:-2]).any() and extreme != 0:
-            return True
-    return False
+    many = min(len(record), 64)
+    least = np.unique(np.partition(record, many - 1)[:many], return_counts=True)[1]
+    largest = np.unique(np.partition(record, -many)[-many:], return_counts=True)[1][::-1]
+    return any(counts[0] >= max(3, 3 * float(counts[1:5].mean()) if len(counts) > 1 else 0) for counts in (least, largest))
 
 
 def _in_unit(record: Numbers, full_scale: float | None, where: str) -> NDArray[np.float64]:

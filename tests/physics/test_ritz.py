@@ -94,10 +94,10 @@ def test_the_lowest_frequencies_are_those_published_for_square_plates(sides, pub
     [("FFFF", 0, 1e-5), ("CCCC", 0, 1e-5), ("EEEE", 1e9, 1e-5), ("EEEE", 1e11, 1e-5), ("EECC", 1e9, 1e-5), ("EFSC", 1e9, 3e-4)],
 )
 def test_a_basis_twice_as_fine_gives_the_same_frequencies(sides, foam, error):
-    """A ninth of the paper's plate up to 60 kHz, 9 mm of foam; the finer basis has 1.6 times the functions along each axis."""
+    """A ninth of the paper's plate up to 45 kHz, 9 mm of foam; the finer basis has 1.6 times the functions along each axis."""
     shape = shape_of(sides, (0.07, 0.05), foam=foam / bending_stiffness(PAPER), foam_width_m=9e-3)
-    coarse = wavenumbers2(shape, wavenumber(60e3))
-    fine = wavenumbers2(shape, wavenumber(60e3) * 1.7)[: coarse.size]
+    coarse = wavenumbers2(shape, wavenumber(45e3))
+    fine = wavenumbers2(shape, wavenumber(45e3) * 1.7)[: coarse.size]
     worst = largest_error(coarse, fine, wavenumber(500.0) ** 2)
     print(f"{sides} with {foam:g} N/m3: {coarse.size} modes, frequencies wrong by {worst:.1e} at most (bound {error:g})")
     assert worst < error
@@ -220,24 +220,24 @@ def test_a_basis_without_some_of_the_modes_is_noticed(monkeypatch):
 
 
 EVERY = st.sampled_from("SCFE")
-STIFFER = {"F": "FESC", "E": "EC", "S": "SC", "C": "C"}  # what holds the edge at least as much; foam lets it move, S lets it turn
+STIFFER = {"F": "FESC", "E": "E", "S": "SC", "C": "C"}  # what holds at least as much; a strip also holds the plate beside the edge
 
 
-@settings(max_examples=8, derandomize=True)
+@settings(max_examples=6, derandomize=True)
 @given(
     st.lists(EVERY, min_size=4, max_size=4),
     st.lists(st.integers(0, 3), min_size=4, max_size=4),
     st.floats(0.05, 0.3),
     st.floats(0.05, 0.3),
     st.floats(0.0, 0.49),
-    st.floats(1.0, 8.0),
+    st.floats(1.0, 11.0),
 )
 def test_any_plate_has_sorted_orthonormal_modes_that_rise_with_what_holds_it(sides, choice, length, width, poisson_ratio, log_foam):
-    highest_k = 12.0 / (length * width) ** 0.5 * 2
+    highest_k = 18.0 / (length * width) ** 0.5
     lengths, foam = (length, width), 10.0**log_foam
     shape = shape_of("".join(sides), lengths, poisson_ratio, foam if "E" in sides else 0.0, 0.1 * min(lengths))
     held = [STIFFER[side][number % len(STIFFER[side])] for side, number in zip(sides, choice, strict=True)]
-    stiffer = shape_of("".join(held), lengths, poisson_ratio, foam if "E" in held else 0.0, 0.1 * min(lengths))
+    stiffer = shape_of("".join(held), lengths, poisson_ratio, 3 * foam if "E" in held else 0.0, 0.1 * min(lengths))
     solution = ritz.solve(shape, highest_k)
     for found in solution.classes:
         assert np.all(np.diff(found.wavenumber4) >= 0)
