@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta
@@ -236,26 +236,26 @@ def on_other_plate(board: Board, given: Sequence[str]) -> Board:
     ----------
     board : Board
     given : sequence of str
-        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free; the latter change
-        what is there, in their order.
+        A board by name, folder or file, whose plate it is; or KEY=VALUE for a key of [plate], such as edges=free.
 
     Raises
     ------
     ConfigError
         If there is no such board, key or value.
     """
+    keys: dict[str, Any] = {}
     for text in given:
         key, equals, value = text.partition("=")
-        if equals and not Path(text).exists():
-            try:
-                parsed = tomllib.loads(f"value = {value}")["value"]
-            except ValueError:
-                parsed = value.strip()
-            tables = msgspec.to_builtins(board.plate) | {key.strip(): parsed}
-            tables = {name: kept for name, kept in tables.items() if kept is not None}
-            board = msgspec.structs.replace(board, plate=as_record(f"--plate {text}: ", tables, Plate))
-        else:
+        if not equals or Path(text).exists():
             board = on_plate_of(board, load_board(Path(text) if Path(text).is_file() else find_board(text)))
+            continue
+        try:
+            keys[key.strip()] = tomllib.loads(f"value = {value}")["value"]
+        except ValueError:
+            keys[key.strip()] = value.strip()
+    if keys:
+        there = {name: kept for name, kept in msgspec.to_builtins(board.plate).items() if kept is not None}
+        board = msgspec.structs.replace(board, plate=as_record("--plate: ", there | keys, Plate))
     return board
 
 

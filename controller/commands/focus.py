@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
+from controller.commands.focus_movie import add_movie, film, movie_path
 from controller.commands.output import picture_path, show
 from controller.commands.tables import amplitude_table, plain_table
 from controller.errors import ConfigError
@@ -51,6 +52,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         help="also the amplitudes with a finger on each focus, and with one elsewhere: mass, damping in N s/m, stiffness in N/m",
     )
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T, and the first focus over time (.png, .svg, .pdf)")
+    add_movie(point)
     point.set_defaults(command=focus)
 
 
@@ -59,7 +61,7 @@ def focus(options: argparse.Namespace) -> int:
     from controller.benchmark.focus_emission import emission_at, emission_figures, judged_foci
     from controller.benchmark.focus_figures import figures
 
-    picture = picture_path(options)
+    picture, movie = picture_path(options), movie_path(options)
     board = load_board(find_board(options.board))
     if options.figures:
         show(options, figures(board, options.seed), plain_table)
@@ -107,6 +109,8 @@ def focus(options: argparse.Namespace) -> int:
         title = f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}"
         series = focus_series(emission.twin, emission.words, points_m[0])
         plot_focus(picture, board, emission.field, points_m, title, series)
+    if movie:
+        film(options, movie, emission, points_m)
     show(options, found, _table)
     return 0
 
