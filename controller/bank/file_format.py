@@ -26,6 +26,7 @@ VERSION = 4
 PAGE = 4096
 LINE = 64  # responses start on a cache line
 REST_SAMPLES = 4  # of which the rest of a response, outside the band, is kept as the mean
+LEAST_WAVE_SCALE = 1e-3  # 10 um
 SAMPLES_MAX = 1000  # what LOAD frames can carry
 MAX_HEADER = 1 << 20
 
@@ -36,6 +37,15 @@ MODEL_CODE = (
     "physics/plate.py",
     "physics/modes.py",
     "physics/closed_form.py",
+    "physics/one_dimensional_basis.py",
+    "physics/mode_count.py",
+    "physics/ritz.py",
+    "physics/ritz_modes.py",
+    "physics/mode_cache.py",
+    "board/layers.py",
+    "physics/mindlin.py",
+    "physics/retuned.py",
+    "physics/damping.py",
     "physics/plate_modes.py",
     "physics/driver.py",
     "physics/step_response.py",
@@ -122,6 +132,12 @@ class Header:
             and choice.get("composes") is self.composes
         )
         return choice if whole else None
+
+    @property
+    def wave_scale(self) -> float:
+        """How much longer the plate's waves are than the paper's plate's: distances on the device go with it. 1, if not told."""
+        told: object = self.parameters.get("wave_scale")
+        return float(told) if isinstance(told, int | float) and LEAST_WAVE_SCALE <= told <= 1 / LEAST_WAVE_SCALE else 1.0
 
     @property
     def provenance(self) -> Provenance | None:

@@ -134,6 +134,11 @@ class Bank:
         """Which cells have an entry, (grid.cells,)."""
         return np.array(self._entry_of) >= 0
 
+    @property
+    def wave_scale(self) -> float:
+        """As `Header.wave_scale`."""
+        return self.header.wave_scale
+
     def snap_m(self, board: Board) -> float:
         """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
         choice = self.header.choice if board.compose.method == "auto" else None

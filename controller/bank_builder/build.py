@@ -31,7 +31,7 @@ from controller.board.paths import make_folder
 from controller.errors import ConfigError
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.memory import BASE_BYTES, cell_bytes, entries_bytes, require
-from controller.physics.plate import mode_cut_hz
+from controller.physics.plate import mode_cut_hz, wave_scale
 from controller.physics.response_source import ResponseSource
 from controller.scene.scene import Spot
 from controller.waveform_design.descent import Aim
@@ -181,6 +181,7 @@ def build_bank(
     parameters: dict[str, Any] = {
         "board": board.key,
         "pitch_mm": grid.pitch_m * 1e3,
+        "wave_scale": wave_scale(board),
         "highest_hz": highest_hz if model else None,
         "precision": "float32",
         "responses": as_parameter(responses.provenance),

@@ -22,11 +22,12 @@ from controller.board.board import Board
 from controller.errors import ConfigError
 from controller.loop.spots import needs_responses
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import bending_wavelength_m
+from controller.physics.plate import bending_wavelength_m, wave_scale
 from controller.physics.response_source import ResponseSource
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene
 
+# On the paper's plate; on others they go with the length of its waves
 PITCHES_MM = (0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 32.0, 40.0, 50.0)
 FINEST = 1 / 8  # of the wavelength: what lies between finer cells and these is below the other errors
 SNAPS_MM = (0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)
@@ -81,14 +82,14 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
         Of the responses; the board's plate model by default.
     """
     wavelength_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz)
-    source = source or ResponseModel(board)
-    alone = not needs_responses(scene) and board.application_socket is None
+    source, scale = source or ResponseModel(board), wave_scale(board)
+    alone = not needs_responses(scene, scale) and board.application_socket is None
     ready = alone and len(scene.spots) > 1 and not any(region.felt for region in scene.regions)  # all composed beforehand
     judged: list[tuple[Grid, np.ndarray[Any, np.dtype[np.bool_]], InterpolationError]] = []
-    for pitch_m in (pitch_mm * 1e-3 for pitch_mm in PITCHES_MM):
+    for pitch_m in (_rounded(pitch_mm * scale) * 1e-3 for pitch_mm in PITCHES_MM):
         if FINEST * wavelength_m <= pitch_m <= wavelength_m / 2:
             grid = Grid.of(board.plate, pitch_m)
-            cells = cells_needed(scene, grid.points(), pitch_m, margin_m)
+            cells = cells_needed(scene, grid.points(), pitch_m, margin_m, wave_scale=scale)
             if cells.any():
                 judged.append((grid, cells, interpolation_error(board, source, grid, cells)))
     apart_m = np.concatenate([error.distance_m for *_, error in judged] or [np.zeros(0)])
@@ -104,7 +105,7 @@ def settings(board: Board, scene: Scene, margin_m: float, source: ResponseSource
         if alone:
             worst = 0.0 if ready else round(of_cells(grid.pitch_m * 0.5**0.5), DIGITS)
             found.append(Setting(pitch_mm, BEYOND * pitch_mm, False, worst, CELL_US, CELL_US, _bytes(board, grid, cells, False)))
-        for snap_mm in (snap_mm for snap_mm in SNAPS_MM if snap_mm <= pitch_mm / 2):
+        for snap_mm in (_rounded(snap_mm * scale) for snap_mm in SNAPS_MM if snap_mm * scale <= pitch_mm / 2):
             snapped = np.pi * (snap_mm / pitch_mm) ** 2
             lone_us = round(snapped * CELL_US + (1 - snapped) * ONE_US, 2)
             time_us = (ONE_US if alone else TEN_US) if _full(scene) else TEN_LESS_US
@@ -155,6 +156,11 @@ def choose(board: Board, scene: Scene, scene_file: Path, margin_m: float, source
         f" and take at most {bounds.max_time_us:g} us",
         "front": [[one.pitch_mm, one.snap_mm if one.composes else None, one.error, one.lone_us, one.bytes] for one in front],
     }
+
+
+def _rounded(length_mm: float) -> float:
+    """To three digits, for people."""
+    return float(f"{length_mm:.3g}")
 
 
 def _none(board: Board, called: str, found: Sequence[Setting]) -> str:

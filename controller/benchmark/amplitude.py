@@ -20,6 +20,7 @@ from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
 from controller.benchmark.focus_figures import emit, random_points, spread
 from controller.board.board import Board
+from controller.physics.plate import wave_scale
 from controller.physics.plate_twin import PlateTwin
 from controller.waveforms.design import DesignMethod
 from controller.waveforms.device_composition import DeviceComposition
@@ -29,6 +30,7 @@ Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 Words = NDArray[np.uint32]
 
+# On the paper's plate; on others they go with the length of its waves
 MARGIN_M = 12e-3  # distance of fingers from the plate's edges
 SEPARATION_M = 8e-3  # smallest distance between two fingers
 FINGERS = (1, 2, 4, 10)
@@ -61,7 +63,8 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
     played = [[_scene(board, random, fingers) for _ in range(scenes)] for fingers in FINGERS]
     singles = random_points(board, seed, scenes)
     around = random.uniform(0, 2 * np.pi, scenes)
-    beside = singles + REUSE_RADIUS_M * np.column_stack([np.cos(around), np.sin(around)])
+    reuse_m = REUSE_RADIUS_M * wave_scale(board)
+    beside = singles + reuse_m * np.column_stack([np.cos(around), np.sin(around)])
     places = np.concatenate([np.array(scene)[:, :2] for some in played for scene in some] + [singles, beside])
     with threadpool_limits(1, "blas"), tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "bank"
@@ -80,12 +83,15 @@ def amplitude_figures(board: Board, seed: int, scenes: int = 20, pitch_m: float 
 
 
 def _scene(board: Board, random: np.random.Generator, fingers: int) -> list[tuple[float, float, float]]:
-    """(x_m, y_m, amplitude) of fingers at random places, at least `SEPARATION_M` apart; amplitudes from 0.25 to 1."""
-    far = np.array([board.plate.length_m, board.plate.width_m]) - MARGIN_M
+    """(x_m, y_m, amplitude) of fingers at random places, as far apart as there is room for; amplitudes from 0.25 to 1."""
+    sides, scale = np.array([board.plate.length_m, board.plate.width_m]), wave_scale(board)
+    margin = np.minimum(MARGIN_M * scale, 0.4 * sides)
+    far = sides - margin
+    apart_m = min(SEPARATION_M * scale, 0.2 * float((far - margin).min()))  # ten fingers have room
     while True:
-        places = random.uniform(MARGIN_M, far, (fingers, 2))
+        places = random.uniform(margin, far, (fingers, 2))
         between_m = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.eye(fingers)
-        if between_m.min() >= SEPARATION_M:
+        if between_m.min() >= apart_m:
             return [(float(x_m), float(y_m), float(random.uniform(0.25, 1))) for x_m, y_m in places]
 
 

@@ -21,12 +21,13 @@ from controller.physics.audible import surface_energy
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.impulse_response import ResponseModel
-from controller.physics.plate import mode_cut_hz
+from controller.physics.plate import mode_cut_hz, wave_scale
 from controller.physics.plate_twin import PlateTwin, capture_of_words
 
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
+# On the paper's plate; on others they go with the length of its waves
 MARGIN_M = 10e-3
 INNER_M = 20e-3  # nearer to an edge, its mirror image correlates neighbouring responses: a share of up to 0.57 instead of 0.53
 SQUARE_M = 10e-3
@@ -34,9 +35,10 @@ SETTLED = 40  # time constants of the slowest pole (6 ms: mode (1, 1) is overdam
 
 
 def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = False) -> Figures:
-    """Judge foci of a board at random points at least 10 mm from the edges: min, median and max of each figure.
+    """Judge foci of a board at random points at least 0.95 wavelengths from the edges: min, median and max of each figure.
 
-    Four foci are judged twice: all at least 20 mm from the edges, and all at least 10 mm.
+    Four foci are judged twice: all at least 1.9 wavelengths from the edges, and all at least 0.95. Those are 20 and 10 mm on the
+    paper's plate.
 
     Parameters
     ----------
@@ -61,9 +63,10 @@ def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = Fals
                 bar.update()
 
         model = ResponseModel(board)
+        scale = wave_scale(board)
         places = random_points(board, seed, points)
-        inner = random_points(board, seed, points, INNER_M + SQUARE_M / 2)
-        outer = random_points(board, seed, points, MARGIN_M + SQUARE_M / 2)
+        inner = random_points(board, seed, points, (INNER_M + SQUARE_M / 2) * scale)
+        outer = random_points(board, seed, points, (MARGIN_M + SQUARE_M / 2) * scale)
         return {
             "seed": seed,
             "points": points,
@@ -77,10 +80,11 @@ def figures(board: Board, seed: int = 1, points: int = 20, progress: bool = Fals
         }
 
 
-def random_points(board: Board, seed: int, count: int, margin_m: float = MARGIN_M) -> Floats:
-    """Draw `count` points at least `margin_m` from the plate's edges: (point, 2) array in m."""
-    far = np.array([board.plate.length_m, board.plate.width_m]) - margin_m
-    return np.random.default_rng(seed).uniform(margin_m, far, (count, 2))
+def random_points(board: Board, seed: int, count: int, margin_m: float | None = None) -> Floats:
+    """Draw `count` points at least `margin_m` from the plate's edges, or two fifths of a side: (point, 2) array in m."""
+    sides = np.array([board.plate.length_m, board.plate.width_m])
+    margin = np.minimum(MARGIN_M * wave_scale(board) if margin_m is None else margin_m, 0.4 * sides)
+    return np.random.default_rng(seed).uniform(margin, sides - margin, (count, 2))
 
 
 def idling_low(board: Board) -> Board:
@@ -140,7 +144,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
 
 
 def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -> Figures:
-    """Judge four foci at the corners of 10 mm squares: responses summed with equal weights, then quantised to their sign.
+    """Judge four foci at the corners of squares of 0.95 wavelengths: the sign of the sum of their responses.
 
     Parameters
     ----------
@@ -157,7 +161,7 @@ def four_foci(board: Board, model: ResponseModel, centres_m: Iterable[Floats]) -
     twin = PlateTwin(board)
     share, contrast, spot = [], [], []
     for centre in centres_m:
-        corners = centre + SQUARE_M / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+        corners = centre + SQUARE_M * wave_scale(board) / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
         words = focus(model.drive_order_responses(corners, dtype=np.float64), [1.0] * 4, board.idle_word)
         field = emit(twin, words)
         foci = [(float(x), float(y)) for x, y in corners]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.calibration.checks import FATAL
+from controller.calibration.deconvolution import REGULARISATION
 from controller.calibration.learning import Learned
 
 
@@ -37,6 +38,7 @@ def check_figures(board: Board, learned: Learned) -> dict[str, Any]:
         "repetitions": measurement.repetitions,
         "known_share": round(float(found.known[:, channels].mean()), 4),
         "excited_khz": [round(edge_hz / 1e3, 1) for edge_hz in learned.excited_hz],
+        "regularisation": REGULARISATION,
         "residual": _number(np.nanmedian, learned.residual, 6),
         "noise_pm_per_v": _number(np.nanmedian, found.noise[:, channels] * 1e12, 4),
         "snr_db": _number(np.nanmedian, snr[:, channels], 1),

@@ -8,7 +8,7 @@ triggered impulses and single sweeps not at all, and need it no better.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -17,7 +17,7 @@ from controller.calibration.deconvolution import Complex, Deconvolution
 from controller.calibration.measurements import PointRecords
 
 WIDEST_PPM = 600.0
-COARSE_PPM = 100.0
+COARSE_PPM = 200.0
 TOLD = 0.05  # rise of the contradiction, over its least, within `COARSE_PPM`
 BEFORE_S = 20e-6, 1e-3  # before its pulse there is no response; nearer the band's own length blurs it
 
@@ -49,13 +49,15 @@ def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], dela
         Of the records; to 20 us.
     """
     span_s = max(float(one.first_s.max()) for one in records)
-    at_once = [deconvolution.spectra(one) for one in records[:1]]
+    if span_s == 0:
+        records = [_averaged(one) for one in records]  # repetitions that were triggered alike tell the same
+    at_once = deconvolution.spectra(records[0])
     frequency_hz = deconvolution.bins.frequency_hz
 
     def shifted(ppm: float) -> float:
         """Contradiction of one point, whose records are moved only."""
         turn = np.exp(2j * np.pi * frequency_hz * (1e-6 * ppm * records[0].first_s[:, :, None]))
-        return _contradiction(deconvolution, at_once[0] * turn, records[0], delay_s)
+        return _contradiction(deconvolution, at_once * turn, records[0], delay_s)
 
     def exact(ppm: float) -> float:
         return float(np.mean([_contradiction(deconvolution, deconvolution.spectra(one, ppm), one, delay_s) for one in records]))
@@ -68,10 +70,18 @@ def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], dela
     else:
         tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
         near = float(tried[np.argmin([exact(ppm) for ppm in tried])])
-    found = minimize_scalar(exact, bounds=(near - step, near + step), method="bounded", options={"xatol": step * 1e-3})
+    found = minimize_scalar(exact, bounds=(near - step, near + step), method="bounded", options={"xatol": step * 2e-3})
     ppm = float(found.x)
     told = min(exact(ppm - step), exact(ppm + step)) > (1 + TOLD) * float(found.fun)
     return Clock(round(ppm, 2), True) if told else Clock(0.0, False)
+
+
+def _averaged(records: PointRecords) -> PointRecords:
+    """Mean over the sound repetitions, as one."""
+    count = records.sound.sum(axis=1)
+    values = np.where(records.sound[:, :, None], records.values, 0).sum(axis=1) / np.maximum(count, 1)[:, None]
+    there = (count > 0)[:, None]
+    return replace(records, values=values[:, None], there=there, first_s=np.zeros(there.shape), clipped=~there)
 
 
 def _contradiction(deconvolution: Deconvolution, spectra: Complex, records: PointRecords, delay_s: float) -> float:

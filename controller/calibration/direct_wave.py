@@ -24,8 +24,9 @@ from controller.physics.driver import DriverResponse
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-FACTORS = np.arange(0.95, 1.0501, 0.0025)  # of the wavenumber, on what board.toml gives
+FACTORS = np.linspace(0.96, 1.04, 17)  # of the wavenumber, on what board.toml gives
 LEAST_PEAK = 4.0  # of the pulse that all records make together, over its rms
+AFTER_S = 60e-6  # length of the pulse of a band, and of the driver
 RIDGE = 1e-2  # of patches so near to each other that their waves are alike
 ELSEWHERE_S = (90e-6, 130e-6, 170e-6, 210e-6)  # later than the direct wave: what chance gives
 NEAR_WAVELENGTHS = 1.0  # nearer to a patch than this, G does not hold
@@ -38,7 +39,7 @@ class DirectWaves:
     Attributes
     ----------
     delay_s : float
-        By which the records are later than they say.
+        By which what happened is later in the records than they say.
     factor : float
         Of the wavenumber, on that of board.toml.
     strength : (32, 32) array
@@ -115,6 +116,7 @@ def direct_waves(
     if stands_out < LEAST_PEAK:
         return None
     wave = direct_transfer(board, bins, points_m, factor) * np.sqrt(bins.gain) * shown[..., None]
+    measured = _arriving(board, bins, points_m, measured, delay_s)
     gram = np.einsum("pak,pbk->ab", wave, wave.conj()).real
     scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
     whitened = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
@@ -130,6 +132,25 @@ def direct_waves(
     error = np.full(CHANNELS, np.nan)
     error[channels] = np.sqrt((elsewhere**2).mean(axis=(0, 2)))
     return DirectWaves(delay_s, factor, whole, error)
+
+
+def _arriving(board: Board, bins: Bins, points_m: Floats, measured: Complex, delay_s: float) -> Complex:
+    """Of each response what comes until the direct wave has passed, without most of what edges sent back."""
+    low_hz = bins.frequency_hz[0]
+    k = Dispersion.of(board.plate).wavenumber(np.array([low_hz, 1.01 * low_hz]))
+    group_m_s = 2 * np.pi * 0.01 * low_hz / (k[1] - k[0])
+    places_m = np.array([(a.x_mm, a.y_mm) for a in board.actuators]) * 1e-3
+    after_s = np.hypot(*np.moveaxis(points_m[:, None] - places_m, 2, 0)) / group_m_s + AFTER_S
+    lags_s = np.fft.fftfreq(bins.length) * bins.length / bins.bit_clock_hz - delay_s
+    found = np.empty_like(measured)
+    some = slice(bins.first, bins.first + len(bins.gain))
+    for point, spectra in enumerate(measured):
+        whole = np.zeros((len(spectra), bins.length // 2 + 1), np.complex128)
+        whole[:, some] = spectra
+        response = np.fft.irfft(whole, bins.length)
+        response[(lags_s < -AFTER_S) | (lags_s > after_s[point][:, None])] = 0
+        found[point] = np.fft.rfft(response)[:, some]
+    return found
 
 
 def _peak(pulse: Floats, at: int) -> float:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import czt
+from scipy.signal import CZT
 
 from controller.bank.packing import channel_bits
 from controller.board.panel import CHANNELS
@@ -76,9 +77,13 @@ class Drive:
 
 def transform(values: NDArray[np.floating], rate_hz: float, first_hz: float, step_hz: float, count: int) -> Complex:
     """Sum of values[..., n] exp(-2 pi i f n / rate) at `count` frequencies: (..., count), exact at any rate."""
-    turn = -2j * np.pi / rate_hz
-    spectra: Complex = czt(values, count, np.exp(turn * step_hz), np.exp(-turn * first_hz), axis=-1)
+    spectra: Complex = _chirp_transform(values.shape[-1], count, first_hz / rate_hz, step_hz / rate_hz)(values)
     return spectra
+
+
+@lru_cache(maxsize=4)
+def _chirp_transform(samples: int, count: int, first: float, step: float) -> CZT:
+    return CZT(samples, count, np.exp(-2j * np.pi * step), np.exp(2j * np.pi * first))
 
 
 def held_spectrum(frequency_hz: Floats, period_s: float) -> Complex:

@@ -46,7 +46,9 @@ def drive_words(board: Board, kind: Kind = "chirp", seed: int = 1) -> Words:
     high = _chirp(board) if kind == "chirp" else _noise(board, seed)
     channels = [actuator.channel for actuator in board.actuators]
     order = 1 << (len(channels) - 1).bit_length()
-    same = hadamard(order)[:, 1 : len(channels) + 1] > 0 if order > len(channels) else hadamard(order) > 0  # (emission, channel)
+    random = np.random.default_rng(0)  # else one emission drives all channels alike, and one channel plays the same in all
+    signs = hadamard(order) * random.choice((-1, 1), (order, 1)) * random.choice((-1, 1), order)
+    same = signs[:, : len(channels)] > 0  # (emission, channel)
     bits = np.uint32(1) << np.array(channels, np.uint32)
     words: Words = np.bitwise_or.reduce(np.where(same[:, None, :] == high[None, :, None], bits, np.uint32(0)), axis=2)
     edges_hz = np.count_nonzero(np.diff(high)) / board.waveform.duration_s

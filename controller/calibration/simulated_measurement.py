@@ -208,9 +208,8 @@ class _Plate:
         self._times_s = faults.delay_s - BEFORE_S + np.arange(count) / (recording.rate_hz * (1 + faults.clock_ppm * 1e-6))
 
     def scale(self, points_m: Floats) -> tuple[float, float]:
-        """Root mean square and largest value of records of a few emissions, but the first, in which all channels go together."""
-        count = self._steps_v.shape[2]
-        some = np.unique(np.linspace(min(1, count - 1), count, SCALE_EMISSIONS, endpoint=False, dtype=np.int64))
+        """Root mean square and largest value of records of a few emissions."""
+        some = np.unique(np.linspace(0, self._steps_v.shape[2], SCALE_EMISSIONS, endpoint=False, dtype=np.int64))
         records = PlateMotion(self._real, self.modes).of_points(
             points_m, self._step_s, self._steps_v[:, :, some], self._times_s, self._quantity
         )

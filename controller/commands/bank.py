@@ -254,7 +254,9 @@ def _pitch_m(board: Board, choice: dict[str, Any] | None) -> float:
 
 
 def _cells(board: Board, pitch_m: float, scene: Scene) -> NDArray[np.bool_]:
-    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M)
+    from controller.physics.plate import wave_scale
+
+    return cells_needed(scene, Grid.of(board.plate, pitch_m).points(), pitch_m, MET_AHEAD_M, wave_scale=wave_scale(board))
 
 
 def _build(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
-from controller.commands.output import progress_bar, show
+from controller.commands.output import picture_path, progress_bar, show
 from controller.commands.tables import benchmark_table
 from controller.errors import ConfigError
 
@@ -35,7 +35,8 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     benchmark.add_argument("--no-timing", action="store_true", help="errors only, without times")
     benchmark.add_argument("--no-pictures", action="store_true", help="figures only, without diagrams")
     benchmark.set_defaults(command=run)
-    skips = benchmark.add_subparsers(title="actions", metavar="ACTION").add_parser(
+    actions = benchmark.add_subparsers(title="actions", metavar="ACTION")
+    skips = actions.add_parser(
         "skipping",
         parents=[common],
         help="what the loop leaves out in six scenes, and what that saves",
@@ -51,6 +52,18 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     skips.add_argument("--repeats", type=_natural, default=5, metavar="N", help="runs of each for the least host time (default: 5)")
     skips.set_defaults(command=skipping)
+    published = actions.add_parser(
+        "paper",
+        parents=[common],
+        help="the figures of the paper, simulated: paper, here, ratio, and why they differ",
+        description="Simulate every figure of Hudin, Lozada and Hayward (2015) that can be, at seeded foci, and print it beside "
+        "theirs. Takes about 2 minutes of one core; --quick: 15 s.",
+    )
+    published.add_argument("--quick", action="store_true", help="fewer foci")
+    published.add_argument("--seed", type=_natural, default=1, metavar="N", help="of the foci (default: 1)")
+    published.add_argument("--markdown", action="store_true", help="print the table of the README")
+    published.add_argument("--plot", metavar="FILE", help="draw them (.png, .svg, .pdf)")
+    published.set_defaults(command=paper)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -84,6 +97,22 @@ def skipping(options: argparse.Namespace) -> int:
     found = all_cases(load_board(find_board(options.board)), options.no_skip, options.repeats, progress_bar("scenes"))
     show(options, found, lambda figures: "\n\n".join(map(table, figures["cases"])))
     return int(any(case["must_be_exact"] and not case["exact_bits"] for case in found["cases"]))
+
+
+def paper(options: argparse.Namespace) -> int:
+    """Print the paper's figures beside ours, and draw them."""
+    from controller.benchmark.paper import FULL, QUICK, paper_figures
+    from controller.benchmark.paper_row import markdown, paper_table
+
+    picture = picture_path(options)
+    board = load_board(find_board(options.board))
+    found = paper_figures(board, QUICK if options.quick else FULL, options.seed, progress_bar("paper"))
+    if picture:
+        from controller.benchmark.plot_paper import plot_paper
+
+        plot_paper(picture, found)
+    show(options, found, markdown if options.markdown else paper_table)
+    return 0
 
 
 def _natural(text: str) -> int:

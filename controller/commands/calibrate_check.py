@@ -75,6 +75,7 @@ def _table(figures: dict[str, Any]) -> str:
         f"{figures['folder']}: {figures['points']} points, {figures['missing']} of them without records;"
         f" {figures['emissions']} emissions, {figures['repetitions']} times each",
         f"{'responses known':<26}{figures['known_share']:.1%}, from {low_khz:g} to {high_khz:g} kHz; nothing beyond",
+        f"{'regularised by':<26}{figures['regularisation']:g} of the drive's power",
         f"{'coherence':<26}{told('coherence')} (least {told('least_coherence')})",
         f"{'signal over noise':<26}{told('snr_db', ' dB')} (least {told('least_snr_db', ' dB')})",
         f"{'noise of a sample':<26}{told('noise_pm_per_v', ' pm per V')}",

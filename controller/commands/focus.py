@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
+from controller.commands.focus_movie import add_movie, film, movie_path
 from controller.commands.output import picture_path, show
 from controller.commands.tables import amplitude_table, plain_table
 from controller.errors import ConfigError
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
+
+FINGER_MOST = (10e3, 1e3, 1e7)  # mg, N s/m, N/m
 
 
 def add(declare: Declare, common: argparse.ArgumentParser) -> None:
@@ -42,7 +45,14 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         metavar="MS",
         help="time from emission to emission for what repeating costs (default: their length)",
     )
+    point.add_argument(
+        "--finger-load",
+        type=_finger_load,
+        metavar="MASS_MG[,C,K]",
+        help="also the amplitudes with a finger on each focus, and with one elsewhere: mass, damping in N s/m, stiffness in N/m",
+    )
     point.add_argument("--plot", metavar="FILE", help="draw the plate at T, and the first focus over time (.png, .svg, .pdf)")
+    add_movie(point)
     point.set_defaults(command=focus)
 
 
@@ -51,7 +61,7 @@ def focus(options: argparse.Namespace) -> int:
     from controller.benchmark.focus_emission import emission_at, emission_figures, judged_foci
     from controller.benchmark.focus_figures import figures
 
-    picture = picture_path(options)
+    picture, movie = picture_path(options), movie_path(options)
     board = load_board(find_board(options.board))
     if options.figures:
         show(options, figures(board, options.seed), plain_table)
@@ -83,6 +93,15 @@ def focus(options: argparse.Namespace) -> int:
     period_s = _period_s(options.period_ms, board.waveform.duration_s)
     emission = emission_at(board, points_m, options.memory_mb)
     found = {"board": board.name, "foci": judged_foci(emission, period_s), "emission": emission_figures(emission, period_s)}
+    if options.finger_load:
+        from controller.benchmark.focus_fingers import finger_figures
+        from controller.physics.finger import Finger
+
+        mass_mg, damping_n_s_m, stiffness_n_m = options.finger_load
+        finger = Finger(mass_mg * 1e-6, damping_n_s_m, stiffness_n_m)
+        on_foci, found["finger_elsewhere"] = finger_figures(emission, finger, options.seed)
+        for row, of_finger in zip(found["foci"], on_foci, strict=True):
+            row["finger_on_it"] = of_finger
     if picture:
         from controller.physics.focus_series import focus_series
         from controller.physics.plot import plot_focus
@@ -90,6 +109,8 @@ def focus(options: argparse.Namespace) -> int:
         title = f"focus on {len(points_m)} point{'s' * (len(points_m) != 1)}"
         series = focus_series(emission.twin, emission.words, points_m[0])
         plot_focus(picture, board, emission.field, points_m, title, series)
+    if movie:
+        film(options, movie, emission, points_m)
     show(options, found, _table)
     return 0
 
@@ -97,7 +118,8 @@ def focus(options: argparse.Namespace) -> int:
 def _table(found: dict[str, Any]) -> str:
     """Each focus, then the emission; its channels one by one are only in --json."""
     emission = {name: value for name, value in found["emission"].items() if name != "channels"}
-    return "\n\n".join(map(plain_table, [*found["foci"], {"emission": emission}]))
+    elsewhere = [{name: found[name]} for name in ("finger_elsewhere",) if name in found]
+    return "\n\n".join(map(plain_table, [*found["foci"], {"emission": emission}, *elsewhere]))
 
 
 def _period_s(period_ms: float | None, duration_s: float) -> float:
@@ -126,6 +148,19 @@ def _on_plate(position_mm: float, extent_mm: float) -> float:
     if not 0 < position_mm < extent_mm:  # NaN too
         raise ConfigError(f"--at {position_mm:g}: not inside the plate (0 to {extent_mm:g} mm)")
     return position_mm * 1e-3
+
+
+def _finger_load(text: str) -> tuple[float, float, float]:
+    """Mass in mg, damping in N s/m and stiffness in N/m of a finger, the last two 0 where they are left out."""
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) not in {1, 3} or not all(0 <= value <= most for value, most in zip(values, FINGER_MOST, strict=False)):
+        most = "{:g} mg, {:g} N s/m and {:g} N/m".format(*FINGER_MOST)
+        raise argparse.ArgumentTypeError(f"{text!r} is not a mass, or a mass, damping and stiffness, from 0 to {most}")
+    mass_mg, damping_n_s_m, stiffness_n_m = (*values, 0.0, 0.0)[:3]
+    return mass_mg, damping_n_s_m, stiffness_n_m
 
 
 def _natural(text: str) -> int:

@@ -10,7 +10,7 @@ distance, but little, since each is kicked to the side that serves both (exact c
 Triangles and squares of 2 to 12 mm get at least 0.8 of what far foci get. What cannot be composed takes turns: two foci nearer
 than 3.5 mm that ask for unlike amplitudes, since they move together; and crowds: a lattice of six at 3 mm gets 0.16, of ten at
 3 to 6 mm next to nothing at worst. So a focus has at most three others within 7 mm; those nearer than 2.5 mm are one place with
-it, and are not counted.
+it, and are not counted. On a plate with longer or shorter waves these distances are as much of a wave.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import Final
 from controller.scene.emission import Emission
 from controller.waveforms.composition import MAX_FOCI
 
+# On the paper's plate; on others they go with the length of its waves
 MERGE_RADIUS_M: Final = 2.5e-3  # foci nearer than this are one place
 SEPARATION_M: Final = 3.5e-3  # foci nearer than this and of unlike amplitudes take turns
 CROWD_M: Final = 7e-3  # within which a focus has few others
@@ -29,7 +30,9 @@ MAX_NEIGHBOURS: Final = 3
 Emissions = tuple[Emission, ...]
 
 
-def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX_FOCI) -> tuple[Emissions, Emissions]:
+def select_batch(
+    due: Sequence[Emission], duration_s: float, max_foci: int = MAX_FOCI, wave_scale: float = 1.0
+) -> tuple[Emissions, Emissions]:
     """Choose what is played next as one waveform.
 
     The emission that has waited longest is always chosen. If it may be composed, so is every other one that may, that is due
@@ -45,6 +48,8 @@ def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX
         Length of an emission.
     max_foci : int
         Foci of one waveform.
+    wave_scale : float
+        Of the plate (`Bank.wave_scale`).
 
     Returns
     -------
@@ -57,29 +62,30 @@ def select_batch(due: Sequence[Emission], duration_s: float, max_foci: int = MAX
     latest_s = first.time_s + duration_s
     chosen, rest = [first], []
     for emission in due[1:]:
-        if emission.alternate or emission.time_s > latest_s or len(chosen) >= max_foci or _conflicts(emission, chosen):
+        if emission.alternate or emission.time_s > latest_s or len(chosen) >= max_foci or _conflicts(emission, chosen, wave_scale):
             rest.append(emission)
         else:
             chosen.append(emission)
     return tuple(chosen), tuple(rest)
 
 
-def _conflicts(emission: Emission, chosen: Sequence[Emission]) -> bool:
+def _conflicts(emission: Emission, chosen: Sequence[Emission], wave_scale: float) -> bool:
+    merge_m, separation_m, crowd_m = MERGE_RADIUS_M * wave_scale, SEPARATION_M * wave_scale, CROWD_M * wave_scale
     near = []
     for other in chosen:
         apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
-        if apart_m2 >= CROWD_M**2:
+        if apart_m2 >= crowd_m**2:
             continue
-        if apart_m2 < SEPARATION_M**2 and emission.amplitude != other.amplitude:
+        if apart_m2 < separation_m**2 and emission.amplitude != other.amplitude:
             return True
-        if apart_m2 >= MERGE_RADIUS_M**2:
+        if apart_m2 >= merge_m**2:
             near.append(other)
-    return len(near) > MAX_NEIGHBOURS or any(_neighbours(other, chosen) >= MAX_NEIGHBOURS for other in near)
+    return len(near) > MAX_NEIGHBOURS or any(_neighbours(other, chosen, merge_m, crowd_m) >= MAX_NEIGHBOURS for other in near)
 
 
-def _neighbours(emission: Emission, chosen: Sequence[Emission]) -> int:
+def _neighbours(emission: Emission, chosen: Sequence[Emission], merge_m: float, crowd_m: float) -> int:
     count = 0
     for other in chosen:
         apart_m2 = (emission.x_m - other.x_m) ** 2 + (emission.y_m - other.y_m) ** 2
-        count += MERGE_RADIUS_M**2 <= apart_m2 < CROWD_M**2
+        count += merge_m**2 <= apart_m2 < crowd_m**2
     return count

@@ -19,7 +19,6 @@ from controller.loop.records import ENDLESS, Batch, Turn
 from controller.loop.scheduler import Scheduler
 from controller.metrics import Counters
 from controller.touch.source import TrackedTouch
-from controller.waveforms.selection import REUSE_RADIUS_M
 
 PREFETCH_SLACK_S: Final = 3e-3  # nothing may be due sooner when a waveform is sent ahead
 RESIDENT_START_S: Final = 0.1e-3  # from a report to the start of a waveform that is resident
@@ -234,5 +233,5 @@ class Dispatcher:
         next_s = self._clock_estimate.host_s(min(self._scheduler.next_s(), self._scheduler.spots.next_s()))
         timing = self._timing
         if next_s - timing.lead_s > turn.now_s + max(PREFETCH_SLACK_S, timing.upload.promised_s):
-            steady = self._source.missed_m(finger) <= REUSE_RADIUS_M
+            steady = self._source.missed_m(finger) <= self._playback.reuse_m
             self._playback.prefetch(finger, *wanted, steady=steady, fingers=self._scheduler.fingers)

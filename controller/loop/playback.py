@@ -26,7 +26,7 @@ from controller.loop.slot_cache import SlotCache
 from controller.metrics import Counters
 from controller.scene.emission import Emission
 from controller.waveforms.composition import Point
-from controller.waveforms.selection import QUIET, REUSE_RADIUS_M, Key, Selection
+from controller.waveforms.selection import QUIET, Key, Selection
 
 Locate = Callable[[int, float], tuple[float, float] | None]
 """Where a finger will be at a time of the host, (x_m, y_m); None if it is not down."""
@@ -107,6 +107,11 @@ class Playback:
         self._slots = self._new_slots(slots)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
+
+    @property
+    def reuse_m(self) -> float:
+        """As `Selection.reuse_m`."""
+        return self._selection.reuse_m
 
     def stop_repeating(self, now_s: float) -> float | None:
         """End the endless repetition; host time at which its last emission began, or None if its first one has yet to."""
@@ -387,7 +392,7 @@ class Playback:
             self._selection.recheck(key)
 
     def _new_slots(self, slots: int) -> SlotCache:
-        near_m = REUSE_RADIUS_M if self._skips.near else -1.0
+        near_m = self.reuse_m if self._skips.near else -1.0
         return SlotCache(slots, self._selection.single_focus, near_m, self._skips.resident)
 
     def _take(self) -> int:

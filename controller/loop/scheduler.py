@@ -72,11 +72,13 @@ class Scheduler:
         max_unconfirmed: int,
         outcomes: Outcomes,
         skips: Skips = ALL,
+        wave_scale: float = 1.0,
     ) -> None:
         self.scene = scene
         self._skips = skips
         self._max_foci = MAX_FOCI if skips.together else 1
-        self.spots = Spots(scene.spots, FpgaTime(0.0), skips.repeated)
+        self._wave_scale = wave_scale
+        self.spots = Spots(scene.spots, FpgaTime(0.0), skips.repeated, wave_scale)
         self._counters = counters
         self._confirmed = confirmed
         self._max_unconfirmed = max_unconfirmed
@@ -172,7 +174,7 @@ class Scheduler:
             When the beat of the spots goes on, after the one that is played now.
         """
         self.spots.restart(next_s)
-        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER, self._max_foci)[0])
+        played = list(select_batch([*emissions, *self.spots.before_start()], NEVER, self._max_foci, self._wave_scale)[0])
         self._counters.due += len(played) - len(emissions)
         return played
 
@@ -209,7 +211,7 @@ class Scheduler:
             due = tuple(self.due.values())
             if not due[0].period_s and now_s - due[0].time_s < MAX_DEFERRAL_S:
                 due = tuple(sorted(due, key=_has_no_beat))
-            first, rest = select_batch(due, duration_s, self._max_foci)
+            first, rest = select_batch(due, duration_s, self._max_foci, self._wave_scale)
             chosen = list(first)
             self.due = {emission.owner: emission for emission in rest}
         return chosen
@@ -364,7 +366,7 @@ class Scheduler:
         self.scene = scene
         for active in self._active.values():
             active.change_scene(scene)
-        self.spots = Spots(scene.spots, now_s, self._skips.repeated)
+        self.spots = Spots(scene.spots, now_s, self._skips.repeated, self._wave_scale)
 
     def _add(self, emissions: tuple[Emission, ...]) -> None:
         self._counters.due += len(emissions)

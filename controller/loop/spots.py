@@ -24,6 +24,8 @@ class Spots:
         When their beat begins.
     repeats : bool
         Whether the FPGA may repeat them.
+    wave_scale : float
+        Of the plate (`Bank.wave_scale`).
 
     Attributes
     ----------
@@ -31,8 +33,8 @@ class Spots:
         Period in which the FPGA can repeat all of them as one waveform; None if it cannot.
     """
 
-    def __init__(self, spots: Sequence[Spot], start_s: FpgaTime, repeats: bool = True) -> None:
-        self.common_period_s = common_period_s(spots) if repeats else None
+    def __init__(self, spots: Sequence[Spot], start_s: FpgaTime, repeats: bool = True, wave_scale: float = 1.0) -> None:
+        self.common_period_s = common_period_s(spots, wave_scale) if repeats else None
         self._start_s = start_s
         self._beats = dict.fromkeys(spots, 0)
 
@@ -63,15 +65,15 @@ class Spots:
         return min([spot_emission(spot, self._start_s, beat).time_s for spot, beat in self._beats.items()], default=FPGA_NEVER)
 
 
-def common_period_s(spots: Sequence[Spot]) -> float | None:
+def common_period_s(spots: Sequence[Spot], wave_scale: float = 1.0) -> float | None:
     """Period in s in which the FPGA can repeat all spots as one waveform; None if they need turns, or there are none."""
     if not spots or len({(spot.rate_hz, spot.phase) for spot in spots}) > 1:
         return None
-    _, rest = select_batch([spot_emission(spot, FpgaTime(0.0), 0) for spot in spots], 0.0)
+    _, rest = select_batch([spot_emission(spot, FpgaTime(0.0), 0) for spot in spots], 0.0, wave_scale=wave_scale)
     return None if rest else 1 / spots[0].rate_hz
 
 
-def needs_responses(scene: Scene) -> bool:
+def needs_responses(scene: Scene, wave_scale: float = 1.0) -> bool:
     """Whether a scene can ask for more than entries of cells and what its spots play together: composing, on the device.
 
     Otherwise each emission for a finger is alone, at full amplitude and without quiet places, and all spots have one period. What a
@@ -83,4 +85,4 @@ def needs_responses(scene: Scene) -> bool:
             return True
         if any(train.amplitude != 1 or train.envelope for train in trains) or any(step.amplitude != 1 for step in region.spacings):
             return True
-    return bool(scene.spots) and common_period_s(scene.spots) is None
+    return bool(scene.spots) and common_period_s(scene.spots, wave_scale) is None

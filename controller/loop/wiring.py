@@ -100,7 +100,9 @@ def assemble(
     playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots])
 
     outcomes = _nobody if commands is None else commands.outcome
-    scheduler = Scheduler(scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes, skips)
+    scheduler = Scheduler(
+        scene, counters, source.confirmed, board.touch.max_emissions_unconfirmed, outcomes, skips, bank.wave_scale
+    )
     dispatcher = Dispatcher(clock, session, source, scheduler, playback, clock_estimate, counters)
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
     never_idle = msgspec.structs.replace(board, idle_disarm_s=None)

@@ -16,15 +16,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from controller.board.board import Board
 from controller.physics.modes import Modes, at_points
-from controller.physics.plate import bending_wavelength_m
+from controller.physics.plate import MIDDLE_HZ, middle_hz, wave_scale
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 
-# On the paper's plate, in whose band's middle waves are 10.54 mm long; `FocusScale` has them for others
-MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
+# On the paper's plate; `FocusScale` has them for others
 MAP_STEP_M = 2e-3
 OUTSIDE_M = 10e-3  # contrast is relative to points farther than this from the focus
 LINE_M: Floats = np.arange(-120.0, 121) * 0.05e-3  # where the spot is measured
@@ -59,9 +58,8 @@ class FocusScale:
     @classmethod
     def of(cls, board: Board) -> FocusScale:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
-        middle_hz = (board.waveform.band_low_hz + board.waveform.band_high_hz) / 2
-        longer = float(f"{bending_wavelength_m(board.plate, middle_hz) / WAVELENGTH_M:.3g}")
-        slower = float(f"{MIDDLE_HZ / middle_hz:.3g}")
+        longer = wave_scale(board)
+        slower = float(f"{MIDDLE_HZ / middle_hz(board.waveform):.3g}")
         return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower)
 
 

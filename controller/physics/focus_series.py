@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from controller.bank.packing import channel_bits
 from controller.physics.driver import DriverResponse
 from controller.physics.modal_history import modal_history
+from controller.physics.modes import slowest_decay_s
 from controller.physics.plate_twin import PlateTwin
 
 Floats = NDArray[np.float64]
@@ -59,8 +60,8 @@ def focus_series(twin: PlateTwin, words: NDArray[np.uint32], point_m: tuple[floa
     point_m : (x_m, y_m)
     """
     board = twin.board
-    rest = int(np.ceil(REST_TAUS * board.plate.decay_time_s / board.waveform.bit_period_s))
-    played = np.concatenate([words, np.full(min(rest, 4 * len(words)), board.idle_word)]).astype("<u4")
+    rest = int(min(np.ceil(REST_TAUS * slowest_decay_s(twin.modes) / board.waveform.bit_period_s), 4 * len(words)))
+    played = np.concatenate([words, np.full(rest, board.idle_word)]).astype("<u4")
     levels = np.repeat(channel_bits(played).astype(np.float64) * board.driver.supply_v, PARTS, axis=0)
     idle = channel_bits(np.array([board.idle_word], "<u4")).astype(np.float64) * board.driver.supply_v
     period_s = board.waveform.bit_period_s / PARTS

@@ -29,9 +29,7 @@ class ModalMotion(NamedTuple):
     velocity: Floats
 
 
-def modal_history(
-    step: StepResponse, forces: Floats, volts: Floats, bit_period_s: float, shown: NDArray[np.bool_] | None = None
-) -> Iterator[ModalMotion]:
+def modal_history(step: StepResponse, forces: Floats, volts: Floats, bit_period_s: float) -> Iterator[ModalMotion]:
     """Motion from rest, in blocks of `TIMES_AT_ONCE` bits.
 
     Parameters
@@ -43,8 +41,6 @@ def modal_history(
         Above the level at rest, each held for one bit period; zero before.
     bit_period_s : float
         Give each bit n times, and an n-th of its period, to see what happens within it.
-    shown : (bit,) bool array, optional
-        Bits at whose ends the motion is wanted; all by default. The others take a fifth of the time.
 
     Yields
     ------
@@ -64,13 +60,7 @@ def modal_history(
             states[k] *= turn
             state = states[k]
             driver = drivers[k] = (driver + step_v) * driver_turn
-        levels = volts[first : first + TIMES_AT_ONCE]
-        if shown is not None:
-            here = shown[first : first + TIMES_AT_ONCE]
-            if not here.any():
-                continue
-            states, drivers, levels = states[here], drivers[here], levels[here]
-        level = (levels @ forces.T) * step.static
+        level = (volts[first : first + TIMES_AT_ONCE] @ forces.T) * step.static
         settling = _of_drivers(step, forces, drivers)
         sinking = _of_drivers(step, forces, drivers * step.driver_poles[:, None])
         yield ModalMotion(level + step.by_mode(states.T.real).T + settling, step.by_mode((states * step.poles).T.real).T + sinking)

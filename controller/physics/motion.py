@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 AT_ONCE = 64  # times, or steps, whose modes are in memory together
+SETTLED_V = 1e-6  # of a driver's transient
 DERIVATIVE = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 
@@ -81,9 +82,10 @@ class PlateMotion:
         driver = np.zeros((2, steps_v.shape[1], emissions), np.complex128)
         level = np.zeros((count, emissions))
         done = np.searchsorted(step_s, times_s, side="right")  # steps before each time
-        now_s, taken = 0.0, 0
+        now_s, taken = min(0.0, float(step_s[0])) if len(step_s) else 0.0, 0
         ahead: Floats = np.zeros((0, 0, 0))  # forces of the next steps: (step, pole, emission)
         ahead_from = 0
+        coast = _Coast(step, times_s, residues)
         for first in range(0, len(times_s), AT_ONCE):
             some = times_s[first : first + AT_ONCE]
             block = np.empty((count, len(some), emissions), np.float32)
@@ -94,16 +96,21 @@ class PlateMotion:
                         ahead = np.matmul(pole_forces, steps_v[number : number + AT_ONCE])
                     passed_s = float(step_s[number]) - now_s
                     now_s = float(step_s[number])
-                    plate *= self._decay(step.poles, passed_s)[:, None]
+                    plate *= np.exp(step.poles * passed_s)[:, None]
                     plate += ahead[number - ahead_from]
-                    driver *= self._decay(step.driver_poles, passed_s)[:, None, None]
+                    driver *= np.exp(step.driver_poles * passed_s)[:, None, None]
                     driver += steps_v[number]
                     if derivative == 0:
                         level += step.static[:, None] * (self.forces @ steps_v[number])
                 taken = upto
-                plate *= self._decay(step.poles, time_s - now_s)[:, None]
-                driver *= self._decay(step.driver_poles, time_s - now_s)[:, None, None]
+                plate *= np.exp(step.poles * (time_s - now_s))[:, None]
+                driver *= np.exp(step.driver_poles * (time_s - now_s))[:, None, None]
                 now_s = time_s
+                if index == 0 and done[first + len(some) - 1] == taken and coast.even and np.abs(driver).max() < SETTLED_V:
+                    block[:] = coast.amplitudes(plate, len(some))
+                    if derivative == 0:
+                        block += level[:, None].astype(np.float32)
+                    break
                 moved = (residues * plate).real
                 amplitudes = step.by_mode(moved) if len(moved) > count else moved
                 for residue, state in zip(driver_residues.T, driver, strict=True):
@@ -111,6 +118,18 @@ class PlateMotion:
                 block[:, index] = amplitudes + level if derivative == 0 else amplitudes
             yield block
 
-    def _decay(self, poles: Complex, passed_s: float) -> Complex:
-        """exp(pole * time)."""
-        return np.exp(poles * passed_s)
+
+class _Coast:
+    """Free decay over a block of evenly spaced times, during which no voltage changes and the drivers have settled."""
+
+    def __init__(self, step: StepResponse, times_s: Floats, residues: Complex) -> None:
+        apart_s = np.diff(times_s)
+        self.even = len(times_s) > AT_ONCE and bool(np.ptp(apart_s) < 1e-12)
+        self._step = step
+        self._decay: Complex = residues * np.exp(np.outer(step.poles, np.arange(AT_ONCE) * apart_s[0])) if self.even else residues
+
+    def amplitudes(self, plate: Complex, count: int) -> NDArray[np.float32]:
+        """Of the modes at `count` times from that of `plate` on: (mode, time, emission)."""
+        decay = self._decay[:, :count]
+        moved = decay.real[:, :, None] * plate.real[:, None] - decay.imag[:, :, None] * plate.imag[:, None]
+        return self._step.by_mode(moved).astype(np.float32)

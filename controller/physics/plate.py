@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from controller.board.board import Board
 from controller.board.panel import Plate, Waveform
 from controller.physics.mindlin import MindlinPlate
 
+# On the paper's plate, in whose band's middle waves are 10.54 mm long; `wave_scale` says what they are on others
+MIDDLE_HZ, WAVELENGTH_M = 45e3, 10.54e-3
 LEAST_CUT_HZ = 100e3  # bits of a low band still excite what lies far above it: their corners pass the driver up to here
 
 
@@ -30,3 +33,16 @@ def bending_wavelength_m(plate: Plate, frequency_hz: float) -> float:
         return float(2 * np.pi / MindlinPlate.of(plate).wavenumber(2 * np.pi * frequency_hz))
     per_area = plate.density_kg_m3 * plate.thickness_m
     return float((bending_stiffness(plate) / per_area) ** 0.25 * (2 * np.pi / frequency_hz) ** 0.5)
+
+
+def middle_hz(waveform: Waveform) -> float:
+    """Middle of a waveform's band."""
+    return (waveform.band_low_hz + waveform.band_high_hz) / 2
+
+
+def wave_scale(board: Board) -> float:
+    """How much longer the waves of a board are than those of the paper's plate, each in the middle of its band.
+
+    Lengths that were found on the paper's plate go with it. Rounded to three digits: exactly one for the shipped boards.
+    """
+    return float(f"{bending_wavelength_m(board.plate, middle_hz(board.waveform)) / WAVELENGTH_M:.3g}")

@@ -23,7 +23,7 @@ from controller.physics.ritz import ModeClass, PlateShape, longest_matrix
 
 Floats = NDArray[np.float64]
 
-LONGEST_MATRIX = 8_000  # functions of a class of modes: half a gigabyte a matrix, two minutes
+LONGEST_MATRIX = 6_500  # functions of a class of modes: 0.34 GB a matrix, two of which are needed, and a minute
 AT_ONCE = 4_000_000  # numbers in use between the two sums of a shape: 32 MB
 
 
@@ -72,7 +72,7 @@ class RitzModes:
             limit_hz = _limit(shape, highest_k) ** 2 * speed / (2 * np.pi)
             raise ConfigError(
                 f"modes with these plate.edges are computed up to {limit_hz:.3g} Hz on this plate, not to {highest_hz:g} Hz:"
-                ' take edges = "simply_supported", a thicker or smaller plate, or a lower band'
+                ' take edges = "simply_supported", or a thicker or smaller plate'
             )
         solution = solved(shape, highest_k)
         wavenumber4 = np.concatenate([found.wavenumber4 for found in solution.classes])

@@ -8,11 +8,15 @@ from numpy.typing import NDArray
 from controller.scene.scene import Scene
 from controller.scene.shapes import Boxes
 
-SLACK_M = 0.25e-3  # a point may be rounded by this much before its cells are looked up (waveforms/selection.py)
+SLACK_M = (
+    0.25e-3  # a point may be rounded by this much, times the wave scale, before its cells are looked up (waveforms/selection.py)
+)
 FAR_M = 1e3  # beyond every plate
 
 
-def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0) -> NDArray[np.bool_]:
+def cells_needed(
+    scene: Scene, points_m: NDArray[np.float64], pitch_m: float, margin_m: float = 0.0, *, wave_scale: float = 1.0
+) -> NDArray[np.bool_]:
     """Cells that a scene can ask for: the four cells around every point where it may emit.
 
     A point beyond the outermost cells needs those nearest to it. An effect of `leave` may be felt anywhere, and the
@@ -26,6 +30,8 @@ def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, ma
         Distance of neighbouring cells.
     margin_m : float
         How far beyond its region's border an emission for a finger may be, because its place is predicted.
+    wave_scale : float
+        Of the plate (`Bank.wave_scale`).
 
     Returns
     -------
@@ -34,7 +40,7 @@ def cells_needed(scene: Scene, points_m: NDArray[np.float64], pitch_m: float, ma
     x, y = points_m[:, 0], points_m[:, 1]
     near, wide = (
         Boxes(*_influence(x, half_m, pitch_m), *_influence(y, half_m, pitch_m))
-        for half_m in (pitch_m + SLACK_M, pitch_m + SLACK_M + margin_m)
+        for half_m in (pitch_m + SLACK_M * wave_scale, pitch_m + SLACK_M * wave_scale + margin_m)
     )
     needed = np.zeros(len(points_m), bool)
     for region in scene.regions:

@@ -14,8 +14,9 @@ from urllib.parse import unquote, urlsplit
 
 DISTRIBUTION = "haptic-panel"
 OFFLINE = frozenset(
-    {"scipy", "matplotlib", "mpl_toolkits", "tqdm", "threadpoolctl", "dask", "distributed"}
+    {"scipy", "matplotlib", "mpl_toolkits", "PIL", "tqdm", "threadpoolctl", "dask", "distributed"}
 )  # installed by the extra `offline`
+MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 
 
@@ -31,6 +32,8 @@ def missing_package(name: str | None) -> str | None:
     package = (name or "").partition(".")[0]
     if package in OFFLINE:
         return f"{package} is missing, one of the offline tools that this needs: {install_line('offline')}"
+    if package in MEASURE:
+        return f"{package} is missing, which records from a sound card: {install_line('measure')}"
     if package in DRIVERS:
         return f"{package} is missing, the driver that this device needs (Linux only): {install_line()}"
     return None

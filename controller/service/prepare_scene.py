@@ -14,7 +14,7 @@ from controller.loop.spots import needs_responses
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene, load_scene
 from controller.scene.scene_file import find_scene
-from controller.waveforms.selection import lattice_key
+from controller.waveforms.selection import LATTICE_M, lattice_key
 
 
 def prepare(board: Board, name: str, bank_file: Path) -> Scene:
@@ -56,7 +56,7 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
         If the bank lacks one, or one is damaged.
     """
     cells = cells_of(bank, scene, called)
-    if not bank.composes and (needs_responses(scene) or not _spots_composed(bank, scene)):
+    if not bank.composes and (needs_responses(scene, bank.wave_scale) or not _spots_composed(bank, scene)):
         raise BankError(
             f"{bank.path}: holds no responses, from which {called} needs waveforms composed; rebuild it: {bank.rebuild}"
         )
@@ -70,7 +70,9 @@ def populate(bank: Bank, scene: Scene, called: str, *, responses: bool = False) 
 def _spots_composed(bank: Bank, scene: Scene) -> bool:
     """Whether a cell or a ready composition of the bank serves what the spots of one period play together."""
     spots = [(spot.x_m, spot.y_m, spot.amplitude) for spot in scene.spots]
-    return not spots or (len(spots) == 1 and spots[0][2] == 1) or lattice_key(spots) in bank.compositions
+    return (
+        not spots or (len(spots) == 1 and spots[0][2] == 1) or lattice_key(spots, LATTICE_M * bank.wave_scale) in bank.compositions
+    )
 
 
 def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
@@ -81,7 +83,7 @@ def cells_of(bank: Bank, scene: Scene, called: str) -> list[int]:
     BankError
         If the bank lacks one.
     """
-    wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m)
+    wanted = cells_needed(scene, bank.grid.points(), bank.grid.pitch_m, wave_scale=bank.wave_scale)
     missing = int((wanted & ~bank.cells).sum())
     if missing:
         raise BankError(f"{bank.path}: has no entry for {missing} cells that {called} can reach; rebuild it: {bank.rebuild}")

@@ -21,6 +21,7 @@ from controller.kernel import MAX_QUIET
 from controller.waveforms.amplitude import AMPLITUDES, amplitude_step
 from controller.waveforms.composition import Composer, Point
 
+# On the paper's plate; on others they go with the length of its waves (`Bank.wave_scale`)
 LATTICE_M: Final = 0.25e-3  # at most 0.18 mm off: less than 1 % of the amplitude
 REUSE_RADIUS_M: Final = 0.4e-3  # a waveform for a place this near serves as well: at most 2.5 % less amplitude (README.md)
 
@@ -43,10 +44,20 @@ class Selection:
         Level of each channel at rest: bit q is channel q.
     ready : bool
         False: what the bank has composed beforehand is composed all the same.
+
+    Attributes
+    ----------
+    lattice_m : float
+        Distance of the points to which places are rounded.
+    reuse_m : float
+        A waveform for a place this near serves as well.
     """
 
     def __init__(self, bank: Bank, snap_m: float, idle_word: int, *, ready: bool = True) -> None:
         self._bank = bank
+        self.lattice_m = LATTICE_M * bank.wave_scale
+        self._quiet_apart_m = QUIET_APART_M * bank.wave_scale
+        self.reuse_m = REUSE_RADIUS_M * bank.wave_scale
         self._compositions = bank.compositions if ready else {}
         self._snap_m = snap_m
         self._idle_word = idle_word
@@ -91,13 +102,14 @@ class Selection:
                 cell, distance_m = self._bank.grid.nearest(x_m, y_m)
                 if distance_m <= self._snap_m:
                     return cell
-            return ((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step),)
-        return lattice_key(points)
+            lattice_m = self.lattice_m
+            return ((floor(x_m / lattice_m + TO_WHOLE - TO_WHOLE), floor(y_m / lattice_m + TO_WHOLE - TO_WHOLE), step),)
+        return lattice_key(points, self.lattice_m)
 
     def quiet_key(self, points: Sequence[Point], places: Sequence[tuple[float, float]]) -> Key:
         """Name of the waveform for points that leaves other places (x_m, y_m) still, at most four: those nearest to a point.
 
-        Places within 5 mm of a point are left as they are.
+        Places within 5 mm of a point (on the paper's plate) are left as they are.
 
         Raises
         ------
@@ -107,13 +119,13 @@ class Selection:
         apart = []
         for x_m, y_m in places:
             distance_m = min([math.hypot(x_m - to_x_m, y_m - to_y_m) for to_x_m, to_y_m, _ in points])
-            if distance_m >= QUIET_APART_M:
+            if distance_m >= self._quiet_apart_m:
                 apart.append((distance_m, x_m, y_m))
         if not apart:
             return self.key(points)
         apart.sort()
-        still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_QUIET]])
-        return (*lattice_key(points), *[(x, y, QUIET) for x, y, _ in still])
+        still = lattice_key([(x_m, y_m, 1.0) for _, x_m, y_m in apart[:MAX_QUIET]], self.lattice_m)
+        return (*lattice_key(points, self.lattice_m), *[(x, y, QUIET) for x, y, _ in still])
 
     def waveform(self, key: Key) -> Waveform:
         """Waveform of a key: the bank's frames as they are, or composed drive words, which are valid until the next call.
@@ -133,10 +145,11 @@ class Selection:
                 return ReadyFrames(*self._bank.composed(key))
         if self._composer is None:  # maps the response section: only scenes that need it pay for it
             self._composer = Composer(self._bank, self._idle_word)
-        points = [(x * LATTICE_M, y * LATTICE_M, AMPLITUDES[step]) for x, y, step in key if step != QUIET]
+        lattice_m = self.lattice_m
+        points = [(x * lattice_m, y * lattice_m, AMPLITUDES[step]) for x, y, step in key if step != QUIET]
         words = self._composer.compose(points)
         if len(points) < len(key):
-            self._composer.keep_still(points, [(x * LATTICE_M, y * LATTICE_M, 1.0) for x, y, step in key if step == QUIET])
+            self._composer.keep_still(points, [(x * lattice_m, y * lattice_m, 1.0) for x, y, step in key if step == QUIET])
         self._bank.require_unchanged()
         return words
 
@@ -154,7 +167,7 @@ class Selection:
             self._bank.recheck_composed(key)
 
     def reusable(self, key: Key, resident: Key) -> bool:
-        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within REUSE_RADIUS_M.
+        """Whether a resident waveform serves instead of another: both of a single point, of one amplitude, within `reuse_m`.
 
         Parameters
         ----------
@@ -166,7 +179,7 @@ class Selection:
         wanted, there = self.single_focus(key), self.single_focus(resident)
         if wanted is None or there is None or wanted[2] != there[2]:
             return False
-        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= REUSE_RADIUS_M
+        return math.hypot(wanted[0] - there[0], wanted[1] - there[1]) <= self.reuse_m
 
     def single_focus(self, key: Key) -> tuple[float, float, int] | None:
         """Place (x_m, y_m) and amplitude step of a key of a single point; None for a key of several."""
@@ -175,14 +188,14 @@ class Selection:
         if len(key) != 1:
             return None
         x, y, step = key[0]
-        return x * LATTICE_M, y * LATTICE_M, step
+        return x * self.lattice_m, y * self.lattice_m, step
 
 
-def lattice_key(points: Sequence[Point]) -> tuple[LatticePoint, ...]:
-    """Points (x_m, y_m, amplitude) on the lattice, in ascending order."""
+def lattice_key(points: Sequence[Point], lattice_m: float) -> tuple[LatticePoint, ...]:
+    """Points (x_m, y_m, amplitude) on a lattice of `lattice_m`, in ascending order."""
     lattice = []
     for x_m, y_m, amplitude in points:
         step = 0 if amplitude == 1 else amplitude_step(amplitude)
-        lattice.append((floor(x_m / LATTICE_M + TO_WHOLE - TO_WHOLE), floor(y_m / LATTICE_M + TO_WHOLE - TO_WHOLE), step))
+        lattice.append((floor(x_m / lattice_m + TO_WHOLE - TO_WHOLE), floor(y_m / lattice_m + TO_WHOLE - TO_WHOLE), step))
     lattice.sort()
     return tuple(lattice)

@@ -1,13 +1,17 @@
+import ast
 import hashlib
 import json
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 
+import controller
+from controller.bank.file_format import MODEL_CODE
 from controller.bank.grid import Grid
 from controller.bank.inspection import bank_info, fit, verify_bank
 from controller.bank.packing import channel_bits, drive_words
@@ -99,6 +103,22 @@ def test_refuses_a_pitch_or_a_scene_that_leaves_no_cell(board, tmp_path):
     with pytest.raises(ValueError, match="cells are"):
         build_bank(board, tmp_path / "bank", PITCH_M, np.ones(14, bool))
     assert not list(tmp_path.iterdir())
+
+
+def test_the_creator_of_a_bank_is_a_checksum_of_all_the_code_of_the_model():
+    """All modules of physics that responses are computed by, directly or not."""
+    package, reached, ahead = Path(controller.__file__).parent, set(), ["physics/impulse_response.py"]
+    while ahead:
+        module = ahead.pop()
+        if module in reached or not (package / module).is_file():
+            continue
+        reached.add(module)
+        for node in ast.walk(ast.parse((package / module).read_text())):
+            if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("controller.physics"):
+                inside = node.module.removeprefix("controller.").replace(".", "/")
+                ahead += [f"{inside}.py", *(f"{inside}/{name.name}.py" for name in node.names)]
+    assert len(reached) > 5
+    assert reached <= set(MODEL_CODE)
 
 
 def test_refuses_a_folder_that_cannot_be(board, tmp_path):

@@ -151,7 +151,7 @@ def test_what_is_played_keeps_the_limits_and_tells_channels_apart(kind, board):
         (["--swapped", "1", "-1"], 2, "--swapped -1: board"),
         (["--scattered", "0"], 78, "0 points are not from 1"),
         (["--points", "/nowhere.csv"], 78, "/nowhere.csv"),
-        (["--plate", "thickness_mm=-1"], 78, "--plate thickness_mm=-1: thickness_mm = -1"),
+        (["--plate", "thickness_mm=-1"], 78, "--plate: thickness_mm = -1"),
     ],
 )
 def test_options_that_make_no_sense_are_refused(tmp_path, capsys, arguments, code, said):

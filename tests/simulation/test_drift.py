@@ -282,7 +282,7 @@ def test_keys_of_the_plate_one_by_one(board):
     )
     assert (on.plate.thickness_mm, on.plate.edges.y1) == (0.7, "clamped")
     for text, said in (
-        ("thickness_mm=thick", "plate thickness_mm=thick: thickness_mm = 'thick'"),
+        ("thickness_mm=thick", "--plate: thickness_mm = 'thick'"),
         ("thick=1", "unknown key"),
         ("a/b", "not found"),
     ):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from controller.benchmark.methods.candidate import RESIDENT_WIRE_BYTES, Candidat
 from controller.benchmark.methods.laboratory import Laboratory
 from controller.kernel import Point, unpack_loads, words_twin
 from controller.waveforms.composition import Composer
-from controller.waveforms.selection import LATTICE_M, Selection
+from controller.waveforms.selection import Selection
 
 CELL_PITCHES_MM = (1.0, 2.5, 5.0, 10.0)
 PITCHES_MM = (1.0, 2.5, 5.0)
@@ -58,12 +59,12 @@ def candidates(laboratory: Laboratory) -> Iterator[Candidate]:
             selection = Selection(bank, board.bank.snap_mm * 1e-3, board.idle_word)
             yield Candidate(
                 "resident waveform",
-                "0.25 mm lattice",
+                f"{1e3 * selection.lattice_m:g} mm lattice",
                 Resident(selection, composer),
                 memory,
                 RESIDENT_WIRE_BYTES,
                 free_polarity=True,
-                words_of=_of_lattice,
+                words_of=partial(_of_lattice, selection.lattice_m),
             )
 
 
@@ -138,8 +139,8 @@ class Resident:
         return self._composer, points, self._held.setdefault(key, len(self._held))
 
 
-def _of_lattice(found: tuple[Composer, Sequence[Point], int]) -> Words:
+def _of_lattice(lattice_m: float, found: tuple[Composer, Sequence[Point], int]) -> Words:
     """Words that were composed for the lattice's points when they were uploaded."""
     composer, points, _ = found
-    rounded = [(round(x_m / LATTICE_M) * LATTICE_M, round(y_m / LATTICE_M) * LATTICE_M, share) for x_m, y_m, share in points]
+    rounded = [(round(x_m / lattice_m) * lattice_m, round(y_m / lattice_m) * lattice_m, share) for x_m, y_m, share in points]
     return np.frombuffer(composer.compose(rounded), "<u4").astype(np.uint32)

@@ -18,14 +18,15 @@ complete haptic-panel \
         'c/--out=/f/' \
         'c/--optimise=/(contrast quiet balanced)/' \
         'c/--capacitance-f=/f/' \
+        'c/--movie=/f/' \
         'c/--no-skip=/(idle resident repeated ahead near cells together)/' \
-        'c/--accept=/(dead swapped inverted clipped strength)/' \
         'c/--points=/f/' \
-        'c/--drive=/(chirp noise)/' \
-        'c/--quantity=/(m m/s m/s^2)/' \
         'c/--rate-khz=/f/' \
+        'c/--drive=/(chirp noise)/' \
+        'c/--accept=/(dead swapped inverted clipped strength)/' \
+        'c/--quantity=/(m m/s m/s^2)/' \
         'c/--targets=/(3 4 5)/' \
-        'c/--/(accept also amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm dask dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive duration-ms figures finger-mg ghosts grid help idle-figures inductance-h inverted json lag length-mm link margin-mm memory-mb missing moment-n-per-v no-chirps no-pictures no-skip no-timing optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm scattered scene seconds seed sensor settle-ms size-mm snr-db speed speed-mm-s supply-v swapped sweep targets thickness-mm version width-mm workers write young-modulus-pa)/' \
+        'c/--/(accept alsa also amplitude-figures amplitude-um at avoid-actuators band-high-hz band-low-hz bank baud bit-clock-hz bits board capacitance-f channel channels clip clock-ppm dask dead decay-time-ms delay-us density-kg-m3 device drift drift-percent drive duration-ms figures finger-load finger-mg full-scale ghosts grid help idle-figures inductance-h inverted json lag length-mm link margin-mm markdown memory-mb missing moment-n-per-v move movie movie-frames movie-from-ms movie-step-us movie-to-ms no-chirps no-pictures no-skip no-timing noise optimise out pause-s period-ms pid pitch-mm plate plot points poisson-ratio power quantity quick rate-khz record-ms reference repeats repetitions replay resistance-ohm scattered scene seconds seed sensor serial settle-ms size-mm snr-db speed speed-mm-s supply-v swapped sweep sync targets temperature-c thickness-mm v-per-m v-per-m-s v-per-m-s2 version width-mm workers write yes young-modulus-pa)/' \
         'c/-/(- h)/' \
         'n/--replay/f/' \
         'n/--bank/f/' \
@@ -37,19 +38,20 @@ complete haptic-panel \
         'n/--out/f/' \
         'n/--optimise/(contrast quiet balanced)/' \
         'n/--capacitance-f/f/' \
+        'n/--movie/f/' \
         'n/--no-skip/(idle resident repeated ahead near cells together)/' \
-        'n/--accept/(dead swapped inverted clipped strength)/' \
         'n/--points/f/' \
-        'n/--drive/(chirp noise)/' \
-        'n/--quantity/(m m/s m/s^2)/' \
         'n/--rate-khz/f/' \
+        'n/--drive/(chirp noise)/' \
+        'n/--accept/(dead swapped inverted clipped strength)/' \
+        'n/--quantity/(m m/s m/s^2)/' \
         'n/--targets/(3 4 5)/' \
         'p/1/(run doctor board gateware bank design focus benchmark record calibrate calibrate-touch reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build choices info verify)/' \
-        'n/benchmark/(skipping)/' \
-        'n/calibrate/(plan check bank simulate)/' \
+        'n/benchmark/(skipping paper)/' \
+        'n/calibrate/(plan measure check bank simulate)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
