@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from controller.board.panel import Plate
+from controller.physics.mindlin import MindlinPlate
 from controller.physics.plate import bending_stiffness
 
 
@@ -56,27 +57,14 @@ def kirchhoff_wavelength_m(plate: Plate, frequency_hz: float) -> float:
 
 
 def mindlin_wavelength_m(plate: Plate, frequency_hz: float) -> float:
-    """The same with shear and rotary inertia: shorter; within 1.2e-5 of Rayleigh and Lamb's exact wave to 80 kHz in 0.5 mm glass.
-
-    Root of D k^4 - w^2 (rho I + D rho / (kappa G)) k^2 - w^2 rho h + w^4 rho^2 I / (kappa G) = 0, kappa = 5 / (6 - nu).
-    """
-    shear_pa = plate.young_modulus_pa / (2 * (1 + plate.poisson_ratio)) * 5 / (6 - plate.poisson_ratio)
-    stiffness, density = bending_stiffness(plate), plate.density_kg_m3
-    inertia, squared = density * plate.thickness_m**3 / 12, (2 * math.pi * frequency_hz) ** 2
-    linear = squared * (inertia + stiffness * density / shear_pa)
-    rest = squared * (density * plate.thickness_m - squared * density * inertia / shear_pa)
-    wavenumber_squared = (linear + math.sqrt(linear**2 + 4 * stiffness * rest)) / (2 * stiffness)
-    return 2 * math.pi / math.sqrt(wavenumber_squared)
+    """The same with shear and rotary inertia: shorter."""
+    return 2 * math.pi / float(MindlinPlate.of(plate).wavenumber(2 * math.pi * frequency_hz))
 
 
 def mindlin_frequency_shift(plate: Plate, frequency_hz: float) -> float:
     """How much lower a mode lies than Kirchhoff's `frequency_hz`, as a share of it: same wavelength, other theory."""
-    wanted_m = kirchhoff_wavelength_m(plate, frequency_hz)
-    low, high = 0.0, frequency_hz
-    for _ in range(60):  # wavelength falls with frequency
-        middle = (low + high) / 2
-        low, high = (middle, high) if mindlin_wavelength_m(plate, middle) > wanted_m else (low, middle)
-    return 1 - high / frequency_hz
+    wavenumber = 2 * math.pi / kirchhoff_wavelength_m(plate, frequency_hz)
+    return 1 - float(MindlinPlate.of(plate).angular_frequency(wavenumber)) / (2 * math.pi * frequency_hz)
 
 
 def repetition_factor(period_s: float, decay_s: float) -> float:
@@ -100,6 +88,11 @@ def gate_attenuation(plate: Plate, finger_kg: float, resolution_m: float) -> flo
     if finger_kg == 0:
         return 1.0
     return -math.expm1(-8 * resolution_m**2 * plate.density_kg_m3 * plate.thickness_m / (math.pi * finger_kg))
+
+
+def gate_mass_kg(plate: Plate, left: float, resolution_m: float) -> float:
+    """Section V: the mass that eq. (7) reads from the share of the amplitude that a finger left."""
+    return -8 * resolution_m**2 * plate.density_kg_m3 * plate.thickness_m / (math.pi * math.log1p(-left))
 
 
 def learning_points(plate: Plate, wavelength_m: float) -> int:

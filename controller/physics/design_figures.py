@@ -10,9 +10,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
+import numpy as np
 
 from controller.board.board import Board
-from controller.board.panel import Driver, Plate
+from controller.board.panel import OF_LAYERS, Driver, Plate
 from controller.board.records import Record
 from controller.errors import ConfigError
 from controller.physics import design
@@ -32,7 +33,7 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     Parameters
     ----------
     board : Board
-        Gives what is not in `changes`.
+        Gives what is not in `changes`; if it has damping, foam with a dashpot or layers, their effect on the band as a whole.
     changes : mapping of str to float, optional
         Values of `NUMBERS`.
 
@@ -41,10 +42,10 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     ConfigError
         If a number is not possible.
     """
-    given = inputs_of(board, changes or {})
-    plate = msgspec.structs.replace(board.plate, **_fields(given, Plate))
+    given = inputs_of(board, {**_decay_of(board), **(changes or {})})
+    plate = _plate(board, given)
     driver = msgspec.structs.replace(board.driver, **_fields(given, Driver))
-    duration_s, decay_s, period_s = given.duration_ms * 1e-3, plate.decay_time_s, given.period_ms * 1e-3
+    duration_s, decay_s, period_s = given.duration_ms * 1e-3, given.decay_time_ms * 1e-3, given.period_ms * 1e-3
     low_hz, high_hz = given.band_low_hz, given.band_high_hz
     middle_hz, width_hz = (low_hz + high_hz) / 2, high_hz - low_hz
     spectrum = FocalSpectrum.of(plate, driver, given.size_mm * 1e-3, (low_hz, high_hz), given.bit_clock_hz)
@@ -114,7 +115,35 @@ def design_figures(board: Board, changes: Mapping[str, float] | None = None) -> 
     return {**figures, "warnings": design_warnings(figures, plate)}
 
 
-def _fields(given: DesignInputs, kind: type[Record]) -> dict[str, float]:
+def _decay_of(board: Board) -> dict[str, float]:
+    """Decay time of a board whose modes do not all decay alike: the median of those in its band."""
+    plate, waveform = board.plate, board.waveform
+    if plate.damping is None and (plate.foam is None or not plate.foam.dashpot_pa_s_m):
+        return {}
+    modes = modes_of(board, waveform.band_high_hz)
+    in_band = modes.angular_frequency >= 2 * math.pi * waveform.band_low_hz
+    return {"decay_time_ms": 1e3 / float(np.median(modes.decay_rate[in_band if in_band.any() else slice(None)]))}
+
+
+def _plate(board: Board, given: DesignInputs) -> Plate:
+    """Plate of a board with other numbers; one of another material or thickness has no layers.
+
+    Raises
+    ------
+    ConfigError
+        If the board's edges do not go with its size.
+    """
+    plate, numbers = board.plate, _fields(given, Plate)
+    changed = {name: value for name, value in numbers.items() if value != getattr(plate, name) and name != "decay_time_ms"}
+    if changed.keys() & set(OF_LAYERS):
+        changed |= {name: numbers[name] for name in OF_LAYERS} | {"layers": ()}
+    try:
+        return msgspec.structs.replace(plate, **changed) if changed else plate
+    except ValueError as error:
+        raise ConfigError(f"the board's plate.{error}") from error
+
+
+def _fields(given: DesignInputs, kind: type[Record]) -> dict[str, Any]:
     return {name: getattr(given, name) for name in NUMBERS if name in kind.__struct_fields__}
 
 

@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 from controller.benchmark.power import resistor_loss_j
 from controller.board.board import load_board
+from controller.board.layers import Layer
 from controller.board.lookup import find_board
+from controller.board.panel import Damping, Foam, Plate
 from controller.errors import ConfigError
 from controller.physics import design
 from controller.physics.design_figures import design_figures
@@ -158,6 +160,30 @@ RANGES = {
     "channels": (1, 100_000),
     "inductance_h": (1e-12, 1e3),
 }
+
+
+def with_plate(**changes):
+    return msgspec.structs.replace(BOARD, plate=msgspec.structs.replace(GLASS, **changes))
+
+
+def test_a_board_whose_modes_decay_unlike_has_the_decay_of_its_band():
+    """A loss factor of 0.01 adds pi f times it to 1 / tau; Tc modes per hertz, so half of them are below the band's middle."""
+    decay_ms = design_figures(with_plate(damping=Damping(loss_factor=0.01)))["inputs"]["decay_time_ms"]
+    same(decay_ms, 1e3 / (1e3 + math.pi * 0.01 * 45e3), 0.005, "decay in ms")
+
+
+def test_layers_count_as_one_plate_until_its_material_or_thickness_is_asked_for():
+    halves = (Layer(thickness_mm=0.25, young_modulus_pa=72.9e9, poisson_ratio=0.208, density_kg_m3=2510.0),) * 2
+    names = ("length_mm", "width_mm", "edges", "decay_time_ms")
+    layered = msgspec.structs.replace(BOARD, plate=Plate(**{name: getattr(GLASS, name) for name in names}, layers=halves))
+    for changes in ({}, {"length_mm": 250}, {"thickness_mm": 0.8}):
+        assert design_figures(layered, changes)["tc_ms"] == pytest.approx(design_figures(BOARD, changes)["tc_ms"], rel=1e-9)
+
+
+def test_foam_that_leaves_nothing_of_a_smaller_plate_is_refused():
+    foamy = with_plate(edges="foam", foam=Foam(stiffness_n_m3=1e9, width_mm=9.0))
+    with pytest.raises(ConfigError, match=r"plate\.foam\.width_mm = 9 leaves nothing of length_mm = 15 free"):
+        design_figures(foamy, {"length_mm": 15})
 
 
 def figures_or_line(changes):
