@@ -12,7 +12,16 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from controller.benchmark import paper_energy, paper_equations, paper_finger, paper_focus, paper_losses, paper_several, paper_skin
+from controller.benchmark import (
+    paper_energy,
+    paper_equations,
+    paper_finger,
+    paper_focus,
+    paper_losses,
+    paper_plates,
+    paper_several,
+    paper_skin,
+)
 from controller.benchmark.environment import environment
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
@@ -25,17 +34,19 @@ LONGEST_S = 4e-3  # of emissions
 
 @dataclass(frozen=True)
 class Effort:
-    """How many of the foci are looked at by what takes long."""
+    """How many of the foci are looked at by what takes long, and which other plates; those not in closed form take seconds."""
 
     foci: int
     over_time: int
     repeated: int
     thrown: int
     loaded: int
+    plates: int
+    foam: bool
 
 
-QUICK = Effort(foci=10, over_time=3, repeated=2, thrown=2, loaded=4)
-FULL = Effort(foci=60, over_time=20, repeated=20, thrown=20, loaded=20)
+QUICK = Effort(foci=10, over_time=3, repeated=2, thrown=2, loaded=4, plates=paper_plates.CLOSED_FORM, foam=False)
+FULL = Effort(foci=100, over_time=20, repeated=20, thrown=20, loaded=20, plates=len(paper_plates.OTHERS), foam=True)
 
 
 def paper_figures(board: Board, effort: Effort, seed: int = 1, progress: Progress = lambda _done, _total: None) -> Figures:
@@ -73,7 +84,7 @@ def paper_figures(board: Board, effort: Effort, seed: int = 1, progress: Progres
 
         def repetition() -> list[Row]:
             curves["repetition"] = paper_several.repetition_curve(panel, effort.repeated)
-            return paper_several.repetition_rows(panel, effort.repeated)
+            return paper_several.repetition_rows(panel, effort.repeated, curves["repetition"])
 
         def finger() -> list[Row]:
             found, curves["finger"] = paper_finger.finger_rows(panel, effort.loaded)
@@ -99,6 +110,9 @@ def paper_figures(board: Board, effort: Effort, seed: int = 1, progress: Progres
             lambda: paper_losses.drift_rows(panel),
             lambda: paper_losses.slip_rows(panel),
             lambda: paper_losses.finger_motion_rows(panel),
+            lambda: paper_plates.shift_rows(panel),
+            lambda: paper_plates.wrong_plate_rows(panel, effort.plates),
+            *([lambda: paper_plates.foam_rows(panel)] if effort.foam else []),
             skin,
         ]
         for done, part in enumerate(parts, 1):

@@ -86,8 +86,8 @@ def four_foci_rows(panel: PaperPanel) -> list[Row]:
     ]
 
 
-def repetition_rows(panel: PaperPanel, count: int) -> list[Row]:
-    """Rows of 20 repetitions at 500 Hz, of the first `count` foci."""
+def repetition_rows(panel: PaperPanel, count: int, curve: Figures) -> list[Row]:
+    """Rows of 20 repetitions at 500 Hz, of the first `count` foci, and of those at Tr = tau, of `repetition_curve`."""
     found = np.array([_contrasts(panel.twin, panel, index, PAPER_PERIOD_MS) for index in range(count)])
     factor = design.repetition_factor(PAPER_PERIOD_MS * 1e-3, panel.board.plate.decay_time_s)
     amplitudes = found[:, 1, -1] / found[:, 1, 0]
@@ -98,6 +98,13 @@ def repetition_rows(panel: PaperPanel, count: int) -> list[Row]:
             factor,
             found[:, 0, -1] / found[:, 0, 0],
             "appendix A's √(1 − e^(−2Tr/τ)); what rings on is not random but the same each time",
+        ),
+        Row.of(
+            "repetition_tau",
+            "the same with Tr = T = τ = 1 ms, over one emission of 1 ms",
+            0.93,
+            curve["contrast_kept"][curve["period_ms"].index(1.0)],
+            "appendix A again; back to back, the echo of the last emission is strongest",
         ),
         Row.of(
             "repetition_amplitude",

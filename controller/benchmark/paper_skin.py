@@ -11,13 +11,13 @@ from scipy.interpolate import CubicSpline
 
 from controller.benchmark.paper_panel import PaperPanel
 from controller.benchmark.paper_row import Row
-from controller.benchmark.paper_spectrum import focus_spectrum
 from controller.physics import design
+from controller.physics.finger import point_motion
 from controller.physics.skin import Pulp, SkinMotion, skin_motion
 
 Floats = NDArray[np.float64]
 
-PARTS = 4  # of a bit, at whose ends velocity is taken; a spline between them
+STEP_S = 0.5e-6  # of the displacement that a spline goes through
 AFTER_S = 0.8e-3  # of T: the skin has come down
 BEFORE_S = 0.3e-3  # of T: what the skin does until then, waves of 0.3 µm, is forgotten
 MASS_KG = (0.07e-3, 0.23e-3)  # the paper's range from literature
@@ -27,26 +27,23 @@ CURVE_N = (0.05, 0.1, 0.2, 0.5, 1.0)
 
 @dataclass(frozen=True, eq=False)
 class FreeFocus:
-    """A focus without finger, from `BEFORE_S` before T on: times in s, displacement in m and velocity in m/s, (time,) each."""
+    """A focus without finger, from `BEFORE_S` before T on: times in s and displacement in m, (time,) each."""
 
     time_s: Floats
     displacement_m: Floats
-    velocity_m_s: Floats
 
     @classmethod
     def of(cls, panel: PaperPanel, index: int) -> FreeFocus:
         """One of a panel's foci."""
-        of = focus_spectrum(panel, index)
-        part_s = of.bit_period_s / PARTS
-        first = panel.board.waveform.samples * PARTS - round(BEFORE_S / part_s)
-        count = round((BEFORE_S + AFTER_S) / part_s)
-        displacement_m = of.over_time(of.displacement, PARTS)[first : first + count]
-        velocity_m_s = of.over_time(1j * of.omega * of.displacement, PARTS)[first : first + count]
-        return cls(np.arange(count, dtype=np.float64) * part_s, displacement_m, velocity_m_s)
+        time_s: Floats = np.arange(0, BEFORE_S + AFTER_S, STEP_S, dtype=np.float64)
+        motion = point_motion(
+            panel.board, panel.modes, panel.words[index], panel.points_m[index : index + 1], after_s=AFTER_S, modes_above=False
+        )
+        return cls(time_s, motion.displacement({}, time_s - BEFORE_S)[:, 0])
 
     def throw(self, panel: PaperPanel, pulp: Pulp) -> SkinMotion:
         """What skin on it does, at rest on the plate at first."""
-        velocity = CubicSpline(self.time_s, self.velocity_m_s)
+        velocity = CubicSpline(self.time_s, self.displacement_m).derivative()
         impedance = design.point_impedance_kg_s(panel.board.plate)
         return skin_motion(lambda t: float(velocity(t)), impedance, pulp, float(self.time_s[-1]))
 

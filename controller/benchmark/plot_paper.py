@@ -159,10 +159,10 @@ def touches(ax: Axes, figures: Figures) -> None:
 
 def losses(ax: Axes, figures: Figures) -> None:
     """What approximations keep, beside the earlier trial."""
-    rows = [row for row in figures["rows"] if row["trial"]]
+    rows = [row for row in figures["rows"] if row["quantity"].startswith("kept: ")]
     _dots(ax, rows, lambda row: row["paper"], "earlier trial")
     ax.set_yticks(range(len(rows)), [row["quantity"].removeprefix("kept: ") for row in rows], fontsize=7)
-    ax.set(xlabel="amplitude kept", title="What approximations cost", xlim=(0, 1.05))
+    ax.set(xlabel="amplitude kept", title="What approximations cost", xlim=(-0.08, 1.05))
 
 
 def ratios(ax: Axes, figures: Figures) -> None:

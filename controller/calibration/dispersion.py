@@ -71,3 +71,8 @@ class Dispersion:
     def wavelength_m(self, frequency_hz: float) -> float:
         """Length of a wave in m."""
         return float(2 * np.pi / self.wavenumber(frequency_hz))
+
+    def slowed_by_shear(self, frequency_hz: float) -> float:
+        """Frequency of a wave over that by Kirchhoff's theory, which knows no shear and no rotation, of the same length."""
+        wavenumber = float(self.wavenumber(frequency_hz)) / (self.factor + self.slope_per_hz * (frequency_hz - self.reference_hz))
+        return 2 * np.pi * frequency_hz / (wavenumber**2 * float(np.sqrt(self.stiffness_nm / self.mass_kg_m2)))

@@ -57,7 +57,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         parents=[common],
         help="the figures of the paper, simulated: paper, here, ratio, and why they differ",
         description="Simulate every figure of Hudin, Lozada and Hayward (2015) that can be, at seeded foci, and print it beside "
-        "theirs. Takes about 3 minutes of one core; --quick: 25 s.",
+        "theirs. Takes about 2 minutes of one core; --quick: 15 s.",
     )
     published.add_argument("--quick", action="store_true", help="fewer foci")
     published.add_argument("--seed", type=_natural, default=1, metavar="N", help="of the foci (default: 1)")

@@ -90,6 +90,11 @@ def gate_attenuation(plate: Plate, finger_kg: float, resolution_m: float) -> flo
     return -math.expm1(-8 * resolution_m**2 * plate.density_kg_m3 * plate.thickness_m / (math.pi * finger_kg))
 
 
+def gate_mass_kg(plate: Plate, left: float, resolution_m: float) -> float:
+    """Section V: the mass that eq. (7) reads from the share of the amplitude that a finger left."""
+    return -8 * resolution_m**2 * plate.density_kg_m3 * plate.thickness_m / (math.pi * math.log1p(-left))
+
+
 def learning_points(plate: Plate, wavelength_m: float) -> int:
     """Section II-B: 4 S / lambda^2."""
     return math.ceil(4 * plate.length_m * plate.width_m / wavelength_m**2)

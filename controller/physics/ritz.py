@@ -15,9 +15,6 @@ from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
-from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from controller.board.panel import Support
 from controller.errors import ConfigError
@@ -68,12 +65,8 @@ class PlateShape:
         held = [end for pair in self.ends for end in pair if end != "free"]
         return 3 if not held else int(held == ["simply_supported"])
 
-    @property
-    def free_and_clamped(self) -> tuple[Ends, Ends]:
-        """The same plate's edges with each "foam" free, and clamped: it has as many modes as these or a number in between."""
-        return self._with_foam_as("free"), self._with_foam_as("clamped")
-
-    def _with_foam_as(self, instead: Support) -> Ends:
+    def with_foam_as(self, instead: Support) -> Ends:
+        """The edges with another support in place of foam."""
         (a, b), (c, d) = (tuple(instead if end == "foam" else end for end in pair) for pair in self.ends)
         return (a, b), (c, d)
 
@@ -134,6 +127,9 @@ def solve(plate: PlateShape, highest_k: float) -> PlateSolution:
     ConfigError
         If the functions do not give the number of modes that there are.
     """
+    from threadpoolctl import threadpool_limits
+    from tqdm import tqdm
+
     pairs = bases(plate, highest_k)
     long = sum(float(x.count * y.count) ** 3 for x, y in pairs) > WATCHED
     largest, classes = 0.0, []
@@ -147,7 +143,11 @@ def solve(plate: PlateShape, highest_k: float) -> PlateSolution:
             classes.append(energy.mode_class(*energy.modes(highest_k**4)))
             bar.update()
     every = np.sort(np.concatenate([found.wavenumber4 for found in classes]))
-    most, least = (mode_count(plate.lengths_m, ends, plate.poisson_ratio, highest_k) for ends in plate.free_and_clamped)
+    inner = plate.between_strips(0), plate.between_strips(1)
+    most = mode_count(plate.lengths_m, plate.with_foam_as("free"), plate.poisson_ratio, highest_k)
+    least = mode_count(
+        (inner[0][1] - inner[0][0], inner[1][1] - inner[1][0]), plate.with_foam_as("clamped"), plate.poisson_ratio, highest_k
+    )
     leeway = 4 + 0.4 * highest_k / np.pi * max(plate.lengths_m) / np.sqrt(1 + highest_k / np.pi * min(plate.lengths_m))
     if not least - leeway <= every.size <= most + leeway:  # a sum over half waves differs from its integral by so much
         raise ConfigError(f"plate.edges: {every.size} modes were found where {least:.0f} to {most:.0f} are expected")
@@ -219,6 +219,8 @@ class _Energy:
 
     def modes(self, highest: float) -> tuple[Floats, Floats]:
         """Eigenvalues up to `highest`, (mode,), and eigenvectors, (x function * y function, mode)."""
+        from scipy.linalg import eigh
+
         values, vectors = eigh(
             self._matrix(), subset_by_value=(-np.inf, highest), driver="evr", overwrite_a=True, check_finite=False
         )

@@ -20,9 +20,9 @@ from scipy.integrate import solve_ivp
 
 Floats = NDArray[np.float64]
 
-RELATIVE_ERROR = 1e-8
-ABSOLUTE_ERROR = (1e-13, 1e-9, 1e-13)  # m, m/s, m
-LONGEST_STEP_S = 2e-6  # 7 steps in a period of 70 kHz: an event between two steps is not missed
+RELATIVE_ERROR = 1e-6  # of a step: a throw is within 1e-3
+ABSOLUTE_ERROR = (1e-11, 1e-6, 1e-11)  # m, m/s, m
+LONGEST_STEP_S = 4e-6  # 4 steps in a period of 70 kHz: a leap of the skin between two steps is not missed
 MOST_PHASES = 10_000
 
 

@@ -18,7 +18,7 @@ from controller.errors import ConfigError
 from controller.physics.plate_modes import modes_of
 
 BOARD = load_board(find_board("simulated"))
-SMALL = Effort(foci=2, over_time=1, repeated=1, thrown=1, loaded=1)
+SMALL = Effort(foci=2, over_time=1, repeated=1, thrown=1, loaded=1, plates=1, foam=False)
 
 # By hand from the constants of the paper's section IV-A (Y 72.9 GPa, nu 0.208, rho 2510, 210 x 148 x 0.5 mm, 20-70 kHz, Q 32,
 # T 2 ms, tau 1 ms; R 2 kOhm, L 6.8 mH, C 2 nF), to eight digits: nothing but rounding is allowed for.
@@ -123,3 +123,65 @@ def test_a_row_without_spread_or_without_the_papers_figure():
     row = Row.of("a", "b", 2.0, range(101), "because so")
     assert row.here == (5.0, 50.0, 95.0)
     assert row.figures()["ratio"] == 25.0
+
+
+# What the foci must give: (value, largest error, where the value comes from). Errors are three standard errors of the median of ten
+# foci (a quarter of the spread of 5 to 95 % in the README), unless something else is said.
+EXPECTED = {
+    "modes_per_khz": (
+        19.147,
+        0.01,
+        "Weyl's second term: Tc - (perimeter / 4 pi) (k2 - k1) / B, k = 2 pi / wavelength; it fluctuates",
+    ),
+    "learning_points": (1741.2, 0.001, "4 S / lambda^2 by hand"),
+    "amplitude_um": (7.68, 0.03, "the paper, to which the piezo constant is scaled"),
+    "spot_half_mm": (5.7, 0.02, "an earlier simulation"),
+    "spot_3db_mm": (4.2, 0.02, "an earlier simulation"),
+    "contrast": (30.1, 0.06, "an earlier simulation"),
+    "contrast_all": (21.0, 0.05, "an earlier simulation"),
+    "duration_one_bit": (0.8808, 0.01, "1 - exp(-T / tau) over the same at 4 ms; the driver delays by 10 us"),
+    "duration_linear": (0.9820, 0.01, "1 - exp(-2 T / tau) likewise"),
+    "energy_kinetic": (0.16, 0.08, "an earlier simulation"),
+    "energy_decay_ms": (0.5, 0.01, "tau / 2"),
+    "resistor_w": (8.0, 0.05, "an earlier simulation: some 8 W"),
+    "four_plain": (0.49, 0.06, "an earlier simulation; 1 / sqrt(4)"),
+    "repetition": (0.9908, 0.02, "appendix A; echoes are alike each time, which the median of two foci does not average out"),
+    "finger_eq7": (1 - 2.718281828 ** (-79.896 / 140), 0.001, "by hand: 8 Rs^2 rho e / pi = 79.9 mg"),
+    "finger_mass_mg": (78.0, 0.12, "an infinite plate by appendix C without its gate (focal_spectrum): no echoes"),
+    "clock_500_khz": (0.991, 0.004, "an earlier simulation"),
+    "clock_250_khz": (0.964, 0.004, "an earlier simulation"),
+    "clock_200_khz": (0.942, 0.006, "an earlier simulation"),
+    "off_1_mm": (0.93, 0.01, "an earlier simulation"),
+    "off_2_mm": (0.73, 0.02, "an earlier simulation"),
+    "off_3_mm": (0.46, 0.04, "an earlier simulation"),
+    "nearest": (0.73, 0.10, "as 2.0 mm off, the median of a cell; ten places of a cell are coarse"),
+    "packed_worst": (0.957, 0.015, "an earlier simulation"),
+    "bits_8": (1.0, 0.002, "an earlier simulation"),
+    "bits_4": (0.98, 0.015, "an earlier simulation"),
+    "drift": (0.60, 0.03, "an earlier simulation"),
+    "drift_rescaled": (0.996, 0.006, "an earlier simulation"),
+    "slip": (0.90, 0.015, "an earlier simulation: costs 10 %"),
+    "driver_left_out": (0.20, 0.15, "an earlier simulation: costs 80 %"),
+    "moving": (0.46, 0.06, "an earlier simulation"),
+    "mindlin_20_khz": (0.6384, 0.001, "Rayleigh and Lamb's exact wave: 1 - 0.993617"),
+    "mindlin_70_khz": (2.1694, 0.001, "likewise, 1 - 0.978306"),
+    "mindlin_100_khz": (3.0468, 0.002, "likewise, 1 - 0.969532"),
+    "on_mindlin": (0.21, 0.10, "an earlier simulation"),
+}
+
+
+@pytest.mark.slow
+def test_the_rows_of_the_papers_panel_have_their_values():
+    rows = {row["key"]: row["here"] for row in paper_figures(BOARD, paper.QUICK, seed=2)["rows"]}
+    wrong = []
+    for key, (value, error, source) in EXPECTED.items():
+        found = rows[key]["median"]
+        print(f"{key}: {found:.4g}, expected {value:.4g} within {error:.1%} ({source})")
+        if found != pytest.approx(value, rel=error):
+            wrong.append(key)
+    assert not wrong
+    assert rows["moving_predicted"]["p5"] > 0.9
+    assert 10 < rows["skin_um_0.1_n"]["median"] < 50
+    assert 0.1 < rows["skin_ms_0.1_n"]["median"] < 0.9
+    assert rows["contrast_idle_low"]["median"] < 0.65 * rows["contrast"]["median"]
+    assert rows["four_device_worst"]["median"] > 1.1

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physics.levy import levy_wavenumbers
+from small_plate import small_board
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
@@ -15,11 +16,16 @@ from controller.board.panel import Actuator, Edges, Foam
 from controller.errors import ConfigError
 from controller.physics import ritz, ritz_modes
 from controller.physics.closed_form import SimplySupported
+from controller.physics.driver import DriverResponse
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
 from controller.physics.mode_count import edge_term, mode_count
 from controller.physics.plate import bending_stiffness
 from controller.physics.plate_modes import modes_of
+from controller.physics.plate_twin import PlateTwin, capture_of_words
 from controller.physics.ritz import PlateShape
 from controller.physics.ritz_modes import RitzModes, plate_shape
+from controller.physics.step_response import StepResponse, channel_forces
 
 BOARD = load_board(find_board("simulated"))
 PAPER = BOARD.plate
@@ -94,10 +100,10 @@ def test_the_lowest_frequencies_are_those_published_for_square_plates(sides, pub
     [("FFFF", 0, 1e-5), ("CCCC", 0, 1e-5), ("EEEE", 1e9, 1e-5), ("EEEE", 1e11, 1e-5), ("EECC", 1e9, 1e-5), ("EFSC", 1e9, 3e-4)],
 )
 def test_a_basis_twice_as_fine_gives_the_same_frequencies(sides, foam, error):
-    """A ninth of the paper's plate up to 60 kHz, 9 mm of foam; the finer basis has 1.6 times the functions along each axis."""
+    """A ninth of the paper's plate up to 45 kHz, 9 mm of foam; the finer basis has 1.6 times the functions along each axis."""
     shape = shape_of(sides, (0.07, 0.05), foam=foam / bending_stiffness(PAPER), foam_width_m=9e-3)
-    coarse = wavenumbers2(shape, wavenumber(60e3))
-    fine = wavenumbers2(shape, wavenumber(60e3) * 1.7)[: coarse.size]
+    coarse = wavenumbers2(shape, wavenumber(45e3))
+    fine = wavenumbers2(shape, wavenumber(45e3) * 1.7)[: coarse.size]
     worst = largest_error(coarse, fine, wavenumber(500.0) ** 2)
     print(f"{sides} with {foam:g} N/m3: {coarse.size} modes, frequencies wrong by {worst:.1e} at most (bound {error:g})")
     assert worst < error
@@ -220,24 +226,24 @@ def test_a_basis_without_some_of_the_modes_is_noticed(monkeypatch):
 
 
 EVERY = st.sampled_from("SCFE")
-STIFFER = {"F": "FESC", "E": "EC", "S": "SC", "C": "C"}  # what holds the edge at least as much; foam lets it move, S lets it turn
+STIFFER = {"F": "FESC", "E": "E", "S": "SC", "C": "C"}  # what holds at least as much; a strip also holds the plate beside the edge
 
 
-@settings(max_examples=8, derandomize=True)
+@settings(max_examples=6, derandomize=True)
 @given(
     st.lists(EVERY, min_size=4, max_size=4),
     st.lists(st.integers(0, 3), min_size=4, max_size=4),
     st.floats(0.05, 0.3),
     st.floats(0.05, 0.3),
     st.floats(0.0, 0.49),
-    st.floats(1.0, 8.0),
+    st.floats(1.0, 11.0),
 )
 def test_any_plate_has_sorted_orthonormal_modes_that_rise_with_what_holds_it(sides, choice, length, width, poisson_ratio, log_foam):
-    highest_k = 12.0 / (length * width) ** 0.5 * 2
+    highest_k = 18.0 / (length * width) ** 0.5
     lengths, foam = (length, width), 10.0**log_foam
     shape = shape_of("".join(sides), lengths, poisson_ratio, foam if "E" in sides else 0.0, 0.1 * min(lengths))
     held = [STIFFER[side][number % len(STIFFER[side])] for side, number in zip(sides, choice, strict=True)]
-    stiffer = shape_of("".join(held), lengths, poisson_ratio, foam if "E" in held else 0.0, 0.1 * min(lengths))
+    stiffer = shape_of("".join(held), lengths, poisson_ratio, 3 * foam if "E" in held else 0.0, 0.1 * min(lengths))
     solution = ritz.solve(shape, highest_k)
     for found in solution.classes:
         assert np.all(np.diff(found.wavenumber4) >= 0)
@@ -251,11 +257,7 @@ def test_any_plate_has_sorted_orthonormal_modes_that_rise_with_what_holds_it(sid
     assert np.all(low[: high.size] <= high * (1 + 4e-4)), "what holds an edge raises every frequency"
 
 
-def test_foci_on_every_pair_of_edges_are_finite():
-    """The whole chain above the modes, in small: poles, forces and the deflection at rest, of all kinds of edges."""
-    from controller.physics.driver import DriverResponse
-    from controller.physics.step_response import StepResponse, channel_forces
-
+def test_poles_and_forces_of_every_pair_of_edges_are_finite():
     for a, b in itertools.combinations("SCFE", 2):
         board = msgspec.structs.replace(BOARD, plate=plate_of(a + b + b + a))
         modes = modes_of(board, 2e3)
@@ -263,5 +265,22 @@ def test_foci_on_every_pair_of_edges_are_finite():
         assert np.isfinite(step.static).all()
         assert np.isfinite(step.residues).all()
         assert np.isfinite(channel_forces(board, modes)).all()
-        assert isinstance(plate_shape(board.plate), PlateShape)
         assert ritz.longest_matrix(plate_shape(board.plate), wavenumber(100e3)) < ritz_modes.LONGEST_MATRIX
+
+
+def test_a_focus_of_a_plates_own_model_is_whole_on_its_twin_and_lost_on_one_with_other_edges():
+    """A ninth of the paper's plate on foam: words by impulse responses, judged by the twin's steps at ticks."""
+    board = small_board()
+    board = msgspec.structs.replace(board, plate=plate_of("ECEF", board.plate))
+    point = (0.031, 0.022)
+    model, twin = ResponseModel(board), PlateTwin(board)
+    assert model.plate_modes is twin.modes
+    words = focus(model.drive_order_responses([point]), [1.0], board.idle_word)
+    capture = capture_of_words(words, board.bit_ticks, board.idle_word, board.link.clock_hz // 10)  # at rest by then
+    (field,) = twin.fields(capture, board.link.clock_hz)
+    assert field.at([point])[0] == pytest.approx(twin.reference_amplitude(*point), rel=1e-6)
+    clamped = PlateTwin(msgspec.structs.replace(board, plate=plate_of("CCCC", board.plate)))
+    (other,) = clamped.fields(capture, board.link.clock_hz)
+    lost = other.at([point])[0] / field.at([point])[0]
+    print(f"focus on its own plate {1e6 * field.at([point])[0]:.2f} um, on the clamped one {lost:.2f} of it")
+    assert abs(lost) < 0.5
