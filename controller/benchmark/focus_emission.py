@@ -29,7 +29,7 @@ from controller.physics.plate_twin import PlateTwin
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
-PULSE: Floats = np.linspace(-0.6, 0.6, 121)  # times around T at which the pulse is looked at, in periods of the band's middle
+PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
 
 
 def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
