@@ -97,9 +97,11 @@ def test_more_modes_of_the_bare_plate_lower_what_few_of_them_overstate():
         some = SimplySupported.of(PLATE, basis * 40e3)
         modes = with_patches(some, PLATE, DISC, PLACES, 40e3)
         shifts.append(100 * (modes.angular_frequency[:60] / bare.angular_frequency[:60] - 1).mean())
-    print("shift in % with modes of the bare plate to 1, 1.25, 2, 3 times the frequency:", np.round(shifts, 3))
-    assert shifts == sorted(shifts, reverse=True)
-    assert shifts[1] - shifts[3] < 0.25
+    each = 100 * first_order(bare, *added(bare, PLATE, DISC, PLACES))[:60].mean()
+    print(f"first order {each:.3f} %; with modes to 1, 1.25, 2, 3 times the frequency {np.round(shifts, 3)} %")
+    assert [each, *shifts] == sorted([each, *shifts], reverse=True)
+    # the discs are 3.6 % of this plate and 1.6 % of the paper's, where what is left is 0.01 to 0.07 % (test below, and its words)
+    assert shifts[1] - shifts[3] < 0.3
 
 
 def test_shapes_are_sums_with_their_own_mean_square_and_coupling():
