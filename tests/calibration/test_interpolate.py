@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 from calibration.true_plate import TruePlate, random_places
+from scipy.special import j0
 from small_plate import small_board
 
 from controller.bank.file_format import REST_SAMPLES
 from controller.calibration.interpolate import interpolate
+from controller.calibration.kriging import bessel
 from controller.calibration.point_plan import grid_points, scattered_points
 from controller.errors import CalibrationError
 
@@ -78,6 +80,11 @@ def test_responses_are_those_of_the_protocol(plate, scattered):
     same = np.corrcoef(true.reshape(-1), entries[:, source.samples :].reshape(-1))[0, 1]
     assert same > 0.95, "what is below the band was measured"
     assert not whole[:, :, [q for q in range(32) if q not in {a.channel for a in BOARD.actuators}]].any()
+
+
+def test_the_table_of_the_bessel_function_is_right():
+    places = np.random.default_rng(1).uniform(0, 300, 10_000)
+    assert np.abs(bessel(places) - j0(places)).max() < 5e-7
 
 
 def test_what_cannot_be_interpolated_is_refused(plate):
