@@ -100,7 +100,7 @@ def drift_rows(panel: PaperPanel) -> list[Row]:
     waveform, plate = panel.board.waveform, panel.board.plate
     as_it_is, rescaled = [], []
     for factor in (1 - DETUNING, 1 + DETUNING):
-        stiffer = msgspec.structs.replace(plate, young_modulus_pa=plate.young_modulus_pa * factor**2)
+        stiffer = plate.with_stiffness(factor**2)
         other = PaperPanel(msgspec.structs.replace(panel.board, plate=stiffer), panel.seed, len(panel.points_m))
         true = other.band_responses(panel.points_m, waveform.bit_period_s, waveform.samples)
         faster = other.band_responses(panel.points_m, waveform.bit_period_s / factor, waveform.samples)
