@@ -14,6 +14,7 @@ from scipy.stats.qmc import Halton
 
 from controller.benchmark.paper_panel import PaperPanel, kept
 from controller.benchmark.paper_row import Row
+from controller.physics.drifted_modes import DriftedModes
 from controller.physics.driver import DriverResponse
 from controller.physics.step_response import StepResponse
 from controller.touch.prediction import Motion
@@ -97,13 +98,13 @@ def bits_rows(panel: PaperPanel) -> list[Row]:
 
 def drift_rows(panel: PaperPanel) -> list[Row]:
     """Rows of a plate whose frequencies are half a per cent off, and of a bit clock that follows."""
-    waveform, plate = panel.board.waveform, panel.board.plate
+    waveform = panel.board.waveform
+    driver = DriverResponse.of(panel.board.driver)
     as_it_is, rescaled = [], []
-    for factor in (1 - DETUNING, 1 + DETUNING):
-        stiffer = msgspec.structs.replace(plate, young_modulus_pa=plate.young_modulus_pa * factor**2)
-        other = PaperPanel(msgspec.structs.replace(panel.board, plate=stiffer), panel.seed, len(panel.points_m))
-        true = other.band_responses(panel.points_m, waveform.bit_period_s, waveform.samples)
-        faster = other.band_responses(panel.points_m, waveform.bit_period_s / factor, waveform.samples)
+    for drift in (-DETUNING, DETUNING):
+        step = StepResponse.of(DriftedModes(panel.modes, drift), driver)
+        true = panel.band_responses(panel.points_m, waveform.bit_period_s, waveform.samples, step)
+        faster = panel.band_responses(panel.points_m, waveform.bit_period_s / (1 + drift), waveform.samples, step)
         for learned, now, then in zip(panel.in_band[:, ::-1], true, faster, strict=True):
             as_it_is.append(kept(learned, now))
             rescaled.append(float(np.vdot(np.sign(learned), then) / np.abs(now).sum()))
