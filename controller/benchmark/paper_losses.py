@@ -69,7 +69,7 @@ def grid_rows(panel: PaperPanel) -> list[Row]:
     _, packed = _between_cells(panel, FINE_M, packed=True)
     worst = float(np.quantile(nearest, 0.05)), float(np.quantile(bilinear, 0.05)), float(np.quantile(packed, 0.05))
     flank = "anywhere in the cell: 2.0 mm off by median, 3.0 mm at worst 5 %, on the spot's flank"
-    waves = "waves of neighbouring cells cancel in part between them; the trial has less, the bank of 5 mm above as much"
+    waves = "waves of neighbouring cells cancel in part between them; the trial lost half as much"
     return [
         _kept("nearest", "nearest cell, 5 mm grid", 0.78, nearest, flank),
         _kept("nearest_worst", "nearest cell, 5 mm grid, worst 5 %", 0.52, worst[0], flank),
