@@ -29,7 +29,7 @@ from controller.physics.plate_twin import PlateTwin
 Floats = NDArray[np.float64]
 Figures = dict[str, Any]
 
-PULSE: Floats = np.linspace(-0.6, 0.6, 121)  # times around T at which the pulse is looked at, in periods of the band's middle
+PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
 
 
 def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
@@ -81,8 +81,6 @@ def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb
 def judged_foci(emission: Emission, period_s: float) -> list[Figures]:
     """Figures of each focus of an emission, in the order of its points; `period_s` from one emission to the next."""
     twin, field, points_m = emission.twin, emission.field, emission.points_m
-    waveform, plate = twin.board.waveform, twin.board.plate
-    middle_m = bending_wavelength_m(plate, (waveform.band_low_hz + waveform.band_high_hz) / 2)
     repeated, pulse = repeated_field(emission, period_s), field_of_pulse(emission)
     rows = []
     for x_m, y_m in points_m:
@@ -99,7 +97,7 @@ def judged_foci(emission: Emission, period_s: float) -> list[Figures]:
                 "spot_mm": judged.spot_m * 1e3,
                 "peak_offset_us": judged.peak_offset_s * 1e6,
                 "pulse_us": pulse_s(pulse, x_m, y_m) * 1e6,
-                "spot_wavelengths": judged.spot_m / middle_m,
+                "spot_wavelengths": judged.spot_wavelengths,
                 "contrast_repeated": repeated.focus_metrics(x_m, y_m, points_m).contrast,
             }
         )
@@ -169,7 +167,7 @@ def emission_figures(emission: Emission, period_s: float) -> Figures:
     heat_uj = resistor_loss_j(board.driver, levels, waveform.bit_period_s) * 1e6
     edges = (levels[1:] != levels[:-1]).sum(axis=0)
     used = sorted(actuator.channel for actuator in board.actuators)
-    middle_m = bending_wavelength_m(plate, (waveform.band_low_hz + waveform.band_high_hz) / 2)
+    middle_m = field.scale.wave_m
     return {
         "energy_uj": total_j * 1e6,
         "kinetic_share": float(energy.kinetic_j[0]) / total_j if total_j else 0.0,  # so near the edge nothing moves

@@ -134,6 +134,7 @@ def single_foci(board: Board, model: ResponseModel, points_m: Iterable[Floats]) 
                 "contrast": judged.contrast,
                 "contrast_all": judged.contrast_all,
                 "spot_mm": judged.spot_m * 1e3,
+                "spot_wavelengths": judged.spot_wavelengths,
                 "peak_offset_us": judged.peak_offset_s * 1e6,
                 "relative_amplitude": judged.amplitude_m / twin.reference_amplitude(x_m, y_m),
                 "audible_m2_per_s": audible,

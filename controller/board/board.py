@@ -20,13 +20,13 @@ from msgspec import Meta
 from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, find_board, in_system_folder
 from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
+from controller.board.patches import TOUCHING_MM, Patches
 from controller.board.records import Record, as_record, load_toml
 from controller.board.touch_panels import Touch
 from controller.errors import ConfigError
 
 MAX_FRAME_BYTES = 512  # frames.LOAD_FRAME_MAX_BYTES
 MIN_BIT_TICKS = 4  # registers.BIT_TICKS_MIN
-TOUCHING_MM = 1e-6  # patches may share an edge: neither place nor size is a binary fraction
 LATER_KEYS = {"layers": (), "damping": None}  # of the plate: where left out, they are not part of the digest
 SHA256 = "_sha2", "_sha256", "hashlib"  # the last loads all of OpenSSL, 4 MB; as random.py does, of Python 3.12, 3.11, any
 
@@ -58,6 +58,8 @@ class Board(Record, frozen=True):
         The link to the FPGA.
     limits
         Limits.
+    patches
+        Left out: the patches neither weigh anything nor stiffen the plate.
     temperature
         Left out: the plate is taken to be as warm as the bank assumes.
     realtime
@@ -86,6 +88,7 @@ class Board(Record, frozen=True):
     application_socket: ApplicationSocket | None = None
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None
     compose: Compose = Compose()
+    patches: Patches | None = None
     folder: Path = msgspec.field(default_factory=Path)
 
     def __post_init__(self) -> None:
@@ -108,6 +111,8 @@ class Board(Record, frozen=True):
                         f"actuators[{index}] lies on actuators[{other}]: their centres are {apart_mm:g} mm apart along x or y,"
                         f" less than half of their sizes together, {(a.size_mm + b.size_mm) / 2:g} mm"
                     )
+        if self.patches is not None:
+            self.patches.on(self.plate, self.actuators)
 
     @property
     def called(self) -> str:
@@ -168,12 +173,12 @@ class Board(Record, frozen=True):
         return self.emission_ticks if abs(ticks - self.emission_ticks) <= 1 else ticks
 
     def digest(self) -> bytes:
-        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform."""
+        """SHA-256 of the tables that a bank is computed from: plate, actuators, driver, waveform, patches."""
         plate = msgspec.to_builtins(self.plate)
         for key, left_out in LATER_KEYS.items():
             if getattr(self.plate, key) == left_out:
                 del plate[key]
-        tables = (plate, self.actuators, self.driver, self.waveform)
+        tables = (plate, self.actuators, self.driver, self.waveform, *([self.patches] if self.patches else []))
         return _sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 
@@ -289,7 +294,9 @@ def on_plate_of(board: Board, real: Board) -> Board:
     if set(idle) != {actuator.channel for actuator in real.actuators}:
         raise ConfigError(f"{real.folder / 'board.toml'}: the patches are of other channels than those of board {board.name!r}")
     patches = tuple(msgspec.structs.replace(patch, idle=idle[patch.channel]) for patch in real.actuators)
-    return msgspec.structs.replace(board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver)
+    return msgspec.structs.replace(
+        board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver, patches=real.patches
+    )
 
 
 def simulated(board: Board) -> Board:

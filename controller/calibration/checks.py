@@ -67,7 +67,7 @@ def listed(names: Sequence[object]) -> str:
     return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else "".join(shown)
 
 
-def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int]) -> list[Finding]:
+def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], driven: NDArray[np.bool_]) -> list[Finding]:
     """Channels of which nothing arrives anywhere.
 
     Parameters
@@ -77,12 +77,16 @@ def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int]) -> 
     coherence : (point, 32) array
     channels : sequence of int
         Those with an actuator.
+    driven : (32,) bool array
+        Those that were ever driven.
     """
     never = [channel for channel in channels if np.isnan(power[:, channel]).all()]
     others = [channel for channel in channels if channel not in never]
     found = []
-    if never:
-        found.append(Finding("dead", f"{_channels(never)} never driven alone or told apart at any point", tuple(never)))
+    if undriven := [channel for channel in never if not driven[channel]]:
+        found.append(Finding("dead", f"{_channels(undriven)} never driven, and with an actuator in board.toml", tuple(undriven)))
+    if lost := [channel for channel in never if driven[channel]]:
+        found.append(Finding("dead", f"no sound record tells of {_channels(lost, '')}", tuple(lost)))
     if not others:
         return found
     level = np.nanmedian(power[:, others], axis=0)
@@ -153,11 +157,10 @@ def clipped_records(counts: dict[str, int]) -> list[Finding]:
     counts : dict
         Name of a point to its number of such records.
     """
-    points = [f"{name} ({count} record{'s' * (count > 1)})" for name, count in counts.items() if count]
-    if not points:
+    if not counts:
         return []
-    text = f"clipped, and left out: point {listed(points)}; turn the recorder's gain down and measure again"
-    return [Finding("clipped", text, points=tuple(name for name, count in counts.items() if count))]
+    text = f"clipped, and left out: {sum(counts.values())} records of point {listed(list(counts))}; turn the recorder's gain down"
+    return [Finding("clipped", text, points=tuple(counts))]
 
 
 def noisy_records(coherence: Floats, known: NDArray[np.bool_], names: Sequence[str]) -> list[Finding]:
@@ -183,5 +186,5 @@ def _or(values: Floats, otherwise: float) -> Floats:
 
 def _channels(numbers: Sequence[int], verb: str = "be") -> str:
     one = len(numbers) == 1
-    word = {"be": ("is", "are"), "look": ("looks", "look")}[verb][not one]
-    return f"channel{'' if one else 's'} {listed(numbers)} {word}"
+    word = {"be": (" is", " are"), "look": (" looks", " look"), "": ("", "")}[verb][not one]
+    return f"channel{'' if one else 's'} {listed(numbers)}{word}"

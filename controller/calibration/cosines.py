@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 OFF_PLACE = 0.15  # of a cell: how far a point may lie off its place in a grid
 WINDOW = 7  # places along each side of the square from which one of them is estimated
-JUDGED = 100  # places
+JUDGED = 60  # places
 
 
 @dataclass(frozen=True, eq=False)

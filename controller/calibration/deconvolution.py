@@ -121,8 +121,6 @@ class Transfers:
         Share of the power of the records that a channel's drive explains, of what it and noise make, mean over the band.
     residual : float
         Power of the records that no drive explains, over all of their power; NaN where nothing is left.
-    at_end : float
-        Rms of the last twentieth of the records, over that of all; what noise gives where the plate is still.
     clipped : int
         Records that were left out since they are clipped.
     """
@@ -132,7 +130,6 @@ class Transfers:
     variance: Floats
     coherence: Floats
     residual: float
-    at_end: float = 0.0
     clipped: int = 0
 
 
@@ -200,11 +197,13 @@ class Deconvolution:
     def learn(self, records: PointRecords, clock_ppm: float) -> Transfers:
         """Transfer functions of a point from what is `sound` of its records."""
         found = self.transfers(self.spectra(records, clock_ppm), records.sound)
-        values = records.values[records.there]
-        rms = float(np.sqrt((values**2).mean())) if values.size else 0.0
-        end = values[:, -max(values.shape[1] // 20, 1) :]
-        at_end = float(np.sqrt((end**2).mean())) / rms if rms else 0.0
-        return replace(found, at_end=at_end, clipped=int(records.clipped.sum()))
+        return replace(found, clipped=int(records.clipped.sum()))
+
+    @property
+    def covered(self) -> int:
+        """Samples of a response that every drive sample has in the records."""
+        end_s = self.length / self._rate_hz + self._first_s
+        return max(int((end_s - self._duration_s) * self.bins.bit_clock_hz), 0)
 
     @property
     def spreads_noise(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import msgspec
 import numpy as np
@@ -12,7 +12,7 @@ from controller.board.board import Board
 from controller.calibration.cosines import Cosines, Lattice, fill_places
 from controller.calibration.dispersion import Dispersion
 from controller.calibration.interpolated import InterpolatedResponses, LeaveOut
-from controller.calibration.kriging import Kriged, Waves, krige
+from controller.calibration.kriging import SpectralField, Waves, krige
 from controller.calibration.learned import LearnedResponses
 from controller.calibration.point_plan import scattered_count
 from controller.calibration.spectra import Bins
@@ -20,6 +20,7 @@ from controller.calibration.wave_fit import WaveFit, fit_waves
 from controller.errors import CalibrationError
 
 LEAST_KEPT = 0.93  # of points left out, their median: worse responses are refused
+STILL = 0.2  # of the median point's movement: those that move less are not judged
 LEAST_POINTS = 12  # of any plate
 PITCH_SLACK = 1.02  # a grid may be as much coarser than half a wavelength: the board's constants are known no better
 MOST_SCATTERED = 4000  # one matrix of them takes 128 MB
@@ -28,7 +29,10 @@ Progress = Callable[[str, int, int], None]
 
 
 def interpolate(
-    board: Board, learned: LearnedResponses, progress: Progress = lambda _what, _done, _total: None
+    board: Board,
+    learned: LearnedResponses,
+    progress: Progress = lambda _what, _done, _total: None,
+    dead: Collection[int] = (),
 ) -> tuple[InterpolatedResponses, WaveFit]:
     """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
 
@@ -38,6 +42,8 @@ def interpolate(
     learned : LearnedResponses
     progress : callable
         Called with what is done, how much of it, and all of it.
+    dead : collection of int
+        Channels that are known to do nothing: their responses are zero.
 
     Returns
     -------
@@ -50,8 +56,7 @@ def interpolate(
         If records, points or channels are too few, points lie on a grid too coarse, or points left out are not foreseen well.
     """
     waveform = board.waveform
-    band_hz = waveform.band_low_hz, waveform.band_high_hz
-    known, used = _checked(board, learned)
+    known, used = _checked(board, learned, dead)
     points_m = learned.points_m[used]
     bins = Bins.of(waveform, learned.responses.shape[1])
     spectra = bins.of_records(learned.responses[used])
@@ -59,24 +64,16 @@ def interpolate(
     lattice = Lattice.found_in(points_m)
     if lattice is not None:
         _refuse_coarse(board, lattice)
-    waves = fit_waves(
-        points_m,
-        spectra,
-        known,
-        bins,
-        Dispersion.of(board.plate),
-        band_hz,
-        lambda done, total: progress("wavelengths", done, total),
-    )
-    prior = Waves.of(waves.dispersion, bins, band_hz[1])
+    waves = fit_waves(board, points_m, spectra, known, bins, lambda done, total: progress("wavelengths", done, total))
+    prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
     if lattice is not None and lattice.covers(board.plate.length_m, board.plate.width_m):
         places = lattice.points()
         values = np.zeros((len(bins.frequency_hz), len(places), known.shape[1]), np.complex64)
         there = np.zeros((len(places), known.shape[1]), bool)
         values[:, lattice.place], there[lattice.place] = spectra, known
         foreseen = fill_places(lattice, values, there, prior, progress=lambda done, total: progress("neighbours", done, total))
-        leave_out = _judged(bins, places, values, foreseen, there)
-        field: Cosines | Kriged = Cosines.of(values, lattice.x_m.size, (board.plate.length_m, board.plate.width_m))
+        leave_out = _judged(board, bins, places, values, foreseen, there)
+        field: SpectralField = Cosines.of(values, lattice.x_m.size, (board.plate.length_m, board.plate.width_m))
         words = f"cosines between {len(places)} cells of {lattice.pitch_m * 1e3:.2f} mm"
         reach = None
     else:
@@ -85,7 +82,7 @@ def interpolate(
                 f"{len(points_m):,} points are neither a grid of cells of the whole plate nor {MOST_SCATTERED:,} or less"
             )
         field, foreseen = krige(points_m, spectra, known, prior, progress=lambda done, total: progress("points", done, total))
-        leave_out = _judged(bins, points_m, spectra, foreseen, known)
+        leave_out = _judged(board, bins, points_m, spectra, foreseen, known)
         words = f"waves between {len(points_m)} points"
         reach = prior
     median, least = leave_out.summary()
@@ -98,7 +95,7 @@ def interpolate(
     return InterpolatedResponses(board, bins, field, provenance, leave_out, reach, points_m), waves
 
 
-def _checked(board: Board, learned: LearnedResponses) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+def _checked(board: Board, learned: LearnedResponses, dead: Collection[int]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
     """What was measured of the channels that have actuators, at the points where anything was: known, and which points."""
     waveform = board.waveform
     if not abs(learned.bit_clock_hz / waveform.bit_clock_hz - 1) < 1e-9:
@@ -113,6 +110,7 @@ def _checked(board: Board, learned: LearnedResponses) -> tuple[NDArray[np.bool_]
         )
     channels = np.zeros(learned.known.shape[1], bool)
     channels[[actuator.channel for actuator in board.actuators]] = True
+    channels[list(dead)] = False
     known = learned.known & channels
     used = np.flatnonzero(known.any(axis=1))
     if len(used) < LEAST_POINTS:
@@ -139,17 +137,22 @@ def _refuse_coarse(board: Board, lattice: Lattice) -> None:
 
 
 def _judged(
+    board: Board,
     bins: Bins,
     points_m: NDArray[np.float64],
     spectra: NDArray[np.complex64],
     foreseen: NDArray[np.complex64],
     known: NDArray[np.bool_],
 ) -> LeaveOut:
-    """Leave-out error, points in blocks."""
+    """Leave-out error, points in blocks; those beyond the cells of a bank are not judged: nobody plays there."""
     known = known & ~np.isnan(foreseen[0])
-    kept = []
+    agreed, magnitude = np.zeros((2, len(points_m)))
     for first in range(0, len(points_m), 64):
         some = slice(first, first + 64)
-        there = np.where(known[some], foreseen[:, some], 0)
-        kept.append(LeaveOut.of(points_m[some], bins.band_limited(spectra[:, some]), bins.band_limited(there), known[some]).kept)
-    return LeaveOut(points_m, np.concatenate(kept))
+        measured = bins.band_limited(spectra[:, some]) * known[some, None]
+        agreed[some] = (np.sign(bins.band_limited(np.where(known[some], foreseen[:, some], 0))) * measured).sum(axis=(1, 2))
+        magnitude[some] = np.abs(measured).sum(axis=(1, 2))
+    moves = magnitude / np.maximum(known.sum(axis=1), 1)
+    from_edge_m = np.minimum(points_m, (board.plate.length_m, board.plate.width_m) - points_m).min(axis=1)
+    judged = (magnitude > 0) & (moves > STILL * np.median(moves)) & (from_edge_m >= board.bank.pitch_mm * 1e-3)
+    return LeaveOut(points_m, np.divide(agreed, magnitude, out=np.full(len(points_m), np.nan), where=judged))

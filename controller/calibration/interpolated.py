@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from controller.bank.provenance import Provenance
 from controller.board.board import Board
 from controller.board.panel import CHANNELS
-from controller.calibration.kriging import Prior, foreseen_shares
-from controller.calibration.spectra import Bins, Spectra
+from controller.calibration.kriging import Prior, SpectralField, foreseen_shares
+from controller.calibration.spectra import Bins
 from controller.errors import CalibrationError
 
 Floats = NDArray[np.float64]
@@ -20,13 +20,6 @@ Floats = NDArray[np.float64]
 LEAST_SHARE = 0.9  # foreseen from the places of the points: farther from them nothing is estimated
 POINTS_AT_ONCE = 64  # transforms of 64 points take some 70 MB
 BINS_ASKED = 8
-
-
-class SpectralField(Protocol):
-    """A field that is known everywhere, by bins."""
-
-    def at(self, targets_m: Floats) -> Spectra:
-        """Spectra at points, (target, 2) in m: (bin, target, channel)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,14 +36,6 @@ class LeaveOut:
 
     points_m: Floats
     kept: Floats
-
-    @classmethod
-    def of(cls, points_m: Floats, measured: NDArray[Any], foreseen: NDArray[Any], known: NDArray[np.bool_]) -> LeaveOut:
-        """From band-limited responses, (point, sample, channel); `known`, (point, channel): measured, and foreseen."""
-        measured = measured * known[:, None]
-        magnitude = np.abs(measured).sum(axis=(1, 2), dtype=np.float64)
-        agreed = (np.sign(foreseen) * measured).sum(axis=(1, 2), dtype=np.float64)
-        return cls(points_m, np.divide(agreed, magnitude, out=np.full(len(points_m), np.nan), where=magnitude > 0))
 
     def summary(self) -> tuple[float, float]:
         """Median and least."""
@@ -99,6 +84,10 @@ class InterpolatedResponses:
         some = self._bins.in_band
         return foreseen_shares(self._prior, self._points_m, points, some[:: max(len(some) // BINS_ASKED, 1)])
 
+    def near_enough(self, points_m: Floats) -> NDArray[np.bool_]:
+        """Whether responses are estimated at points, (point, 2) in m: (point,)."""
+        return self.foreseen(points_m) >= LEAST_SHARE
+
     def responses(
         self,
         points_m: ArrayLike,
@@ -115,7 +104,7 @@ class InterpolatedResponses:
         ValueError
             If `out` has another shape or type.
         """
-        points = self._near_enough(points_m)
+        points = self._checked(points_m)
         out = _room(out, (len(points), self.samples, CHANNELS), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
@@ -135,7 +124,7 @@ class InterpolatedResponses:
         self, points_m: ArrayLike, out: NDArray[np.floating[Any]] | None = None, dtype: DTypeLike = np.float32
     ) -> NDArray[np.floating[Any]]:
         """As `ResponseSource` says; outside the band, rows of rest hold what was measured there. Errors as in `responses`."""
-        points = self._near_enough(points_m)
+        points = self._checked(points_m)
         rows = self._bins.rest_rows
         out = _room(out, (len(points), self.samples + rows, CHANNELS), dtype)
         for first in range(0, len(points), POINTS_AT_ONCE):
@@ -145,7 +134,7 @@ class InterpolatedResponses:
             out[some, self.samples :] = self._bins.rest(spectra)
         return out
 
-    def _near_enough(self, points_m: ArrayLike) -> Floats:
+    def _checked(self, points_m: ArrayLike) -> Floats:
         points = np.asarray(points_m, np.float64).reshape(-1, 2)
         shares = self.foreseen(points)
         if points.size and shares.min() < LEAST_SHARE:

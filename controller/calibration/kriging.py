@@ -9,7 +9,7 @@ allowed for. One Cholesky factor serves all channels measured at the same points
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, lapack
 from scipy.special import j0
 
+from controller.board.board import Board
 from controller.calibration.dispersion import Dispersion
 from controller.calibration.spectra import Bins, Spectra
 
@@ -26,7 +27,15 @@ Covariance = Callable[[int], Floats]
 NOISE = 0.003  # of the variance of the field, as is what is only near
 NEAR = 0.003
 NEAR_WAVES = 0.478  # wavelengths at the upper edge of the band: 4 mm on the paper's plate
+DIRECTIONS = 12  # of waves that meet an edge, each way
 POINTS_AT_ONCE = 64
+
+
+class SpectralField(Protocol):
+    """A field that is known everywhere, by bins."""
+
+    def at(self, targets_m: Floats) -> Spectra:
+        """Spectra at points, (target, 2) in m: (bin, target, channel)."""
 
 
 class Prior(Protocol):
@@ -35,10 +44,13 @@ class Prior(Protocol):
     def between(self, targets_m: Floats, points_m: Floats) -> Covariance:
         """Function of a bin: covariances (target, point), on the scale of a field of variance one."""
 
+    def field(self, points_m: Floats, weights: Spectra) -> SpectralField:
+        """Sum of the covariances with points, (point, 2) in m, times their `weights`, (bin, point, channel)."""
+
 
 @dataclass(frozen=True, eq=False)
 class Waves:
-    """Waves of one length a frequency in all directions.
+    """Waves of one length a frequency in all directions, and what edges add: waves along them that fade within a wavelength.
 
     Attributes
     ----------
@@ -46,49 +58,96 @@ class Waves:
         In rad/m.
     near_m : float
         Distance over which displacements are alike for other reasons.
+    extents_m : (float, float)
+        Length and width of the plate.
+    edge_variance : float
+        Of what fades from each edge, there, in the variance of the field: none at simple supports, which reflect all.
     """
 
     wavenumber: Floats
     near_m: float
+    extents_m: tuple[float, float]
+    edge_variance: float
 
     @classmethod
-    def of(cls, dispersion: Dispersion, bins: Bins, highest_hz: float) -> Waves:
-        """For bins of a band up to `highest_hz`."""
-        return cls(dispersion.wavenumber(bins.frequency_hz), NEAR_WAVES * dispersion.wavelength_m(highest_hz))
+    def of(cls, dispersion: Dispersion, bins: Bins, board: Board, edge_variance: float) -> Waves:
+        """For bins of a board's band."""
+        near_m = NEAR_WAVES * dispersion.wavelength_m(board.waveform.band_high_hz)
+        extents_m = (board.plate.length_m, board.plate.width_m)
+        return cls(dispersion.wavenumber(bins.frequency_hz), near_m, extents_m, edge_variance)
 
     def between(self, targets_m: Floats, points_m: Floats) -> Covariance:
         """As `Prior` says."""
         distance_m = np.hypot(*(targets_m[:, None] - points_m).transpose(2, 0, 1))
         near = NEAR * np.exp(-((distance_m / self.near_m) ** 2))
-        return lambda bin_: j0(self.wavenumber[bin_] * distance_m) + near
+
+        def covariance(bin_: int) -> Floats:
+            inside: Floats = j0(self.wavenumber[bin_] * distance_m) + near
+            if self.edge_variance:
+                inside += self.fading(targets_m, bin_) @ self.fading(points_m, bin_).T
+            return inside
+
+        return covariance
+
+    def fading(self, points_m: Floats, bin_: int) -> Floats:
+        """Waves that run along an edge and fade from it, in all directions from which waves meet the edge: (point, wave).
+
+        Along the edge they have the part k sin(a) of the wavenumber of the wave that meets it, across the edge they fade with
+        k sqrt(1 + sin(a)^2) (Kirchhoff's equation).
+        """
+        sines = np.sin((np.arange(DIRECTIONS) + 0.5) * (np.pi / 2 / DIRECTIONS))
+        along, across = self.wavenumber[bin_] * sines, self.wavenumber[bin_] * np.sqrt(1 + sines**2)
+        waves = []
+        for axis in (0, 1):
+            phase = np.outer(points_m[:, axis], along)
+            running = np.cos(phase), np.sin(phase)
+            from_edge_m = points_m[:, 1 - axis]
+            for edge_m in (from_edge_m, self.extents_m[1 - axis] - from_edge_m):
+                fades = np.exp(-np.outer(edge_m, across))
+                waves += [fades * one for one in running]
+        found: Floats = np.concatenate(waves, axis=1) * np.sqrt(self.edge_variance / DIRECTIONS)
+        return found
+
+    def field(self, points_m: Floats, weights: Spectra) -> SpectralField:
+        """As `Prior` says."""
+        bins, points, channels = weights.shape
+        plain = weights.view(np.float32).reshape(bins, points, 2 * channels)
+        fading = [self.fading(points_m, bin_).T @ plain[bin_] for bin_ in range(bins if self.edge_variance else 0)]
+        return WaveField(self, points_m, plain, fading)
 
 
 @dataclass(frozen=True, eq=False)
-class Kriged:
-    """A field known at points, and estimated everywhere from them.
+class WaveField:
+    """The field that `Waves` estimate.
 
     Attributes
     ----------
+    waves : Waves
     points_m : (point, 2) array
-    weights : (bin, point, channel) array
-        Zero where a channel was not measured.
-    prior : Prior
+    weights : (bin, point, 2 * channel) array
+        Real and imaginary parts in turn.
+    fading : list of (wave, 2 * channel) array
+        Amplitudes of the waves that fade from the edges, of each bin; empty without any.
     """
 
+    waves: Waves
     points_m: Floats
-    weights: Spectra
-    prior: Prior
+    weights: NDArray[np.float32]
+    fading: list[Floats]
 
     def at(self, targets_m: Floats) -> Spectra:
-        """Estimate at other points: (bin, target, channel)."""
-        bins, points, channels = self.weights.shape
-        found = np.empty((bins, len(targets_m), channels), np.complex64)
-        plain = self.weights.view(np.float32).reshape(bins, points, 2 * channels)
+        """As `SpectralField` says."""
+        bins, _, columns = self.weights.shape
+        found = np.empty((bins, len(targets_m), columns // 2), np.complex64)
+        inside = replace(self.waves, edge_variance=0.0)
         for first in range(0, len(targets_m), POINTS_AT_ONCE):
             some = slice(first, first + POINTS_AT_ONCE)
-            covariance = self.prior.between(targets_m[some], self.points_m)
+            covariance = inside.between(targets_m[some], self.points_m)
             for bin_ in range(bins):
-                found[bin_, some] = (covariance(bin_).astype(np.float32) @ plain[bin_]).view(np.complex64)
+                plain = covariance(bin_).astype(np.float32) @ self.weights[bin_]
+                if self.fading:
+                    plain += self.waves.fading(targets_m[some], bin_) @ self.fading[bin_]
+                found[bin_, some] = plain.view(np.complex64)
         return found
 
 
@@ -99,7 +158,7 @@ def krige(
     prior: Prior,
     noise: float = NOISE,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> tuple[Kriged, Spectra]:
+) -> tuple[SpectralField, Spectra]:
     """Solve for the weights, and for the estimate at each point from all others.
 
     Parameters
@@ -116,7 +175,7 @@ def krige(
 
     Returns
     -------
-    Kriged
+    SpectralField
     (bin, point, channel) complex array
         Left out, each point by itself: w_i / (K^-1)_ii beside the measured value, exactly. Zero where nothing was measured.
     """
@@ -133,7 +192,7 @@ def krige(
             weights[bin_][np.ix_(points, channels)] = of_values
             left_out[bin_][np.ix_(points, channels)] = values - of_values / np.diag(inverse)[:, None]
         progress(bin_ + 1, len(spectra))
-    return Kriged(points_m, weights, prior), left_out
+    return prior.field(points_m, weights), left_out
 
 
 def foreseen_shares(prior: Prior, points_m: Floats, targets_m: Floats, bins: NDArray[np.intp], noise: float = NOISE) -> Floats:

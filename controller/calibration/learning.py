@@ -10,35 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.board.board import Board
-from controller.board.panel import CHANNELS
-from controller.calibration.checks import (
-    NOISY_COHERENCE,
-    Finding,
-    clipped_records,
-    dead_channels,
-    listed,
-    misplaced_channels,
-    noisy_records,
-    raise_fatal,
-    wrong_strength,
-)
+from controller.calibration.checks import Finding, raise_fatal
 from controller.calibration.clock import Clock, clock_of
 from controller.calibration.deconvolution import Deconvolution, Transfers
 from controller.calibration.direct_wave import DirectWaves, direct_waves
+from controller.calibration.findings import findings_of, remarks_on
 from controller.calibration.learned import LearnedResponses
 from controller.calibration.measurements import Measurement, read_measurement, sha256_of
 from controller.calibration.point_cache import PointCache
+from controller.calibration.time_responses import responses_in_time
 from controller.errors import CalibrationError
-from controller.physics.response_source import Provenance, SourceFile
 
 Floats = NDArray[np.float64]
 CLOCK_POINTS = 4  # that the clock is found from
 WAVE_POINTS = 64  # that the direct wave is found from
 STATED_DELAY_S = 60e-6  # how far from its stated delay a record is searched
 DELAY_TOLERANCE_S = 3e-6  # what geometry and an unknown edge leave open
-CLOCK_TOLERANCE_PPM = 5.0
-EARLY_S = 0.1e-3, 0.6e-3  # before the pulse: noise alone
-STILL = 0.03  # of a record's rms that may be left at its end
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,8 +121,9 @@ def learn(
     if stated and abs(delay_s) <= DELAY_TOLERANCE_S:
         delay_s = 0.0
     count = 2 * board.waveform.samples if samples is None else samples
-    responses = _responses(measurement, board, deconvolution, results, count, delay_s, files)
-    findings = _findings(measurement, board, deconvolution, results, responses, clock, delay_s, waves)
+    responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
+    findings = findings_of(measurement, board, deconvolution, results, responses, waves)
+    findings += remarks_on(measurement, board, clock, delay_s, ringing)
     residual = np.full(len(measurement.names), np.nan)
     for point, found in results.items():
         residual[point] = found.residual
@@ -197,88 +185,3 @@ def _transfers(
     progress(len(there), len(there))
     kept.forget_others()
     return results, hashes, anew
-
-
-def _responses(
-    measurement: Measurement,
-    board: Board,
-    deconvolution: Deconvolution,
-    results: dict[int, Transfers],
-    samples: int,
-    delay_s: float,
-    files: dict[Path, str],
-) -> LearnedResponses:
-    """In time, with the noise of each: from the variance of its transfer function, else from what precedes the pulse."""
-    bins, count = deconvolution.bins, len(measurement.names)
-    samples = min(samples, bins.length - round(EARLY_S[1] * bins.bit_clock_hz))
-    responses = np.zeros((count, samples, CHANNELS), np.float32)
-    known = np.zeros((count, CHANNELS), bool)
-    coherence, noise = (np.full((count, CHANNELS), np.nan) for _ in range(2))
-    early = slice(*(bins.length - round(time_s * bins.bit_clock_hz) for time_s in reversed(EARLY_S)))
-    for point, found in results.items():
-        whole = bins.response(found.transfer, delay_s)
-        coherence[point] = found.coherence
-        noise[point] = np.sqrt(2 * found.variance * (bins.gain**2).sum()) * bins.step_hz
-        if not np.isfinite(noise[point][found.resolved]).any() and deconvolution.spreads_noise:
-            noise[point] = np.where(found.resolved, whole[:, early].std(axis=1), np.nan)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                coherence[point] = np.maximum(1 - noise[point] ** 2 / (whole**2).mean(axis=1), 0)
-        known[point] = found.resolved & ~(coherence[point] < NOISY_COHERENCE)
-        responses[point] = np.where(known[point], whole[:, :samples].T, 0)
-    settings = measurement.settings
-    low_hz, high_hz = deconvolution.excited_hz
-    provenance = Provenance(
-        kind="measured",
-        model=f"deconvolved from {low_hz / 1e3:.0f} to {high_hz / 1e3:.0f} kHz",
-        files=tuple(SourceFile(str(file.relative_to(measurement.folder)), sha256) for file, sha256 in sorted(files.items())),
-        date=settings.date,
-        temperature_c=settings.temperature_c,
-        points=len(results),
-    )
-    return LearnedResponses(measurement.points_m, responses, known, coherence, noise, board.waveform.bit_clock_hz, provenance)
-
-
-def _findings(
-    measurement: Measurement,
-    board: Board,
-    deconvolution: Deconvolution,
-    results: dict[int, Transfers],
-    responses: LearnedResponses,
-    clock: Clock,
-    delay_s: float,
-    waves: DirectWaves | None,
-) -> list[Finding]:
-    names, settings = measurement.names, measurement.settings
-    points = list(results)
-    channels = sorted(a.channel for a in board.actuators)
-    power = np.stack([(abs(found.transfer) ** 2).sum(axis=1) for found in results.values()]).astype(np.float64)
-    taken_off = np.stack([np.nan_to_num(found.variance) for found in results.values()]) * len(deconvolution.bins.gain)
-    resolved = np.stack([found.resolved for found in results.values()])
-    power = np.where(resolved, np.maximum(power - taken_off, 0), np.nan)
-    findings = dead_channels(power, responses.coherence[points], channels)
-    dead = {channel for finding in findings for channel in finding.channels}
-    alive = [channel for channel in channels if channel not in dead]
-    if waves is not None:
-        findings += misplaced_channels(waves, alive) + wrong_strength(waves, alive)
-    findings += clipped_records({names[point]: found.clipped for point, found in results.items()})
-    if missing := [names[point] for point in measurement.missing]:
-        findings.append(Finding("missing", f"no records of point {listed(missing)}: left unknown", points=tuple(missing)))
-    of_living = np.array([channel in alive for channel in range(CHANNELS)])
-    findings += noisy_records(responses.coherence, np.array([[p in results] for p in range(len(names))]) & of_living, names)
-    if delay_s and settings.records.first_sample_us is not None:
-        right_us = settings.records.first_sample_us - delay_s * 1e6
-        late = f"{abs(delay_s) * 1e6:.1f} us {'later' if delay_s > 0 else 'earlier'}"
-        text = f"waves arrive {late} than records.first_sample_us says, which should be {right_us:.0f}: corrected"
-        findings.append(Finding("delay", text))
-    if abs(clock.ppm) > CLOCK_TOLERANCE_PPM:
-        text = f"the recorder's clock is {abs(clock.ppm):.1f} ppm {'fast' if clock.ppm > 0 else 'slow'}: corrected"
-        findings.append(Finding("clock", text))
-    if settings.board_sha256 is not None and settings.board_sha256 != board.digest().hex():
-        findings.append(
-            Finding("board", f"measured with another board.toml than {board.name} has now ({settings.board_sha256[:12]}…)")
-        )
-    at_end = float(np.median([found.at_end for found in results.values()]))
-    if at_end > STILL:
-        text = f"the plate still moves when records end, by {at_end:.0%} of their rms: record for longer"
-        findings.append(Finding("short", text))
-    return findings

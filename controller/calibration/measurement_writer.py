@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.io import wavfile
 
 from controller.calibration.measurement_file import MeasurementFile, WordsDrive, write_settings
-from controller.calibration.measurements import write_points
+from controller.calibration.points import write_points
 from controller.errors import CalibrationError
 
 UFF_TYPES = {"m": 8, "m/s": 11, "m/s^2": 12, "V": 0}

@@ -2,37 +2,32 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.calibration.drives import Drive, read_drive
 from controller.calibration.measurement_file import NAME, MeasurementFile, read_settings
+from controller.calibration.points import points_of
 from controller.calibration.record_formats import (
+    UFF,
     Numbers,
     UffSets,
-    load_array,
+    in_unit,
+    is_clipped,
     load_records,
     load_uff,
     load_wav,
     unreadable,
 )
 from controller.errors import CalibrationError
-
-POINT_NAME = re.compile(r"[A-Za-z0-9_+-][A-Za-z0-9_.+-]{0,63}")  # part of a file's name
-MOST_POINTS = 20_000
-UFF = (".uff", ".unv")
-EDGE_MM = 1e-6  # a place on the edge is on the plate
 
 Place = tuple[int, int]  # emission, repetition
 
@@ -239,7 +234,7 @@ class Measurement:
         for place, record in read.items():
             if record.dtype.kind == "f" and np.isnan(record).all():
                 continue  # how an array with all points leaves one out
-            values[place] = _in_unit(record, settings.full_scale, where)
+            values[place] = in_unit(record, settings.full_scale, where)
             there[place], clipped[place] = True, is_clipped(record)
         if not np.isfinite(values[there]).all():
             e, r = np.argwhere(there & ~np.isfinite(values).all(axis=2))[0]
@@ -264,66 +259,10 @@ def read_measurement(folder: Path, board: Board) -> Measurement:
     """
     settings = read_settings(folder)
     drive = read_drive(folder, settings.drive)
-    if settings.points is not None:
-        where, found = folder / settings.points, _points_of_csv(folder / settings.points)
-    else:
-        where, found = folder / settings.records.files, _points_of_records(folder, settings)
-    names, points_m = _checked(where, found, board)
+    names, points_m = points_of(folder, settings, board)
     measurement = Measurement(folder, settings, names, points_m, drive)
     _refuse_foreign_files(measurement)
     return measurement
-
-
-def read_points(file: Path, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
-    """Names and places in m of points, (point, 2), from a CSV file with point,x_mm,y_mm.
-
-    Raises
-    ------
-    CalibrationError
-        Naming file and point: unreadable, off the plate, twice, or none.
-    """
-    return _checked(file, _points_of_csv(file), board)
-
-
-def _checked(where: Path, found: list[tuple[str, float, float]], board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
-    """Names and places in m of points that may be measured."""
-    if not found:
-        raise CalibrationError(f"{where}: no points")
-    if len(found) > MOST_POINTS:
-        raise CalibrationError(f"{where}: {len(found):,} points, more than {MOST_POINTS:,}")
-    places: dict[tuple[float, float], str] = {}
-    for name, x_mm, y_mm in found:
-        if not POINT_NAME.fullmatch(name):
-            raise CalibrationError(f"{where}: point {name[:70]!r}: its name may have letters, digits and _ + - . only")
-        for axis, value, extent in (("x_mm", x_mm, board.plate.length_mm), ("y_mm", y_mm, board.plate.width_mm)):
-            if not -EDGE_MM <= value <= extent + EDGE_MM:  # NaN too
-                raise CalibrationError(f"{where}: point {name}: {axis} = {value:g} is off the plate (0 to {extent:g} mm)")
-        if (other := places.setdefault((x_mm, y_mm), name)) is not name:
-            raise CalibrationError(f"{where}: points {other} and {name} are the same place, {x_mm:g}, {y_mm:g} mm")
-    names = [name for name, _, _ in found]
-    if len(set(names)) != len(names):
-        twice = next(name for index, name in enumerate(names) if name in names[:index])
-        raise CalibrationError(f"{where}: point {twice} is there twice")
-    return tuple(names), np.array([point[1:] for point in found]) * 1e-3
-
-
-def write_points(file: Path, names: tuple[str, ...], points_m: ArrayLike) -> None:
-    """Write points as a CSV file: point, x_mm, y_mm.
-
-    Raises
-    ------
-    CalibrationError
-        If it cannot be written.
-    """
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(("point", "x_mm", "y_mm"))
-    for name, (x_m, y_m) in zip(names, np.asarray(points_m, np.float64), strict=True):
-        rows.writerow((name, f"{x_m * 1e3:.9g}", f"{y_m * 1e3:.9g}"))
-    try:
-        file.write_text(text.getvalue(), encoding="utf-8")
-    except OSError as error:
-        raise CalibrationError(f"{file}: cannot be written ({error.strerror})") from error
 
 
 def sha256_of(file: Path) -> str:
@@ -339,71 +278,6 @@ def sha256_of(file: Path) -> str:
             return hashlib.file_digest(data, "sha256").hexdigest()
     except OSError as error:
         raise unreadable(file, error) from error
-
-
-def is_clipped(record: Numbers) -> bool:
-    """Whether samples pile up at the largest or smallest number of the record, as those of a full converter do.
-
-    Three or more, and three times as many as stand at each of the next numbers.
-    """
-    lowest, highest = record.min(), record.max()
-    if lowest == highest:
-        return False  # silent: a dead channel, not a loud one
-    many = min(len(record), 64)
-    least = np.unique(np.partition(record, many - 1)[:many], return_counts=True)[1]
-    largest = np.unique(np.partition(record, -many)[-many:], return_counts=True)[1][::-1]
-    return any(counts[0] >= max(3, 3 * float(counts[1:5].mean()) if len(counts) > 1 else 0) for counts in (least, largest))
-
-
-def _in_unit(record: Numbers, full_scale: float | None, where: str) -> NDArray[np.float64]:
-    values = np.asarray(record, np.float64)
-    if record.dtype.kind != "f":
-        if full_scale is None:
-            raise CalibrationError(f"{where}: whole numbers; give records.full_scale, what the largest of them stands for")
-        bits = 8 * record.dtype.itemsize - (record.dtype.kind == "i")
-        values = values / 2.0**bits
-    return values * (1.0 if full_scale is None else full_scale)
-
-
-def _points_of_csv(file: Path) -> list[tuple[str, float, float]]:
-    try:
-        if file.stat().st_size > 100 * MOST_POINTS:
-            raise CalibrationError(f"{file}: too large for a list of points")
-        rows = list(csv.reader(file.read_text(encoding="utf-8-sig").splitlines()))
-    except OSError as error:
-        raise unreadable(file, error) from error
-    except (ValueError, csv.Error) as error:
-        raise CalibrationError(f"{file}: no CSV file ({error})") from error
-    if not rows or [cell.strip() for cell in rows[0]] != ["point", "x_mm", "y_mm"]:
-        raise CalibrationError(f"{file}: its first line is not point,x_mm,y_mm")
-    found = []
-    for number, row in enumerate(rows[1:], 2):
-        if not row:
-            continue
-        try:
-            name, x_mm, y_mm = (cell.strip() for cell in row)
-            found.append((name, float(x_mm), float(y_mm)))
-        except ValueError:
-            raise CalibrationError(f"{file}: line {number}: {','.join(row)[:80]!r} is not a name and two numbers") from None
-    return found
-
-
-def _points_of_records(folder: Path, settings: MeasurementFile) -> list[tuple[str, float, float]]:
-    """The file's own points: `points_mm` of a .npz file, nodes of a UFF file."""
-    file = folder / settings.records.files
-    suffix = file.suffix.lower()
-    if settings.records.fields or suffix not in (".npz", *UFF):
-        raise CalibrationError(f"{folder / NAME}: points is missing: the name of a CSV file with point,x_mm,y_mm")
-    if suffix == ".npz":
-        points: Any = load_array(file, "points_mm")
-        if points.dtype.kind not in "fiu" or points.ndim != 2 or points.shape[1] != 2:
-            raise CalibrationError(f"{file}: points_mm is {points.dtype} {points.shape}, not (point, 2) numbers")
-        return [(str(index), float(x), float(y)) for index, (x, y) in enumerate(points)]
-    sets = load_uff(file, settings.sample_rate_hz, settings.records.quantity[0])
-    nodes = sorted({key[0] for key in sets.records})
-    if without := [node for node in nodes if node not in sets.nodes_m]:
-        raise CalibrationError(f"{file}: point {without[0]} has no node of type 15 or 2411; give points in a CSV file")
-    return [(str(node), x_m * 1e3, y_m * 1e3) for node, (x_m, y_m) in sorted(sets.nodes_m.items())]
 
 
 def _refuse_foreign_files(measurement: Measurement) -> None:

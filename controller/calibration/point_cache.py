@@ -41,8 +41,8 @@ class PointCache:
         except Exception:  # numpy and zipfile raise anything on damaged files
             return None
         variance, coherence = told[0], told[1]
-        residual, at_end, clipped = told[2, :3].tolist()
-        return Transfers(transfer, resolved, variance, coherence, residual, at_end, int(clipped))
+        residual, clipped = told[2, :2].tolist()
+        return Transfers(transfer, resolved, variance, coherence, residual, int(clipped))
 
     def keep(self, point: str, hashes: Iterable[str], found: Transfers) -> None:
         """Keep a result."""
@@ -50,7 +50,7 @@ class PointCache:
             return
         file = self._folder / self._name(point, hashes)
         told = np.stack([found.variance, found.coherence, np.zeros_like(found.variance)])
-        told[2, :3] = found.residual, found.at_end, found.clipped
+        told[2, :2] = found.residual, found.clipped
         part = file.with_suffix(f".{os.getpid()}.part")
         try:
             self._folder.mkdir(parents=True, exist_ok=True)

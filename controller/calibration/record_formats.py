@@ -15,6 +15,7 @@ from scipy.io import wavfile
 from controller.errors import CalibrationError
 
 LARGEST_BYTES = 4 << 30  # of a file that is read as a whole
+UFF = (".uff", ".unv")
 UFF_QUANTITIES = {8: "m", 11: "m/s", 12: "m/s^2"}  # specific data type of the ordinate
 UFF_UNTOLD = (0, 1)  # unknown, general
 UFF_TIME_RESPONSE = 1
@@ -163,6 +164,31 @@ def _uff_sets(file: Path) -> list[dict[str, Any]]:
     except Exception as error:  # pyuff raises nothing more precise
         raise unreadable(file, error) from error
     return [sets] if isinstance(sets, dict) else sets
+
+
+def is_clipped(record: Numbers) -> bool:
+    """Whether samples pile up at the largest or smallest number of the record, as those of a full converter do.
+
+    Three or more, and three times as many as stand at each of the next numbers.
+    """
+    lowest, highest = record.min(), record.max()
+    if lowest == highest:
+        return False  # silent: a dead channel, not a loud one
+    many = min(len(record), 64)
+    least = np.unique(np.partition(record, many - 1)[:many], return_counts=True)[1]
+    largest = np.unique(np.partition(record, -many)[-many:], return_counts=True)[1][::-1]
+    return any(counts[0] >= max(3, 3 * float(counts[1:5].mean()) if len(counts) > 1 else 0) for counts in (least, largest))
+
+
+def in_unit(record: Numbers, full_scale: float | None, where: str) -> NDArray[np.float64]:
+    """Samples in the unit of the records; whole numbers are parts of `full_scale`."""
+    values = np.asarray(record, np.float64)
+    if record.dtype.kind != "f":
+        if full_scale is None:
+            raise CalibrationError(f"{where}: whole numbers; give records.full_scale, what the largest of them stands for")
+        bits = 8 * record.dtype.itemsize - (record.dtype.kind == "i")
+        values = values / 2.0**bits
+    return values * (1.0 if full_scale is None else full_scale)
 
 
 def check_rate(file: Path, rate_hz: float, expected_hz: float) -> None:

@@ -1,7 +1,8 @@
 """The plate's own wavenumbers, from measurements: those with which points left out are best foreseen by the others.
 
 The error of points left out has a sharp minimum: half a percent off costs as much as all else. It is searched in several parts of
-the band, which gives a factor on the board's wavenumbers, how it changes over the band, and how sure both are.
+the band, by points away from the edges, which gives a factor on the board's wavenumbers, how it changes over the band, and how sure
+both are.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.board.board import Board
 from controller.calibration.dispersion import Dispersion
 from controller.calibration.kriging import Waves, krige
 from controller.calibration.spectra import Bins, Spectra
@@ -22,7 +24,10 @@ Floats = NDArray[np.float64]
 POINTS = 150  # at most, of those there are
 PARTS = 6  # of the band
 BINS = 3  # of each part
-COARSE: Floats = np.linspace(0.9, 1.1, 21)
+MOST_UNFORESEEN = 0.4  # of the energy of a point left out
+EDGE_WAVES = 0.75  # nearer to an edge than so many wavelengths a point does not judge
+EDGE_VARIANCES = (0.0, 0.3)
+COARSE: Floats = np.linspace(0.93, 1.07, 15)
 FINE: Floats = np.linspace(-0.0075, 0.0075, 7)
 
 
@@ -34,13 +39,23 @@ class WaveFit:
     ----------
     dispersion : Dispersion
         With the factor found in the middle of the band, and its slope.
+    edge_variance : float
+        Of waves that fade from the edges, in that of the field.
     factor_error, slope_error_per_hz : float
         Standard deviations, from the scatter between parts of the band.
+    frequency_hz, factors : tuple of float
+        Middle of each part of the band, and the factor found there.
+    scatter : float
+        Standard deviation of one of them.
     """
 
     dispersion: Dispersion
+    edge_variance: float
     factor_error: float
     slope_error_per_hz: float
+    frequency_hz: tuple[float, ...]
+    factors: tuple[float, ...]
+    scatter: float
 
     @property
     def frequency_scale(self) -> float:
@@ -54,67 +69,76 @@ class WaveFit:
 
 
 def fit_waves(
+    board: Board,
     points_m: Floats,
     spectra: Spectra,
     known: NDArray[np.bool_],
     bins: Bins,
-    dispersion: Dispersion,
-    band_hz: tuple[float, float],
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> WaveFit:
-    """Fit wavenumbers.
+    """Fit wavenumbers, and what edges add.
 
     Parameters
     ----------
+    board : Board
+        What its plate's constants say is where the search begins.
     points_m : (point, 2) array
     spectra : (bin, point, channel) array
     known : (point, channel) bool array
     bins : Bins
-    dispersion : Dispersion
-        The board's.
-    band_hz : (float, float)
     progress : callable
         Called with the work done and all of it.
 
     Raises
     ------
     CalibrationError
-        If no wavenumber within 10 % of the board's explains the field.
+        If no wavenumber within 7 % of the board's explains the field.
     """
+    dispersion = Dispersion.of(board.plate)
     whole = np.flatnonzero(known.any(axis=1))
     if len(whole) > POINTS:
         whole = np.sort(np.random.default_rng(1).choice(whole, POINTS, replace=False))
     # one pattern only: points where every channel of them is known, as most are
     channels = np.flatnonzero(known[whole].mean(axis=0) > 0.5)
     whole = whole[known[np.ix_(whole, channels)].all(axis=1)]
-    low, high = np.searchsorted(bins.frequency_hz, band_hz)
+    low, high = np.searchsorted(bins.frequency_hz, (board.waveform.band_low_hz, board.waveform.band_high_hz))
+    from_edge_m = np.minimum(points_m[whole], (board.plate.length_m, board.plate.width_m) - points_m[whole]).min(axis=1)
+    inside = from_edge_m > EDGE_WAVES * dispersion.wavelength_m(board.waveform.band_high_hz)
+    if inside.sum() < len(whole) / 5:
+        inside[:] = True
     parts = np.linspace(low, high - 1, PARTS * BINS + 2)[1:-1].round().astype(int).reshape(PARTS, BINS)
-    steps = len(COARSE) + PARTS * len(FINE)
+    steps = len(COARSE) + len(FINE) + PARTS * len(FINE)
 
-    def error(factor: float, chosen: NDArray[np.intp], done: int) -> float:
+    done = 0
+
+    def error(factor: float, chosen: NDArray[np.intp], edge_variance: float) -> float:
+        """Energy of points left out that is not foreseen, over all."""
+        nonlocal done
         some = replace(bins, frequency_hz=bins.frequency_hz[chosen], gain=bins.gain[chosen])
         of_bins = spectra[np.ix_(chosen, whole, channels)]
-        prior = Waves.of(replace(dispersion, factor=factor), some, band_hz[1])
-        _, left_out = krige(points_m[whole], of_bins, np.ones((len(whole), 1), bool).repeat(len(channels), axis=1), prior)
+        prior = Waves.of(replace(dispersion, factor=factor), some, board, edge_variance)
+        _, foreseen = krige(points_m[whole], of_bins, np.ones((len(whole), len(channels)), bool), prior)
+        done += 1
         progress(done, steps)
-        scale = (np.abs(of_bins) ** 2).mean(axis=(1, 2), keepdims=True)
-        return float((np.abs(left_out - of_bins) ** 2 / scale).mean())
+        scale = (np.abs(of_bins[:, inside]) ** 2).mean(axis=(1, 2), keepdims=True)
+        return float((np.abs(foreseen[:, inside] - of_bins[:, inside]) ** 2 / scale).mean())
 
     middles = parts[:, BINS // 2]
-    coarse = [error(factor, middles, done) for done, factor in enumerate(COARSE.tolist(), 1)]
-    best = int(np.argmin(coarse))
-    if best in (0, len(COARSE) - 1) or coarse[best] > 0.5 * float(np.median(coarse)):
+    none, fading = EDGE_VARIANCES
+    coarse = np.array([error(factor, middles, fading) for factor in COARSE.tolist()])
+    best = int(coarse.argmin())
+    around = [error(COARSE[best] + off, middles, none) for off in FINE.tolist()]
+    edge_variance = none if min(around) < coarse.min() else fading
+    least = float(coarse.min())
+    if best in (0, len(COARSE) - 1) or least > MOST_UNFORESEEN:
         raise CalibrationError(
-            f"no waves within 10 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
-            f" {min(coarse):.0%} of the energy is not foreseen): too few points, or check positions, channels, [plate]"
+            f"no waves within 7 % of the board's wavelengths explain what was measured at {len(whole)} points (of one left out,"
+            f" {least:.0%} of the energy is not foreseen): too few points, or check positions, channels, [plate]"
         )
-    done, factors = len(COARSE), []
+    factors = []
     for part in parts:
-        errors = []
-        for off in FINE.tolist():
-            done += 1
-            errors.append(error(COARSE[best] + off, part, done))
-        factors.append(COARSE[best] + _lowest(FINE, np.array(errors)))
+        errors = [error(COARSE[best] + off, part, edge_variance) for off in FINE.tolist()]
+        factors.append(float(COARSE[best] + _lowest(FINE, np.array(errors))))
     frequency = bins.frequency_hz[parts].mean(axis=1)
     middle_hz = float(frequency.mean())
     design = np.column_stack([np.ones(PARTS), frequency - middle_hz])
@@ -123,8 +147,12 @@ def fit_waves(
     errors_of = np.sqrt(np.diag(np.linalg.inv(design.T @ design)) * scatter)
     return WaveFit(
         replace(dispersion, factor=float(found[0]), slope_per_hz=float(found[1]), reference_hz=middle_hz),
+        edge_variance,
         float(errors_of[0]),
         float(errors_of[1]),
+        tuple(frequency.tolist()),
+        tuple(factors),
+        float(np.sqrt(scatter)),
     )
 
 

@@ -13,6 +13,7 @@ STEPS = {  # in the order of --help, which prints these texts; each is a module 
     "plan": "where to measure the plate, and how long it takes",
     "measure": "measure the plate in place: play through the panel's FPGA, and record a sensor point by point",
     "check": "read and deconvolve measurements, and name what is wrong with them",
+    "bank": "build the bank of a plate from its measurements",
     "simulate": "write the measurements of a simulated plate that differs from the board's",
 }
 

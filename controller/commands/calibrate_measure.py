@@ -66,7 +66,7 @@ def measure(options: argparse.Namespace) -> int:
     from controller.calibration.excitation import drive_words, period_s
     from controller.calibration.in_place import BEFORE_S, InPlace
     from controller.calibration.measurement_writer import write_measurement, write_records
-    from controller.calibration.measurements import read_points
+    from controller.calibration.points import read_points
 
     board = load_board(find_board(options.board))
     _check(options, board)

@@ -91,8 +91,8 @@ def simulate(options: argparse.Namespace) -> int:
 
 def _points(options: argparse.Namespace, board: Board) -> tuple[tuple[str, ...], NDArray[np.float64]]:
     """Names and places of the points to measure."""
-    from controller.calibration.measurements import read_points
     from controller.calibration.point_plan import grid_points, scattered_count, scattered_points
+    from controller.calibration.points import read_points
 
     if options.points:
         return read_points(Path(options.points), board)

@@ -8,9 +8,10 @@ LABELS = {
     "relative_amplitude": "relative amplitude",
     "exact_share": "of exact composition",
     "amplitude_um": "amplitude (µm)",
-    "contrast": "contrast (outside 10 mm)",
+    "contrast": "contrast (outside 0.95 λ)",
     "contrast_all": "contrast (all points)",
     "spot_mm": "spot (mm)",
+    "spot_wavelengths": "spot (λ)",
     "distance_mm": "crest to finger (mm)",
 }
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from controller.board.board import Board
 from controller.physics.modes import Modes, at_points
-from controller.physics.plate import MIDDLE_HZ, middle_hz, wave_scale
+from controller.physics.plate import MIDDLE_HZ, WAVELENGTH_M, bending_wavelength_m, middle_hz, wave_scale
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
@@ -47,6 +47,8 @@ class FocusScale:
         Offsets among which the crest of a spot is searched.
     around_s : (101,) array
         Times from T: 0.225 periods before and after, 5 us.
+    wave_m : float
+        The wavelength itself.
     """
 
     map_step_m: float = MAP_STEP_M
@@ -54,13 +56,15 @@ class FocusScale:
     line_m: Floats = field(default_factory=LINE_M.copy)
     crest_m: Floats = field(default_factory=CREST_M.copy)
     around_s: Floats = field(default_factory=AROUND_S.copy)
+    wave_m: float = WAVELENGTH_M
 
     @classmethod
     def of(cls, board: Board) -> FocusScale:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""
         longer = wave_scale(board)
         slower = float(f"{MIDDLE_HZ / middle_hz(board.waveform):.3g}")
-        return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower)
+        wave_m = bending_wavelength_m(board.plate, middle_hz(board.waveform))
+        return cls(MAP_STEP_M * longer, OUTSIDE_M * longer, LINE_M * longer, CREST_M * longer, AROUND_S * slower, wave_m)
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,8 @@ class FocusMetrics:
         The same over all points of the map.
     spot_m : float
         Full width at half height, mean over x, y and both diagonals.
+    spot_wavelengths : float
+        The same over the wavelength in the middle of the band.
     peak_offset_s : float
         Time of the largest displacement within `FocusScale.around_s` of T, from T: 5 us on the paper's plate.
     """
@@ -85,6 +91,7 @@ class FocusMetrics:
     contrast: float
     contrast_all: float
     spot_m: float
+    spot_wavelengths: float
     peak_offset_s: float
 
 
@@ -177,11 +184,13 @@ class Field:
         for fx, fy in foci or [(x_m, y_m)]:
             outside &= np.hypot(x - fx, (y - fy)[:, None]) > self.scale.outside_m
         squared = u**2
+        spot_m = self._spot(self.crest(x_m, y_m), amplitude)
         return FocusMetrics(
             amplitude_m=amplitude,
             contrast=_ratio_to_rms(amplitude, float(squared[outside].mean()) if outside.any() else 0.0),
             contrast_all=_ratio_to_rms(amplitude, float(squared.mean())),
-            spot_m=self._spot(self.crest(x_m, y_m), amplitude),
+            spot_m=spot_m,
+            spot_wavelengths=spot_m / self.scale.wave_m,
             peak_offset_s=self._peak_offset((x_m, y_m), amplitude),
         )
 

@@ -17,9 +17,6 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import BSpline
-from scipy.linalg import solve_triangular
-from scipy.special import roots_legendre
 
 from controller.board.panel import Support
 
@@ -103,6 +100,8 @@ class Splines:
 
     def values(self, coefficients: Floats, x_m: Floats, derivative: int) -> Floats:
         """As in `Functions`."""
+        from scipy.interpolate import BSpline
+
         splines = BSpline(self._knots, coefficients, SPLINE_DEGREE)
         found: Floats = (splines.antiderivative() if derivative < 0 else splines)(x_m, max(derivative, 0))
         return found
@@ -146,7 +145,7 @@ class OneDimensionalBasis:
         length = functions.length_m
         x, weights = functions.nodes(0.0, length)
         factor = _triangular(np.sqrt(weights)[:, None] * functions.values(chosen, x, 0))
-        orthonormal = solve_triangular(factor, chosen.T, trans="T").T
+        orthonormal: Floats = np.linalg.solve(factor.T, chosen.T).T.astype(np.float64, copy=False)
         conditions = [
             functions.values(orthonormal, np.array([place]), derivative)[0] * length**derivative
             for place, end in ((0.0, ends[0]), (length, ends[1]))[: 1 if parity else 2]
@@ -184,6 +183,8 @@ def _triangular(matrix: Floats) -> Floats:
 
 def _gauss(breaks_m: Floats, count: int) -> tuple[Floats, Floats]:
     """Gauss-Legendre nodes and weights, `count` between each two breaks."""
+    from scipy.special import roots_legendre
+
     nodes, weights = roots_legendre(count)
     half = np.diff(breaks_m)[:, None] / 2
     return (breaks_m[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()

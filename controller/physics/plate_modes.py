@@ -9,10 +9,12 @@ import msgspec
 
 from controller.board.board import Board
 from controller.board.panel import Plate
+from controller.board.patches import Patch, Patches
 from controller.physics.closed_form import SimplySupported
 from controller.physics.damping import damped
 from controller.physics.mindlin import MindlinPlate
 from controller.physics.modes import Modes
+from controller.physics.patches import BASIS, with_patches
 from controller.physics.plate import mode_cut_hz
 from controller.physics.ritz_modes import RitzModes
 
@@ -33,18 +35,24 @@ def modes_of(board: Board, highest_hz: float | None = None) -> Modes:
     ConfigError
         If there is none, or more than can be computed with.
     """
-    return _modes(board.plate, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
+    places = () if board.patches is None else board.patches.on(board.plate, board.actuators)
+    return _modes(board.plate, board.patches, places, mode_cut_hz(board.waveform) if highest_hz is None else highest_hz)
 
 
 @lru_cache(maxsize=KEPT)
-def _modes(plate: Plate, highest_hz: float) -> Modes:
-    """Modes from all that they depend on, which must be hashable records: edges, then theory, then damping."""
-    if plate.theory == "mindlin":
-        theory = MindlinPlate.of(plate)
-        modes = theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
-    else:
-        modes = _of_edges(plate, highest_hz)
-    return damped(modes, plate)
+def _modes(plate: Plate, patches: Patches | None, places: tuple[Patch, ...], highest_hz: float) -> Modes:
+    """Modes from all that they depend on, which must be hashable records: edges, theory, patches, damping."""
+    if patches is None:
+        return damped(_bare(plate, highest_hz), plate)
+    return damped(with_patches(_bare(plate, BASIS * highest_hz), plate, patches, places, highest_hz), plate)
+
+
+def _bare(plate: Plate, highest_hz: float) -> Modes:
+    """Modes without patches."""
+    if plate.theory == "kirchhoff":
+        return _of_edges(plate, highest_hz)
+    theory = MindlinPlate.of(plate)
+    return theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
 
 
 def _of_edges(plate: Plate, highest_hz: float) -> Modes:
@@ -67,7 +75,8 @@ def in_words(board: Board, modes: Modes) -> str:
     shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
     decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
     layers = f" of {len(plate.layers)} layers" if plate.layers else ""
+    patches = f", {len(board.patches.on(plate, board.actuators))} patches" if board.patches else ""
     return (
-        f"{plate.theory.capitalize()} plate{layers}, edges {edges}, decay {decay} ms,"
+        f"{plate.theory.capitalize()} plate{layers}, edges {edges}{patches}, decay {decay} ms,"
         f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"
     )

@@ -15,9 +15,6 @@ from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
-from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from controller.board.panel import Support
 from controller.errors import ConfigError
@@ -130,6 +127,9 @@ def solve(plate: PlateShape, highest_k: float) -> PlateSolution:
     ConfigError
         If the functions do not give the number of modes that there are.
     """
+    from threadpoolctl import threadpool_limits
+    from tqdm import tqdm
+
     pairs = bases(plate, highest_k)
     long = sum(float(x.count * y.count) ** 3 for x, y in pairs) > WATCHED
     largest, classes = 0.0, []
@@ -219,6 +219,8 @@ class _Energy:
 
     def modes(self, highest: float) -> tuple[Floats, Floats]:
         """Eigenvalues up to `highest`, (mode,), and eigenvectors, (x function * y function, mode)."""
+        from scipy.linalg import eigh
+
         values, vectors = eigh(
             self._matrix(), subset_by_value=(-np.inf, highest), driver="evr", overwrite_a=True, check_finite=False
         )

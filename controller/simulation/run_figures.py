@@ -126,6 +126,7 @@ def _figures(foci: list[Focus]) -> dict[str, Any]:
         "contrast": ([f.metrics.contrast for f in foci], min),
         "contrast_all": ([f.metrics.contrast_all for f in foci], min),
         "spot_mm": ([f.metrics.spot_m * 1e3 for f in foci], max),
+        "spot_wavelengths": ([f.metrics.spot_wavelengths for f in foci], max),
         "distance_mm": ([f.distance_m * 1e3 for f in foci], max),
     }
     return {"count": len(foci)} | {name: _median_and(worst, values) for name, (values, worst) in columns.items()}

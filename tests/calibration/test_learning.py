@@ -212,7 +212,7 @@ def test_everything_that_is_wrong_is_named_with_channel_and_point(tmp_path):
     assert set(said) == {"dead", "swapped", "inverted", "clipped", "missing", "noisy"}
     assert not found.responses.known[1].any()
     with pytest.raises(
-        CalibrationError, match=r"channel 2 is dead.*channels 3 and 6 look swapped.*channel 5 looks inverted.*point 5 \("
+        CalibrationError, match=r"channel 2 is dead.*channels 3 and 6 look swapped.*channel 5 looks inverted.*point 5;"
     ) as error:
         found.require()
     assert error.value.exit_code == 78

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physics.levy import levy_wavenumbers
+from small_plate import small_board
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
@@ -15,11 +16,16 @@ from controller.board.panel import Actuator, Edges, Foam
 from controller.errors import ConfigError
 from controller.physics import ritz, ritz_modes
 from controller.physics.closed_form import SimplySupported
+from controller.physics.driver import DriverResponse
+from controller.physics.focusing import focus
+from controller.physics.impulse_response import ResponseModel
 from controller.physics.mode_count import edge_term, mode_count
 from controller.physics.plate import bending_stiffness
 from controller.physics.plate_modes import modes_of
+from controller.physics.plate_twin import PlateTwin, capture_of_words
 from controller.physics.ritz import PlateShape
 from controller.physics.ritz_modes import RitzModes, plate_shape
+from controller.physics.step_response import StepResponse, channel_forces
 
 BOARD = load_board(find_board("simulated"))
 PAPER = BOARD.plate
@@ -251,11 +257,7 @@ def test_any_plate_has_sorted_orthonormal_modes_that_rise_with_what_holds_it(sid
     assert np.all(low[: high.size] <= high * (1 + 4e-4)), "what holds an edge raises every frequency"
 
 
-def test_foci_on_every_pair_of_edges_are_finite():
-    """The whole chain above the modes, in small: poles, forces and the deflection at rest, of all kinds of edges."""
-    from controller.physics.driver import DriverResponse
-    from controller.physics.step_response import StepResponse, channel_forces
-
+def test_poles_and_forces_of_every_pair_of_edges_are_finite():
     for a, b in itertools.combinations("SCFE", 2):
         board = msgspec.structs.replace(BOARD, plate=plate_of(a + b + b + a))
         modes = modes_of(board, 2e3)
@@ -263,5 +265,22 @@ def test_foci_on_every_pair_of_edges_are_finite():
         assert np.isfinite(step.static).all()
         assert np.isfinite(step.residues).all()
         assert np.isfinite(channel_forces(board, modes)).all()
-        assert isinstance(plate_shape(board.plate), PlateShape)
         assert ritz.longest_matrix(plate_shape(board.plate), wavenumber(100e3)) < ritz_modes.LONGEST_MATRIX
+
+
+def test_a_focus_of_a_plates_own_model_is_whole_on_its_twin_and_lost_on_one_with_other_edges():
+    """A ninth of the paper's plate on foam: words by impulse responses, judged by the twin's steps at ticks."""
+    board = small_board()
+    board = msgspec.structs.replace(board, plate=plate_of("ECEF", board.plate))
+    point = (0.031, 0.022)
+    model, twin = ResponseModel(board), PlateTwin(board)
+    assert model.plate_modes is twin.modes
+    words = focus(model.drive_order_responses([point]), [1.0], board.idle_word)
+    capture = capture_of_words(words, board.bit_ticks, board.idle_word, board.link.clock_hz // 10)  # at rest by then
+    (field,) = twin.fields(capture, board.link.clock_hz)
+    assert field.at([point])[0] == pytest.approx(twin.reference_amplitude(*point), rel=1e-6)
+    clamped = PlateTwin(msgspec.structs.replace(board, plate=plate_of("CCCC", board.plate)))
+    (other,) = clamped.fields(capture, board.link.clock_hz)
+    lost = other.at([point])[0] / field.at([point])[0]
+    print(f"focus on its own plate {1e6 * field.at([point])[0]:.2f} um, on the clamped one {lost:.2f} of it")
+    assert abs(lost) < 0.5

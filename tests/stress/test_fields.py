@@ -50,6 +50,7 @@ def test_a_spot_is_as_wide_as_its_waves_and_measured_as_wide(board, thickness_mm
     waves = bending_wavelength_m(panel.plate, 45e3) / bending_wavelength_m(board.plate, 45e3)
     assert waves == pytest.approx(larger, rel=1e-9)
     assert row["spot_mm"] == pytest.approx(small["spot_mm"] * larger, rel=1e-3)
+    assert row["spot_wavelengths"] == pytest.approx(small["spot_wavelengths"], rel=2e-3)
     assert row["spot_mm"] != pytest.approx(small["spot_mm"] * larger * 1.01, rel=1e-3)
     assert row["contrast"] == pytest.approx(small["contrast"], rel=5e-3), "the scale is rounded to three digits"
     assert row["peak_offset_us"] == pytest.approx(small["peak_offset_us"], abs=0.02)

@@ -69,6 +69,7 @@ def test_a_plate_of_any_size_has_a_bank_a_focus_and_a_twin_that_agree(board, tmp
             assert reached != pytest.approx(1.01 * best, rel=1e-3)
     _, (row,) = focus_on(panel, [(0.4 * panel.plate.length_m, 0.55 * panel.plate.width_m)])
     assert 0.3 * waves_m < row["spot_mm"] * 1e-3 < 0.8 * waves_m
+    assert row["spot_wavelengths"] == pytest.approx(row["spot_mm"] * 1e-3 / waves_m, rel=1e-9)
     assert row["relative_amplitude"] == pytest.approx(1, abs=1e-6)
     assert math.isfinite(row["contrast"])  # eight patches focus a small plate, and a floor hardly
 
