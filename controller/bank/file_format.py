@@ -45,6 +45,7 @@ MODEL_CODE = (
     "board/layers.py",
     "physics/mindlin.py",
     "physics/retuned.py",
+    "physics/patches.py",
     "physics/damping.py",
     "physics/plate_modes.py",
     "physics/driver.py",

@@ -294,7 +294,9 @@ def on_plate_of(board: Board, real: Board) -> Board:
     if set(idle) != {actuator.channel for actuator in real.actuators}:
         raise ConfigError(f"{real.folder / 'board.toml'}: the patches are of other channels than those of board {board.name!r}")
     patches = tuple(msgspec.structs.replace(patch, idle=idle[patch.channel]) for patch in real.actuators)
-    return msgspec.structs.replace(board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver)
+    return msgspec.structs.replace(
+        board, name=real.name, plate=real.plate, actuators=patches, driver=real.driver, patches=real.patches
+    )
 
 
 def simulated(board: Board) -> Board:

@@ -107,7 +107,6 @@ def scattered_points(board: Board, count: int, margin_m: float, avoid_actuators:
             f"a margin of {margin_m * 1e3:g} mm leaves nothing of {board.plate.length_mm:g} x {board.plate.width_mm:g} mm"
         )
     random = np.random.default_rng(seed)
-    points = np.empty((0, 2))
     pool = np.empty((0, 2))
     while len(pool) < 4 * count * CANDIDATES:
         some = random.uniform(low, high, (4 * count * CANDIDATES, 2))

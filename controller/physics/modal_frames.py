@@ -11,10 +11,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.physics.modal_history import STATES_AT_ONCE
 from controller.physics.step_response import StepResponse
 
 Floats = NDArray[np.float64]
-BITS_AT_ONCE = 256  # 12 MB of forces and states
 
 
 def modal_frames(
@@ -40,7 +40,8 @@ def modal_frames(
     (frame, mode) array
         In m.
     """
-    block = next(size for size in range(min(every, BITS_AT_ONCE), 0, -1) if every % size == 0)
+    bits_at_once = max(1, STATES_AT_ONCE // step.poles.size)
+    block = next(size for size in range(min(every, bits_at_once), 0, -1) if every % size == 0)
     lead = -len(volts) % block
     steps = np.concatenate([np.zeros((lead, volts.shape[1])), np.diff(volts, axis=0, prepend=np.zeros((1, volts.shape[1])))])
     ends = np.arange(block - 1, len(steps), block) - lead  # last bit of each block
@@ -52,7 +53,7 @@ def modal_frames(
     turn, driver_turn = np.exp(step.poles * block * bit_period_s), np.exp(step.driver_poles * block * bit_period_s)[:, None]
     of_poles = forces[step.mode_of_pole]
     state, driver = np.zeros(step.poles.size, np.complex128), np.zeros((2, forces.shape[1]), np.complex128)
-    at_once = max(1, BITS_AT_ONCE // block)
+    at_once = max(1, bits_at_once // block)
     for start in range(0, len(ends), at_once):
         some = slice(start, start + at_once)
         stepped = steps[start * block : (start + at_once) * block]

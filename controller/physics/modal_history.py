@@ -19,7 +19,7 @@ from controller.physics.step_response import StepResponse
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-TIMES_AT_ONCE = 256  # 20 MB of states
+STATES_AT_ONCE = 500_000  # of poles, at some times: 8 MB an array, six of them
 
 
 class ModalMotion(NamedTuple):
@@ -30,7 +30,7 @@ class ModalMotion(NamedTuple):
 
 
 def modal_history(step: StepResponse, forces: Floats, volts: Floats, bit_period_s: float) -> Iterator[ModalMotion]:
-    """Motion from rest, in blocks of `TIMES_AT_ONCE` bits.
+    """Motion from rest, in blocks of bits of at most `STATES_AT_ONCE`.
 
     Parameters
     ----------
@@ -51,8 +51,9 @@ def modal_history(step: StepResponse, forces: Floats, volts: Floats, bit_period_
     turn, driver_turn = np.exp(step.poles * bit_period_s), np.exp(step.driver_poles * bit_period_s)[:, None]
     state, driver = np.zeros(step.poles.size, np.complex128), np.zeros((2, forces.shape[1]), np.complex128)
     steps = np.diff(volts, axis=0, prepend=np.zeros((1, forces.shape[1])))
-    for first in range(0, len(volts), TIMES_AT_ONCE):
-        some = steps[first : first + TIMES_AT_ONCE]
+    at_once = max(1, STATES_AT_ONCE // step.poles.size)
+    for first in range(0, len(volts), at_once):
+        some = steps[first : first + at_once]
         states = (some @ of_poles.T) * step.residues
         drivers = np.empty((len(some), *driver.shape), np.complex128)
         for k, step_v in enumerate(some):
@@ -60,7 +61,7 @@ def modal_history(step: StepResponse, forces: Floats, volts: Floats, bit_period_
             states[k] *= turn
             state = states[k]
             driver = drivers[k] = (driver + step_v) * driver_turn
-        level = (volts[first : first + TIMES_AT_ONCE] @ forces.T) * step.static
+        level = (volts[first : first + at_once] @ forces.T) * step.static
         settling = _of_drivers(step, forces, drivers)
         sinking = _of_drivers(step, forces, drivers * step.driver_poles[:, None])
         yield ModalMotion(level + step.by_mode(states.T.real).T + settling, step.by_mode((states * step.poles).T.real).T + sinking)

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from controller.bank.packing import channel_bits
 from controller.errors import ConfigError
 from controller.physics.field import map_axis
-from controller.physics.memory import BASE_BYTES, require
-from controller.physics.modal_frames import BITS_AT_ONCE, modal_frames
+from controller.physics.memory import BASE_BYTES, TABLE_BYTES, require
+from controller.physics.modal_frames import modal_frames
+from controller.physics.modal_history import STATES_AT_ONCE
 from controller.physics.modes import Modes
 from controller.physics.plate_twin import PlateTwin
 
@@ -27,7 +28,7 @@ FRAMES = 151  # where no number is asked for
 PERIODS = 13.5  # of the band's middle before and after T, where no window is asked for: 0.3 ms
 MOST_FRAMES = 5000
 LARGEST = 1280  # points along the longer side
-WORKING_STATES = 3  # arrays of all poles for BITS_AT_ONCE bits, complex, while states are computed
+WORKING_BYTES = 6 * 16.0 * STATES_AT_ONCE + 64e6  # states of poles, and frames that are not yet pictures
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,9 +106,9 @@ class Movie:
 
     def bytes(self, modes: Modes) -> float:
         """Memory of a movie whose pictures are all kept until it is written, one byte a point."""
-        states = 16.0 * WORKING_STATES * BITS_AT_ONCE * modes.count
         pictures = float(len(self.bits) * self.x_m.size * self.y_m.size)
-        return BASE_BYTES + states + 2 * pictures
+        of_modes = 8.0 * 80 * modes.count  # forces and shapes
+        return BASE_BYTES + TABLE_BYTES + WORKING_BYTES + of_modes + 2 * pictures
 
     def frames(self, twin: PlateTwin, words: NDArray[np.uint32], memory_mb: float | None = None) -> Iterator[Frames]:
         """Displacement in m of some frames after the others, (frame, ny, nx) each, in float32.

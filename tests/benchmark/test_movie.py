@@ -12,7 +12,7 @@ from controller.bank.packing import channel_bits
 from controller.benchmark.focus_emission import emission_at
 from controller.cli import main
 from controller.errors import ConfigError
-from controller.physics.modal_frames import BITS_AT_ONCE, modal_frames
+from controller.physics.modal_frames import modal_frames
 from controller.physics.modal_history import modal_history
 from controller.physics.movie import MOST_FRAMES, Grid, Movie
 from controller.physics.movie_file import HELD, check_movie, write_movie
@@ -36,10 +36,11 @@ def played_volts(emission, bits):
     return (channel_bits(words.astype("<u4")) - idle) * board.driver.supply_v
 
 
-@pytest.mark.parametrize(("every", "first"), [(1, 240), (10, 0), (7, 100), (2 * BITS_AT_ONCE, 0), (257, 0)])
-def test_blocks_of_bits_give_what_bit_by_bit_gives(emission, every, first):
-    """257 is prime, and longer than a block: it goes bit by bit."""
+@pytest.mark.parametrize(("every", "first"), [(1, 240), (10, 0), (7, 100), (300, 0), (257, 0)])
+def test_blocks_of_bits_give_what_bit_by_bit_gives(emission, monkeypatch, every, first):
+    """257 is prime, and longer than a block of 250 bits: it goes bit by bit."""
     twin = emission.twin
+    monkeypatch.setattr(f"{modal_frames.__module__}.STATES_AT_ONCE", 250 * twin.step.poles.size)
     volts = played_volts(emission, 530)
     period_s = twin.board.waveform.bit_period_s
     stepped = np.concatenate([motion.displacement for motion in modal_history(twin.step, twin.forces, volts, period_s)])

@@ -118,6 +118,13 @@ def test_a_picture_that_could_not_be_written_is_refused_before_any_work(capsys):
     assert "/nowhere/p.png" in capsys.readouterr().err
 
 
+def test_a_plate_too_small_for_foci_is_refused():
+    board = small_board()
+    small = msgspec.structs.replace(board, plate=msgspec.structs.replace(board.plate, width_mm=40.0))
+    with pytest.raises(ConfigError, match=r"70 × 40 mm has no point 20 mm from its edges"):
+        paper_figures(small, SMALL)
+
+
 def test_a_row_without_spread_or_without_the_papers_figure():
     assert Row.of("a", "b", None, 3.0, "because so").figures()["ratio"] is None
     row = Row.of("a", "b", 2.0, range(101), "because so")

@@ -1,12 +1,15 @@
 """Responses learned from records of a plate that is known: how near they come, and that what is wrong is found and named."""
 
+import re
 from functools import cache
+from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 from calibration.exact_records import BIT_CLOCK_HZ, CHANNELS, NAMES, POINTS_M, board, displacement, noisy, true_responses
 
+from controller.calibration import learning
 from controller.calibration.deconvolution import Bins
 from controller.calibration.learning import learn
 from controller.calibration.measurement_file import (
@@ -220,3 +223,22 @@ def test_everything_that_is_wrong_is_named_with_channel_and_point(tmp_path):
         found.require(["dead", "swapped", "clipped"])
     assert "dead" not in str(error.value)
     found.require(["dead", "swapped", "clipped", "inverted"])
+
+
+@pytest.mark.slow
+def test_the_example_of_the_readme_is_learned(tmp_path, monkeypatch):
+    """Folder by hand: the block as it stands, then what was convolved with is found again."""
+    monkeypatch.chdir(tmp_path)
+    text = (Path(learning.__file__).parent / "README.md").read_text()
+    (block,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    names = {}
+    exec(block, names)
+    found = learn(tmp_path / "by_hand", names["board"])
+    found.require()
+    bins = Bins.of(names["board"], 1999 / 500e3 + 2e-6)
+    true = names["ResponseModel"](names["board"]).responses(names["places_mm"] * 1e-3)
+    gain = np.interp(np.fft.rfftfreq(8192, 2e-6), bins.frequency_hz, bins.gain, 0, 0)[:, None]
+    true = np.fft.irfft(np.fft.rfft(true, 8192, axis=1) * gain, 8192, axis=1)[:, :1000]
+    error = np.linalg.norm(found.responses.responses[:, :1000] - true) / np.linalg.norm(true)
+    print(f"relative error {error:.2e}")
+    assert error < 0.02
