@@ -14,8 +14,9 @@ from controller.physics.closed_form import SimplySupported
 from controller.physics.damping import damped
 from controller.physics.mindlin import MindlinPlate
 from controller.physics.modes import Modes
-from controller.physics.patches import BASIS, with_patches
+from controller.physics.patches import BASIS, CombinedModes, with_patches
 from controller.physics.plate import mode_cut_hz
+from controller.physics.retuned import Retuned
 from controller.physics.ritz_modes import RitzModes
 
 KEPT = 4  # plates whose modes are remembered
@@ -75,7 +76,11 @@ def in_words(board: Board, modes: Modes) -> str:
     shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
     decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
     layers = f" of {len(plate.layers)} layers" if plate.layers else ""
-    patches = f", {len(board.patches.on(plate, board.actuators))} patches" if board.patches else ""
+    patches, combined = "", modes.base if isinstance(modes, Retuned) else modes
+    if board.patches is not None and isinstance(combined, CombinedModes):
+        shift, alone = (100 * part for part in combined.shift(board.waveform.band_low_hz, board.waveform.band_high_hz))
+        count = len(board.patches.on(plate, board.actuators))
+        patches = f", {count} patches ({shift:+.2f} % in frequency, {alone:+.2f} % to first order)"
     return (
         f"{plate.theory.capitalize()} plate{layers}, edges {edges}{patches}, decay {decay} ms,"
         f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"
