@@ -32,33 +32,6 @@ Figures = dict[str, Any]
 PULSE: Floats = np.linspace(-0.6, 0.6, 81)  # times around T at which the pulse is looked at, in periods of the band's middle
 
 
-def focus_on(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> tuple[Field, list[Figures]]:
-    """Focus on several points at once, without a bank.
-
-    Parameters
-    ----------
-    board : Board
-    points_m : sequence of (x_m, y_m)
-        Places of the foci.
-    memory_mb : float, optional
-        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
-
-    Returns
-    -------
-    field : Field
-        The plate at T.
-    rows : list of dict
-        Figures of each focus, in the order of `points_m`.
-
-    Raises
-    ------
-    ConfigError
-        If it does not fit into `memory_mb`.
-    """
-    emission = emission_at(board, points_m, memory_mb)
-    return emission.field, judged_foci(emission, board.waveform.duration_s)
-
-
 class Emission(NamedTuple):
     """An emission on the plate model: the twin that it was played on, its words, the field at T, and where it focuses."""
 
@@ -69,7 +42,21 @@ class Emission(NamedTuple):
 
 
 def emission_at(board: Board, points_m: Sequence[tuple[float, float]], memory_mb: float | None = None) -> Emission:
-    """Play the words that focus on `points_m`; parameters and errors of `focus_on`."""
+    """Focus on several points at once.
+
+    Parameters
+    ----------
+    board : Board
+    points_m : sequence of (x_m, y_m)
+        Places of the foci.
+    memory_mb : float, optional
+        Memory that it may take, in MB of 10^6 bytes; `DEFAULT_MB` by default.
+
+    Raises
+    ------
+    ConfigError
+        If it does not fit into `memory_mb`.
+    """
     twin = PlateTwin(board)
     needed_bytes = focus_bytes(twin.modes, board.waveform.samples, len(twin.scale.around_s) + len(PULSE))
     require(needed_bytes, memory_mb, f"a focus on {board.name!r} with {twin.modes.count} modes")

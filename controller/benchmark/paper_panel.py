@@ -11,6 +11,7 @@ from controller.bank.packing import channel_bits
 from controller.benchmark.focus_emission import Emission
 from controller.benchmark.focus_figures import emit, random_points
 from controller.board.board import Board
+from controller.errors import ConfigError
 from controller.physics.field import Field
 from controller.physics.focusing import focus
 from controller.physics.modal_response import band_limited_response
@@ -36,6 +37,11 @@ class PaperPanel:
     count : int
         Number of foci.
 
+    Raises
+    ------
+    ConfigError
+        If the plate is too small for foci `MARGIN_M` from its edges.
+
     Attributes
     ----------
     points_m : (point, 2) array
@@ -45,6 +51,11 @@ class PaperPanel:
     """
 
     def __init__(self, board: Board, seed: int, count: int) -> None:
+        if min(board.plate.length_m, board.plate.width_m) <= 2 * MARGIN_M:
+            size = f"{board.plate.length_mm:g} × {board.plate.width_mm:g} mm"
+            raise ConfigError(
+                f"board {board.name!r}: a plate of {size} has no point {MARGIN_M * 1e3:g} mm from its edges: too small"
+            )
         self.board = board
         self.seed = seed
         self.points_m = random_points(board, seed, count, MARGIN_M)
@@ -102,7 +113,7 @@ class PaperPanel:
         samples : int
             May be more than those of the board's emission.
         step : StepResponse, optional
-            Of another driver; the board's by default.
+            Of another driver, or of the same modes drifted; the board's by default.
         """
         waveform = self.board.waveform
         band_hz = waveform.band_low_hz, waveform.band_high_hz

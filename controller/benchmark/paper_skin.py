@@ -67,10 +67,10 @@ def skin_rows(panel: PaperPanel, count: int) -> tuple[list[Row], dict[str, Any]]
             thrown = [free.throw(panel, Pulp(press_n=press_n)).longest_flight() for press_n in CURVE_N]
             curve |= {"press_n": list(CURVE_N)}
             curve |= {"flight_ms": [one[0] * 1e3 for one in thrown], "height_um": [one[1] * 1e6 for one in thrown]}
-    why = "illustrative: a lumped skin of 70–230 mg as in literature, nothing fitted; the paper does not tell the force"
+    why = "illustrative: lumped skin of 70–230 mg, as in literature; nothing fitted, and the paper does not tell the force"
     for press_n, some in motions.items():
         flights = np.array([motion.longest_flight() for motion in some])
-        pressed = f"{press_n * 1e3:g} mN"
+        pressed = f"{press_n:g} N"
         rows += [
             Row.of(f"skin_um_{press_n:g}_n", f"skin pressed with {pressed}: thrown up by (µm)", 25.0, flights[:, 1] * 1e6, why),
             Row.of(f"skin_ms_{press_n:g}_n", f"skin pressed with {pressed}: off the plate for (ms)", 0.3, flights[:, 0] * 1e3, why),

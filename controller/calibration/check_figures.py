@@ -46,6 +46,7 @@ def check_figures(board: Board, learned: Learned) -> dict[str, Any]:
         "coherence": _number(np.nanmedian, found.coherence[:, channels], 4),
         "least_coherence": _number(np.nanmin, found.coherence[:, channels], 4),
         "clock_ppm": learned.clock.ppm if learned.clock.told else None,
+        "clock_error_ppm": round(learned.clock.error_ppm, 2) if learned.clock.told else None,
         "delay_us": None if waves is None else round(waves.delay_s * 1e6, 1),
         "strength": None if waves is None else _number(np.nanmedian, np.diag(waves.strength)[channels], 2),
         "channels": [

@@ -18,6 +18,7 @@ from controller.calibration.measurements import PointRecords
 
 WIDEST_PPM = 600.0
 COARSE_PPM = 200.0
+SIGNIFICANT = 3.0  # standard errors
 TOLD = 0.05  # rise of the contradiction, over its least, within `COARSE_PPM`
 BEFORE_S = 20e-6, 1e-3  # before its pulse there is no response; nearer the band's own length blurs it
 
@@ -29,12 +30,18 @@ class Clock:
     Attributes
     ----------
     ppm : float
-        By which it is faster than the player's; 0 where the records do not tell.
-    told : bool
+        By which it is faster than the player's; 0 where the records do not tell it from 0.
+    error_ppm : float
+        Standard error, from one point to another; NaN where the records do not tell.
     """
 
     ppm: float
-    told: bool
+    error_ppm: float
+
+    @property
+    def told(self) -> bool:
+        """Whether the records tell."""
+        return not np.isnan(self.error_ppm)
 
 
 def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], delay_s: float) -> Clock:
@@ -70,10 +77,20 @@ def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], dela
     else:
         tried = np.arange(-WIDEST_PPM, WIDEST_PPM + step, step)
         near = float(tried[np.argmin([exact(ppm) for ppm in tried])])
-    found = minimize_scalar(exact, bounds=(near - step, near + step), method="bounded", options={"xatol": step * 2e-3})
-    ppm = float(found.x)
-    told = min(exact(ppm - step), exact(ppm + step)) > (1 + TOLD) * float(found.fun)
-    return Clock(round(ppm, 2), True) if told else Clock(0.0, False)
+    found = [
+        minimize_scalar(
+            lambda ppm, one=one: _contradiction(deconvolution, deconvolution.spectra(one, ppm), one, delay_s),
+            bounds=(near - 1.5 * step, near + 1.5 * step),
+            method="bounded",
+            options={"xatol": step * 2e-3},
+        ).x
+        for one in records
+    ]
+    ppm = float(np.mean(found))
+    if min(exact(ppm - step), exact(ppm + step)) < (1 + TOLD) * exact(ppm):
+        return Clock(0.0, np.nan)
+    error_ppm = float(np.std(found, ddof=1)) / len(found) ** 0.5 if len(found) > 1 else step / 4
+    return Clock(round(ppm, 2) if abs(ppm) > SIGNIFICANT * error_ppm else 0.0, error_ppm)
 
 
 def _averaged(records: PointRecords) -> PointRecords:

@@ -47,14 +47,14 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
     plate.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), xlabel="x (mm)", ylabel="y (mm)")
     plate.set_title(f"{len(x_mm)} points, {int(missing.sum())} without records")
     if missing.any():
-        plate.legend(loc="upper right")
+        plate.legend(loc="upper left", bbox_to_anchor=(0, -0.18), frameon=False)
 
     snr = snr_db(learned)[:, channels]
     shown = snr if np.isfinite(snr).any() else coherence
     picture = table.imshow(np.where(missing[:, None], np.nan, shown), aspect="auto", cmap="magma", interpolation="nearest")
     rows[0].colorbar(picture, ax=table, label="signal over noise (dB)" if shown is snr else what, shrink=0.8)
     table.set(xlabel="channel", ylabel="point, in the order of the file", title="each response; white: unknown")
-    table.set_xticks(range(len(channels)), [str(channel) for channel in channels], fontsize=6)
+    table.set_xticks(range(0, len(channels), 4), [str(channel) for channel in channels[::4]])
 
     time_ms = (np.arange(found.responses.shape[1]) + 1) / found.bit_clock_hz * 1e3
     known = np.flatnonzero(found.known.any(axis=1))
@@ -66,7 +66,7 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
         if np.isfinite(noise_pm):
             axes.axhspan(-noise_pm, noise_pm, color="crimson", alpha=0.25, label=f"noise, {noise_pm:.2g} pm per V")
             axes.legend(loc="upper right", fontsize=8)
-        axes.set_ylabel("pm per V")
+        axes.set(ylabel="pm per V", xlim=(0, time_ms[-1]))
         axes.set_title(
             f"point {measurement.names[point]} at {x_mm[point]:.1f}, {y_mm[point]:.1f} mm, channel {channel}", fontsize=9
         )

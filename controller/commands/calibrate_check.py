@@ -80,7 +80,7 @@ def _table(figures: dict[str, Any]) -> str:
         f"{'signal over noise':<26}{told('snr_db', ' dB')} (least {told('least_snr_db', ' dB')})",
         f"{'noise of a sample':<26}{told('noise_pm_per_v', ' pm per V')}",
         f"{'not explained':<26}{told('residual')} of the records' power",
-        f"{'recorder fast by':<26}{told('clock_ppm', ' ppm')}",
+        f"{'recorder fast by':<26}{told('clock_ppm', ' ppm')} (to {told('clock_error_ppm', ' ppm')})",
         f"{'records late by':<26}{told('delay_us', ' us')}",
         f"{'strength':<26}{told('strength')} of what board.toml foresees",
         "",

@@ -13,8 +13,6 @@ from controller.errors import ConfigError
 if TYPE_CHECKING:
     from controller.benchmark.focus_emission import Emission
 
-CIRCLE = 0.8  # of the distance from which on contrast is taken: 8 mm on the paper's plate, as in the picture of a focus
-
 
 def add_movie(command: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
@@ -61,4 +59,4 @@ def film(options: argparse.Namespace, path: Path, emission: Emission, points_m: 
     movie = Movie.of(twin, from_s, to_s, step_s, options.movie_frames)
     frames = movie.frames(twin, emission.words, options.memory_mb)
     largest_m = float(abs(emission.field.at(points_m)).max()) or 1.0
-    write_movie(path, movie, frames, points_m, largest_m, CIRCLE * twin.scale.outside_m, progress_bar("movie"))
+    write_movie(path, movie, frames, points_m, largest_m, twin.scale.circle_m, progress_bar("movie"))

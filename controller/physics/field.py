@@ -58,6 +58,11 @@ class FocusScale:
     around_s: Floats = field(default_factory=AROUND_S.copy)
     wave_m: float = WAVELENGTH_M
 
+    @property
+    def circle_m(self) -> float:
+        """Radius in m of the circle around a focus in pictures: 8 mm on the paper's plate, a fingertip."""
+        return 0.8 * self.outside_m
+
     @classmethod
     def of(cls, board: Board) -> FocusScale:
         """Scale of a board, its factors rounded to three digits: exactly one for the shipped boards."""

@@ -74,7 +74,7 @@ def plot_focus(
         corner = (actuator.x_mm - actuator.size_mm / 2, actuator.y_mm - actuator.size_mm / 2)
         above.add_patch(Rectangle(corner, actuator.size_mm, actuator.size_mm, fill=False, color="0.35", lw=0.8))
     for focus_x_m, focus_y_m in foci:
-        above.add_patch(Circle((focus_x_m * 1e3, focus_y_m * 1e3), 8, fill=False, color="black", lw=1.2))
+        above.add_patch(Circle((focus_x_m * 1e3, focus_y_m * 1e3), field.scale.circle_m * 1e3, fill=False, color="black", lw=1.2))
     above.axhline(section_y_m * 1e3, color="black", lw=0.6, ls=":")
     above.set(aspect="equal", xlim=(0, board.plate.length_mm), ylim=(0, board.plate.width_mm), ylabel="y (mm)", title=title)
     below.plot(across_m * 1e3, section_um, color="black", lw=0.9)

@@ -2,6 +2,8 @@
 
 import msgspec
 
+from controller.benchmark.focus_emission import emission_at, judged_foci
+
 
 def changed(board, **tables):
     """`board` with keys of its tables replaced, as in `changed(board, plate={"thickness_mm": 0.1})`; checked as a file is."""
@@ -20,3 +22,9 @@ def scaled(board, larger, thickness_mm):
     )
     table = msgspec.convert(msgspec.to_builtins(board.plate) | plate, type(board.plate))
     return msgspec.structs.replace(board, plate=table, actuators=patches)
+
+
+def focus_on(board, points_m, memory_mb=None):
+    """The field at T of an emission that focuses on points, and the figures of each focus."""
+    emission = emission_at(board, points_m, memory_mb)
+    return emission.field, judged_foci(emission, board.waveform.duration_s)

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from stress.boards import changed
+from stress.boards import changed, focus_on
 
 from controller.bank.packing import channel_bits
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.focus_emission import focus_on
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
 from controller.physics.plate_twin import PlateTwin

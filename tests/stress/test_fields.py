@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from stress.boards import changed, scaled
+from stress.boards import changed, focus_on, scaled
 
-from controller.benchmark.focus_emission import focus_on
 from controller.fpga.capture import Capture
 from controller.physics.field import AROUND_S, CREST_M, LINE_M, MAP_STEP_M, OUTSIDE_M, FocusScale
 from controller.physics.plate import bending_wavelength_m

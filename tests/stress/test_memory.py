@@ -6,10 +6,9 @@ import sys
 
 import numpy as np
 import pytest
-from stress.boards import changed
+from stress.boards import changed, focus_on
 
 from controller.bank_builder.build import build_bank
-from controller.benchmark.focus_emission import focus_on
 from controller.errors import ConfigError
 from controller.physics import audible
 from controller.physics.audible import surface_spectrum
@@ -17,9 +16,8 @@ from controller.physics.audible import surface_spectrum
 RUN = """
 import json, sys
 from pathlib import Path
-from stress.boards import changed
+from stress.boards import changed, focus_on
 from controller.bank_builder.build import build_bank, peak_memory_mb
-from controller.benchmark.focus_emission import focus_on
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 plate, what, allowed_mb, file = json.loads(sys.argv[1])

@@ -6,13 +6,12 @@ import math
 import msgspec
 import numpy as np
 import pytest
-from stress.boards import changed, scaled
+from stress.boards import changed, focus_on, scaled
 
 from controller.bank.inspection import verify_bank
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.benchmark.focus_emission import focus_on
 from controller.benchmark.focus_figures import emit
 from controller.board.panel import Actuator
 from controller.cli import main
