@@ -71,7 +71,7 @@ def paper_table(figures: dict[str, Any]) -> str:
     lines = [
         f"{figures['board']}: {figures['foci']} foci, seed {figures['seed']}, {figures['modes']} modes; {told['processor']}, "
         f"commit {told['commit']}",
-        f"fitted: {fitted['name']} = {fitted['value']:g}, {fitted['why']}; everything else is the paper's",
+        f"fitted: {fitted['name']} = {fitted['value']:g}, {fitted['why']}; plate, driver and waveform are the paper's, which does not give its discs' places",
         "",
         f"{'quantity':<66}{'paper':>9}{'here':>9}{'5 %':>9}{'95 %':>9}{'ratio':>9}",
     ]
