@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+from pathlib import PurePosixPath
 from typing import Any, Literal
 
 import msgspec
 
+MOST_FILES = 8  # of a folder and a kind that a header names one by one
 MEASURE_AGAIN = "haptic-panel calibrate bank FOLDER"  # what builds a bank from measurements
 
 
@@ -51,13 +54,32 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
         """Whether a real plate was measured: such responses cannot be computed again without the measurements."""
         return self.kind != "modelled"
 
+    def condensed(self) -> Provenance:
+        """The same with one entry for many files of a folder and a kind: `records/*.npy (250 files)`, by the hash of their hashes.
+
+        A header has no room for a file for each of thousands of points.
+        """
+        kinds: dict[PurePosixPath, list[SourceFile]] = {}
+        for file in self.files:
+            path = PurePosixPath(file.name)
+            kinds.setdefault(path.parent / f"*{path.suffix}", []).append(file)
+        found: list[SourceFile] = []
+        for pattern, files in kinds.items():
+            if len(files) <= MOST_FILES:
+                found += files
+            else:
+                every = "".join(f"{file.sha256}  {file.name}\n" for file in files)  # as sha256sum prints them
+                found.append(SourceFile(f"{pattern} ({len(files)} files)", hashlib.sha256(every.encode()).hexdigest()))
+        return msgspec.structs.replace(self, files=tuple(found))
+
     def in_words(self) -> str:
         """One line for people."""
         if not self.from_measurements:
             return f"modelled: {self.model}"
+        files = self.condensed().files
         several = [
             f"{self.points} points" if self.points is not None else "",
-            ", ".join(file.name for file in self.files[:3]) + (f" and {len(self.files) - 3} more" if len(self.files) > 3 else ""),
+            ", ".join(file.name for file in files[:4]) + (f" and {len(files) - 4} more" if len(files) > 4 else ""),
             self.date or "",
             f"{self.temperature_c:g} °C" if self.temperature_c is not None else "",
             self.model,
@@ -81,5 +103,5 @@ def provenance_of(told: object) -> Provenance | None:
 
 def as_parameter(provenance: Provenance) -> dict[str, Any]:
     """The build parameter of a bank."""
-    told: dict[str, Any] = msgspec.to_builtins(provenance)
+    told: dict[str, Any] = msgspec.to_builtins(provenance.condensed())
     return told

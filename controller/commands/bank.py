@@ -147,7 +147,12 @@ def bank_describe(options: argparse.Namespace) -> int:
         return 0
     from controller.commands.tables import plain_table
 
-    show(options, bank_info(_bank_file(options)), plain_table)
+    def table(figures: dict[str, Any]) -> str:
+        """Without the parts of what the line `responses` says."""
+        parameters = {name: value for name, value in figures["parameters"].items() if name != "responses"}
+        return plain_table(figures | {"parameters": parameters})
+
+    show(options, bank_info(_bank_file(options)), table)
     return 0
 
 

@@ -215,6 +215,22 @@ def test_a_choice_is_made_by_the_measured_responses():
     assert {setting.error for setting in settings(WHOLE, scene, 5e-3, source)} == {0.0}
 
 
+def test_thousands_of_files_are_told_as_one_and_still_count(tmp_path):
+    """One record a point: 20,000 of them would be twice what a header may have."""
+    records = tuple(SourceFile(f"records/{number}.npy", f"{number:064x}") for number in range(20_000))
+    told = msgspec.structs.replace(TOLD, files=(SourceFile("measurement.toml", "ab" * 32), *records))
+    cells = np.arange(24) == CELL
+    build(tmp_path / "one", replace(Measured(), provenance=told), cells=cells)
+    with Bank.open(tmp_path / "one") as bank:
+        files = bank.header.provenance.files
+    assert [file.name for file in files] == ["measurement.toml", "records/*.npy (20000 files)"]
+    assert "measurement.toml, records/*.npy (20000 files); 2026-11-20" in bank_info(tmp_path / "one")["responses"]
+    other = msgspec.structs.replace(told, files=(*told.files[:-1], SourceFile("records/19999.npy", "cd" * 32)))
+    build(tmp_path / "other", replace(Measured(), provenance=other), cells=cells)
+    one, other = (bank_info(tmp_path / name)["parameters"]["inputs_sha256"] for name in ("one", "other"))
+    assert one != other
+
+
 def test_where_responses_come_from_is_read_from_older_banks_too():
     assert provenance_of("modelled").kind == "modelled"
     for unknown in (None, "guessed", {"kind": "guessed", "model": ""}, {"kind": "measured"}, 3):
