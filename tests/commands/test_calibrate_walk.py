@@ -1,4 +1,4 @@
-"""From a plate that is not the board's model, by its measurements, to what fingers get on it: the walk of the README, end to end."""
+"""From a plate that is not the board's model, by its measurements, to what fingers get on it: the README's walk."""
 
 import json
 import re
