@@ -34,7 +34,7 @@ REGULARISATION = 1e-5  # one sequence of noise leaves a bias of its root
 RESOLVED = 0.9  # share of a channel's response that the drive determines, in the mean over the band
 EXCITED = 0.5  # the same at one frequency
 NYQUIST_SHARE = 0.9  # of the recorder's half rate that its filter passes
-EARLIEST_S = 0.6e-3  # before the pulse, where noise is looked for
+EARLIEST_S = 0.9e-3  # before the pulse, where noise is looked for
 DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
 
 

@@ -6,7 +6,7 @@ what the transform would else wrap round, and by which bins are nearer to each o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -61,6 +61,10 @@ class Bins:
     def rest_rows(self) -> int:
         """Rows of rest that follow an entry's samples."""
         return -(-self.samples // REST_SAMPLES)
+
+    def part(self, chosen: NDArray[np.intp]) -> Bins:
+        """Some of the bins."""
+        return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 
     def of_records(self, responses: NDArray[np.floating[Any]]) -> Spectra:
         """Spectra of records, (point, sample, channel), by bins: (bin, point, channel)."""

@@ -14,7 +14,7 @@ from controller.calibration.learned import LearnedResponses
 from controller.calibration.measurements import Measurement
 from controller.physics.response_source import Provenance, SourceFile
 
-EARLY_S = 0.1e-3, 0.6e-3  # before the pulse: noise alone; as long before the end of the records: what is left
+EARLY_S = 0.4e-3, 0.9e-3  # before the pulse: noise alone, as the filter has rung out; as long before the end: what is left
 
 
 def responses_in_time(

@@ -41,6 +41,11 @@ def add(step: argparse.ArgumentParser) -> None:
         "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
     )
     step.add_argument("--memory-mb", type=float, metavar="M", help="memory that the bank's build may take, in MB (default: 1500)")
+    step.add_argument(
+        "--model",
+        action="store_true",
+        help="let the board's plate model fill gaps between scattered points, if its edges prove right",
+    )
     step.add_argument("--also", metavar="FOLDER", help="the same plate at another temperature: determines coefficient_per_k")
     step.add_argument("--plot", metavar="FILE", help="draw what points left out keep, and the fits (.png, .svg, .pdf)")
     declare_accept(step)
@@ -56,6 +61,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from controller.calibration.decay_fit import fit_decays
     from controller.calibration.drift_fit import fit_drift
     from controller.calibration.interpolate import interpolate
+    from controller.physics.plate_modes import modes_of
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
@@ -73,7 +79,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     with threadpool_limits(1, "blas"):  # many small matrices
         learned, findings, dead = _learn(board, Path(options.folder), options)
         drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0]) if options.also else None
-        source, waves = interpolate(board, learned, progress, dead)
+        source, waves = interpolate(board, learned, progress, dead, modes_of(board) if options.model else None)
         decays = fit_decays(learned.responses, learned.known, learned.noise, board.waveform, learned.bit_clock_hz)
         if picture:
             from controller.calibration.plot_leave_out import plot_leave_out
@@ -95,6 +101,10 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             source=source,
         )
     notes = [*findings, *_notes(board, learned, waves, decays, drift)]
+    if options.model and source.provenance.kind == "measured":
+        notes.append(
+            "the board's model foresees points left out no better than waves do, and was not used: its edges are not the plate's"
+        )
     if not cells.all():
         notes.append(f"{int((~cells).sum()):,} of {cells.size:,} cells are too far from the measured points, and not in the bank")
     if warning := interpolation_warning(report.interpolation_error):

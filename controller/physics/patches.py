@@ -44,6 +44,8 @@ class CombinedModes:
     parts : (mode of the base, mode) array
         The shapes, in those of `base`.
     angular_frequency, decay_rate, mass_kg : (mode,) array
+    expected_shift : (mode of the base,) array
+        Relative shift of each mode of the base by itself, to first order.
     """
 
     base: Modes
@@ -51,6 +53,16 @@ class CombinedModes:
     angular_frequency: Floats
     decay_rate: Floats
     mass_kg: Floats
+    expected_shift: Floats
+
+    def shift(self, low_hz: float, high_hz: float) -> tuple[float, float]:
+        """Mean relative shift of the base's modes between two frequencies by number, and that expected to first order."""
+        frequency = self.base.angular_frequency[: self.count] / (2 * np.pi)
+        band = np.flatnonzero((frequency >= low_hz) & (frequency <= high_hz))
+        if not band.size:
+            return 0.0, 0.0
+        found = self.angular_frequency[band] / self.base.angular_frequency[band] - 1
+        return float(found.mean()), float(self.expected_shift[band].mean())
 
     @property
     def length_m(self) -> float:
@@ -115,6 +127,7 @@ def with_patches(bare: Modes, plate: Plate, patches: Patches, places: Sequence[P
             f" {MOST_MODES}: leave [patches] out, or take a smaller or thicker plate, or a lower band"
         )
     mass, stiffness = added(bare, plate, patches, places)
+    expected = first_order(bare, mass, stiffness)
     size = np.sqrt(bare.mass_kg)
     mass /= np.outer(size, size)
     stiffness /= np.outer(size, size)
@@ -131,6 +144,7 @@ def with_patches(bare: Modes, plate: Plate, patches: Patches, places: Sequence[P
         angular_frequency=np.sqrt(np.maximum(squared[kept], 0)),
         decay_rate=np.full(kept.size, 1 / plate.decay_time_s),
         mass_kg=np.full(kept.size, common_kg),
+        expected_shift=expected,
     )
 
 

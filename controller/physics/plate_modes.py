@@ -10,12 +10,14 @@ import msgspec
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.board.patches import Patch, Patches
+from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
 from controller.physics.damping import damped
 from controller.physics.mindlin import MindlinPlate
 from controller.physics.modes import Modes
-from controller.physics.patches import BASIS, with_patches
+from controller.physics.patches import BASIS, CombinedModes, with_patches
 from controller.physics.plate import mode_cut_hz
+from controller.physics.retuned import Retuned
 from controller.physics.ritz_modes import RitzModes
 
 KEPT = 4  # plates whose modes are remembered
@@ -52,7 +54,11 @@ def _bare(plate: Plate, highest_hz: float) -> Modes:
     if plate.theory == "kirchhoff":
         return _of_edges(plate, highest_hz)
     theory = MindlinPlate.of(plate)
-    return theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
+    without_hz = theory.without_correction_hz(highest_hz)
+    try:
+        return theory.corrected(_of_edges(plate, without_hz))
+    except ConfigError as error:
+        raise ConfigError(f"{error} ({without_hz:g} Hz by Kirchhoff's theory are {highest_hz:g} Hz by Mindlin's)") from error
 
 
 def _of_edges(plate: Plate, highest_hz: float) -> Modes:
@@ -75,7 +81,11 @@ def in_words(board: Board, modes: Modes) -> str:
     shortest_ms, longest_ms = 1e3 / float(modes.decay_rate.max()), 1e3 / float(modes.decay_rate.min())
     decay = f"{shortest_ms:.3g}" if math.isclose(shortest_ms, longest_ms) else f"{shortest_ms:.3g} to {longest_ms:.3g}"
     layers = f" of {len(plate.layers)} layers" if plate.layers else ""
-    patches = f", {len(board.patches.on(plate, board.actuators))} patches" if board.patches else ""
+    patches, combined = "", modes.base if isinstance(modes, Retuned) else modes
+    if board.patches is not None and isinstance(combined, CombinedModes):
+        shift, alone = (100 * part for part in combined.shift(board.waveform.band_low_hz, board.waveform.band_high_hz))
+        count = len(board.patches.on(plate, board.actuators))
+        patches = f", {count} patches ({shift:+.2f} % in frequency, {alone:+.2f} % to first order)"
     return (
         f"{plate.theory.capitalize()} plate{layers}, edges {edges}{patches}, decay {decay} ms,"
         f" {modes.count} modes to {highest_hz * 1e-3:.1f} kHz"

@@ -185,7 +185,8 @@ def longest_matrix(plate: PlateShape, highest_k: float) -> int:
 def plate_functions(plate: PlateShape, highest_k: float) -> tuple[Functions, Functions]:
     """Functions along x and along y, enough for waves up to `highest_k`.
 
-    Errors of frequencies are below 1e-5 where both pairs of opposite edges are alike, else below 4e-4.
+    Errors of frequencies are below 1e-5 where both pairs of opposite edges are alike, else below 4e-4. At a corner of a clamped and
+    a free edge or foam the curvature has no bound if Poisson's ratio is large: at 0.45 errors of hundreds of modes reach 3e-5.
     """
     alike = all(ends[0] == ends[1] for ends in plate.ends)
     stiff = plate.foam > STIFF_FOAM * highest_k**4
@@ -193,10 +194,10 @@ def plate_functions(plate: PlateShape, highest_k: float) -> tuple[Functions, Fun
     for axis, length in enumerate(plate.lengths_m):
         half_turns = max(highest_k * length / 2, 1.0)
         if alike and not stiff:
-            found.append(LegendrePolynomials(length, int(np.ceil(half_turns + 2.5 * half_turns ** (1 / 3))) + 2))
+            found.append(LegendrePolynomials(length, int(np.ceil(half_turns + 2.5 * half_turns ** (1 / 3))) + 6))
             continue
         strips = sorted({*plate.between_strips(axis)} - {0.0, length})
-        breaks = spline_breaks([0.0, *strips, length], max(int(np.ceil((0.95 if alike else 0.8) * half_turns)), 2))
+        breaks = spline_breaks([0.0, *strips, length], int(np.ceil((0.95 if alike else 0.8) * half_turns)) + 1)
         found.append(Splines(breaks, tuple(strips) if stiff else ()))
     return found[0], found[1]
 

@@ -192,3 +192,19 @@ def test_the_rows_of_the_papers_panel_have_their_values():
     assert 0.1 < rows["skin_ms_0.1_n"]["median"] < 0.9
     assert rows["contrast_idle_low"]["median"] < 0.65 * rows["contrast"]["median"]
     assert rows["four_device_worst"]["median"] > 1.1
+
+
+@pytest.mark.slow
+def test_the_command_prints_table_figures_and_markdown_of_the_same_rows(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(paper, "QUICK", Effort(foci=2, over_time=1, repeated=1, thrown=1, loaded=1, plates=0, foam=False))
+    assert main(["benchmark", "paper", "--quick", "--seed", "9", "--json", "--plot", str(tmp_path / "p.svg")]) == 0
+    rows = json.loads(capsys.readouterr().out)["rows"]
+    assert (tmp_path / "p.svg").exists()
+    assert main(["benchmark", "paper", "--quick", "--seed", "9", "--markdown"]) == 0
+    text = capsys.readouterr().out
+    assert [line.split(" | ")[0].removeprefix("| ") for line in text.splitlines()[2 : 2 + len(rows)]] == [
+        row["quantity"] for row in rows
+    ]
+    assert main(["benchmark", "paper", "--quick", "--seed", "9"]) == 0
+    text = capsys.readouterr().out
+    assert all(row["quantity"] in text for row in rows)

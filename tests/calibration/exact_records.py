@@ -39,12 +39,15 @@ def displacement(volts, rate_hz, times_s, order=0):
     for pole, residue, mode in zip(step.poles, step.residues, step.mode_of_pole, strict=True):
         state = lfilter([1], [1, -np.exp(pole / rate_hz)], of_mode[mode].astype(complex), axis=-1)[:, at]
         found[mode] += (state * (residue * pole**order * np.exp(pole * since))).real
-    for number, pole in enumerate(step.driver_poles):
-        state = lfilter([1], [1, -np.exp(pole / rate_hz)], of_mode.astype(complex), axis=-1)[..., at]
-        found += (step.driver_residues[:, number, None, None] * (pole**order * np.exp(pole * since)) * state).real
+    shapes = model().plate_modes.shapes(POINTS_M)
+    total = np.einsum("pm,met->pet", shapes, found)
+    for number, pole in enumerate(step.driver_poles):  # the same of all modes
+        driven = np.einsum("pm,men->pen", shapes * step.driver_residues[:, number], of_mode)
+        state = lfilter([1], [1, -np.exp(pole / rate_hz)], driven, axis=-1)[..., at]
+        total += (state * (pole**order * np.exp(pole * since))).real
     if order == 0:
-        found += step.static[:, None, None] * np.cumsum(of_mode, axis=2)[..., at]
-    return np.einsum("pm,met->pet", model().plate_modes.shapes(POINTS_M), found * (times_s >= 0))
+        total += np.cumsum(np.einsum("pm,men->pen", shapes * step.static, of_mode), axis=2)[..., at]
+    return total * (times_s >= 0)
 
 
 @cache

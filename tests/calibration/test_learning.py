@@ -103,11 +103,9 @@ def one_at_a_time(kind):
     ("kind", "repetitions", "bound"),
     [
         ("words", 4, 4e-3),
-        ("noise", 16, 8e-3),
         ("exponential", 4, 4e-3),
-        ("linear", 4, 6e-3),
-        ("samples", 8, 8e-3),
         ("impulses", 16, 4e-3),
+        *(pytest.param(*long, marks=pytest.mark.slow) for long in (("noise", 16, 8e-3), ("linear", 4, 6e-3), ("samples", 8, 8e-3))),
     ],
 )
 def test_every_drive_gives_the_true_responses(tmp_path, kind, repetitions, bound):
@@ -131,6 +129,7 @@ def test_every_drive_gives_the_true_responses(tmp_path, kind, repetitions, bound
     assert not found.known[:, np.setdiff1d(np.arange(32), channels)].any()
 
 
+@pytest.mark.slow
 def test_a_wrong_sensitivity_is_a_wrong_response_by_as_much(tmp_path):
     """The comparison above, shown to see 1 %: the same volts, read with the right sensitivity and with one 1 % too small."""
     volts = noisy(clean() * 0.125)
@@ -144,7 +143,7 @@ def found_with(folder, ppm=0.0, late_s=0.0, stated=True, accept=(), **table):
     return learned(folder, WORDS, packed(words()), noisy(clean(ppm, late_s)), stated=stated, **table)
 
 
-@pytest.mark.parametrize(("ppm", "late_us"), [(100.0, 5.0), (-100.0, -5.0)])
+@pytest.mark.parametrize(("ppm", "late_us"), [(100.0, 5.0), pytest.param(-100.0, -5.0, marks=pytest.mark.slow)])
 def test_clock_and_delay_are_found_named_and_corrected(tmp_path, ppm, late_us):
     """5 us to 2.5 us, which is what edges and a patch as large as half a wave leave open; the clock to 5 ppm."""
     found = found_with(tmp_path, ppm, late_us * 1e-6)
@@ -158,6 +157,7 @@ def test_clock_and_delay_are_found_named_and_corrected(tmp_path, ppm, late_us):
     found.require()
 
 
+@pytest.mark.slow
 def test_an_unknown_delay_is_found(tmp_path):
     """The recorder began 0.2 ms before the drive, and nobody says so."""
     found = found_with(tmp_path, stated=False)
@@ -166,6 +166,7 @@ def test_an_unknown_delay_is_found(tmp_path):
     assert error_of(found.responses) > 0.01  # it is right to a microsecond, not exactly
 
 
+@pytest.mark.slow
 def test_records_that_run_through_tell_the_clock_to_a_tenth_of_a_ppm(tmp_path):
     """One record of all 12 emissions, 8 ms apart."""
     period = round(8e-3 * RATE_HZ)

@@ -288,7 +288,7 @@ def whole_files(tmp_path_factory):
     return found
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(data=st.data())
 def test_no_damage_to_a_file_of_records_is_more_than_one_line(whole_files, data):
     """Cut short, or with bytes changed: read, or refused by the one error."""
@@ -306,7 +306,7 @@ def test_no_damage_to_a_file_of_records_is_more_than_one_line(whole_files, data)
         file.write_bytes(right)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     text=st.text(max_size=200)
     | st.lists(st.sampled_from(["point,x_mm,y_mm", "1,2,3", "a,1e400,2", "b,-0,0.0", '"', ",,"])).map("\n".join)
@@ -325,7 +325,7 @@ def test_any_points_file_is_read_or_refused(whole_files, text):
         (folder / "points.csv").write_bytes(right)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(
     temperature_c=st.none() | st.floats(-50, 150),
     drive=st.sampled_from([SWEEP, WORDS, ImpulsesDrive(bit_clock_hz=5e5, supply_v=60, channels=(0, 31))]),

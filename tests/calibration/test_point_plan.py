@@ -71,9 +71,8 @@ def test_the_command_writes_positions_and_says_how_long_it_takes(tmp_path, capsy
     assert told["minutes"] == pytest.approx((20 * 32 * 0.05 + told["path_m"] / 0.05) / 60, abs=0.1)
     assert told["foreseen_share"]["median"] < 0.8, "20 points are too few"
     machine = tmp_path / "points.gcode"
-    assert main(["calibrate", "plan", "--points", "20", "--out", str(machine), "--plot", str(tmp_path / "plan.png")]) == 0
+    assert main(["calibrate", "plan", "--points", "20", "--out", str(machine)]) == 0
     assert machine.read_text().count("G0 X") == machine.read_text().count("G4 P3400 ") == 20
-    assert (tmp_path / "plan.png").stat().st_size > 10_000
     assert "less than 0.97 of the amplitude between them: 258 are proposed" in capsys.readouterr().err
     assert main(["calibrate", "plan", "--points", "20", "--out", str(tmp_path / "absent" / "points.csv")]) == 78
     assert capsys.readouterr().err.count("\n") == 1
@@ -91,3 +90,11 @@ def test_scattered_points_reach_every_cell_of_the_bank_also_in_the_corners():
     shares = foreseen_shares(prior, points, near, bins.in_band[:: len(bins.in_band) // 8])
     print(f"{len(near)} cells in the corners: {shares.min():.3f} at least")
     assert shares.min() > LEAST_SHARE
+
+
+@pytest.mark.slow
+def test_the_plan_is_drawn(tmp_path, capsys):
+    assert main(["calibrate", "plan", "--plot", str(tmp_path / "plan.png"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["foreseen_share"]["worst_5_percent"] > 0.98
+    assert (tmp_path / "plan.png").stat().st_size > 10_000

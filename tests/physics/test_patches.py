@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from small_plate import WHOLE, small_board
 
-from controller.board.panel import Actuator
+from controller.board.panel import Actuator, Damping
 from controller.board.patches import Patch, Patches
 from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
@@ -120,7 +120,14 @@ def test_shapes_are_sums_with_their_own_mean_square_and_coupling():
     around = np.array([(0.02, 0.03), (0.02 + step_m, 0.03), (0.02 - step_m, 0.03), (0.02, 0.03 + step_m), (0.02, 0.03 - step_m)])
     laplacian = (np.array([-4.0, 1, 1, 1, 1]) @ modes.shapes(around)) / step_m**2
     assert modes.coupling(actuator) == pytest.approx(laplacian * 0.25e-6, abs=5e-3 * abs(laplacian).max() * 0.25e-6)
-    assert "2 patches" in in_words(board, modes)
+    bare = modes.base.angular_frequency[: modes.count]
+    band = bare >= 2 * np.pi * 20e3
+    shift = 100 * (modes.angular_frequency / bare - 1)[band].mean()
+    alone = 100 * first_order(modes.base, *added(modes.base, PLATE, DISC, PLACES))[: modes.count][band].mean()
+    assert f", 2 patches ({shift:+.2f} % in frequency, {alone:+.2f} % to first order)" in in_words(board, modes)
+    lossy = msgspec.structs.replace(board, plate=msgspec.structs.replace(PLATE, damping=Damping(loss_factor=0.01)))
+    assert f", 2 patches ({shift:+.2f} %" in in_words(lossy, modes_of(lossy, 25e3))
+    assert modes.shift(30e3, 40e3) == (0.0, 0.0)
     assert np.all(modes.decay_rate == 1000.0)
 
 

@@ -37,6 +37,7 @@ def timed(shape, highest_k):
         ("SFSS", "Levy", 3e-4),
         ("FFFF", "finer", 1e-5),
         ("CCCC", "finer", 1e-5),
+        ("FFCC", "finer", 1e-5),
         ("EEEE", "finer", 1e-5),
         ("CFFF", "finer", 3e-4),
         ("CESF", "finer", 3e-4),
