@@ -11,7 +11,7 @@ there are per frequency above the cut wc. With it, modes to 100 kHz give the sam
 amplitude; without it, 0.06 to 0.08 less at 20 mg: near a force the plate yields in waves much shorter than those of the band.
 
 Displacements in time come from frequencies with a real part, s = sigma + 2 pi i k / W: what a window W repeats has died to e^-12,
-and spectra end at the bit clock, where the driver lets nothing pass. Free motion found so is that of the twin within 1e-8.
+and spectra end at the bit clock, where the driver lets nothing pass. Free motion found so is that of the twin within 2e-6.
 """
 
 from __future__ import annotations
