@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 import json
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -25,11 +24,6 @@ Channel = Annotated[int, Meta(ge=0, lt=CHANNELS)]
 Channels = Annotated[tuple[Channel, ...], Meta(min_length=1, max_length=4096)]
 Word = Annotated[int, Meta(ge=0, lt=1 << CHANNELS)]
 Quantity = Literal["m", "m/s", "m/s^2"]
-
-
-def date_now() -> str:
-    """Date and time of a measurement that is made now, in UTC."""
-    return datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 class WordsDrive(Record, frozen=True, tag_field="kind", tag="words"):

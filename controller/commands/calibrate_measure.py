@@ -140,7 +140,8 @@ def _measured(played: InPlace, name: str) -> Any:
 
 def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, first_us: float) -> MeasurementFile:
     """What measurement.toml says."""
-    from controller.calibration.measurement_file import MeasurementFile, RecordsTable, WordsDrive, date_now
+    from controller.calibration.in_place import date_now
+    from controller.calibration.measurement_file import MeasurementFile, RecordsTable, WordsDrive
 
     sensitivity = {name: getattr(options, name) for name in SENSITIVITIES if getattr(options, name) is not None}
     return MeasurementFile(
