@@ -51,8 +51,8 @@ def test_a_grid_of_cells_keeps_next_to_all(plate, gridded):
 
 def test_scattered_points_keep_nearly_as_much(plate, scattered):
     inside, near_edges = judged(plate, scattered[0], "scattered")
-    assert inside > 0.985
-    assert near_edges > 0.96
+    assert inside > 0.9945
+    assert near_edges > 0.985
     assert 0.9 < scattered[0].provenance.kept[0] < inside, "a point left out is farther from the others than a place between them"
     assert scattered[0].provenance.points == 110
 
