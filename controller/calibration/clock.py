@@ -18,8 +18,8 @@ from controller.calibration.measurements import PointRecords
 
 WIDEST_PPM = 600.0
 COARSE_PPM = 200.0
-SIGNIFICANT = 3.0  # standard errors
-TOLD = 0.05  # rise of the contradiction, over its least, within `COARSE_PPM`
+SIGNIFICANT = 6.0  # standard errors of four points: by chance once in a hundred
+TOLD = 0.5  # rise of the contradiction, over its least, within `COARSE_PPM`
 BEFORE_S = 0.4e-3, 1.5e-3  # before its pulse there is no response; nearer, the filter still rings
 
 
