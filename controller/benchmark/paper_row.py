@@ -71,7 +71,8 @@ def paper_table(figures: dict[str, Any]) -> str:
     lines = [
         f"{figures['board']}: {figures['foci']} foci, seed {figures['seed']}, {figures['modes']} modes; {told['processor']}, "
         f"commit {told['commit']}",
-        f"fitted: {fitted['name']} = {fitted['value']:g}, {fitted['why']}; everything else is the paper's",
+        f"fitted: {fitted['name']} = {fitted['value']:g}, {fitted['why']}",
+        "the paper's own: plate, driver, waveform; it does not give the places of its discs",
         "",
         f"{'quantity':<66}{'paper':>9}{'here':>9}{'5 %':>9}{'95 %':>9}{'ratio':>9}",
     ]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import selectors
 from collections.abc import Callable
+from datetime import UTC, datetime
 from typing import Final, Protocol
 
 import numpy as np
@@ -59,6 +60,11 @@ class Recorder(Protocol):
 
     def close(self) -> None:
         """Close the device."""
+
+
+def date_now() -> str:
+    """Date and time of a measurement, ISO 8601; by the clock of the day, which nothing else goes by."""
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 class InPlace:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from typing import Literal
 
 import msgspec
 import numpy as np
@@ -12,12 +13,15 @@ from controller.board.board import Board
 from controller.calibration.cosines import Cosines, Lattice, fill_places
 from controller.calibration.dispersion import Dispersion
 from controller.calibration.interpolated import InterpolatedResponses, LeaveOut
-from controller.calibration.kriging import SpectralField, Waves, krige
+from controller.calibration.kriging import Prior, SpectralField, Waves, krige
 from controller.calibration.learned import LearnedResponses
+from controller.calibration.modal_prior import ModalPrior, unforeseen
 from controller.calibration.point_plan import scattered_count
 from controller.calibration.spectra import Bins
 from controller.calibration.wave_fit import WaveFit, fit_waves
 from controller.errors import CalibrationError
+from controller.physics.modes import Modes
+from controller.physics.plate_modes import in_words
 
 LEAST_KEPT = 0.93  # of points left out, their median: worse responses are refused
 STILL = 0.2  # of the median point's movement: those that move less are not judged
@@ -33,6 +37,7 @@ def interpolate(
     learned: LearnedResponses,
     progress: Progress = lambda _what, _done, _total: None,
     dead: Collection[int] = (),
+    model: Modes | None = None,
 ) -> tuple[InterpolatedResponses, WaveFit]:
     """Interpolate between measured points: by cosines on a grid of cells, by wavenumber otherwise.
 
@@ -44,6 +49,8 @@ def interpolate(
         Called with what is done, how much of it, and all of it.
     dead : collection of int
         Channels that are known to do nothing: their responses are zero.
+    model : Modes, optional
+        Of the board's plate, which says what lies between scattered points if it foresees those left out better than waves do.
 
     Returns
     -------
@@ -59,13 +66,14 @@ def interpolate(
     known, used = _checked(board, learned, dead)
     points_m = learned.points_m[used]
     bins = Bins.of(waveform, learned.responses.shape[1])
-    spectra = bins.of_records(learned.responses[used])
+    spectra = bins.of_records(learned.responses, used)
     spectra *= known[None].astype(np.float32)
     lattice = Lattice.found_in(points_m)
     if lattice is not None:
         _refuse_coarse(board, lattice)
     waves = fit_waves(board, points_m, spectra, known, bins, lambda done, total: progress("wavelengths", done, total))
     prior = Waves.of(waves.dispersion, bins, board, waves.edge_variance)
+    kind: Literal["measured", "completed"] = "measured"
     if lattice is not None and lattice.covers(board.plate.length_m, board.plate.width_m):
         places = lattice.points()
         values = np.zeros((len(bins.frequency_hz), len(places), known.shape[1]), np.complex64)
@@ -81,9 +89,18 @@ def interpolate(
             raise CalibrationError(
                 f"{len(points_m):,} points are neither a grid of cells of the whole plate nor {MOST_SCATTERED:,} or less"
             )
-        field, foreseen = krige(points_m, spectra, known, prior, progress=lambda done, total: progress("points", done, total))
-        leave_out = _judged(board, bins, points_m, spectra, foreseen, known)
+        chosen: Prior = prior
         words = f"waves between {len(points_m)} points"
+        if model is not None:
+            modal = ModalPrior.of(board, model, waves, bins)
+            by_waves = unforeseen(
+                points_m, spectra, known, bins, lambda some: Waves.of(waves.dispersion, some, board, waves.edge_variance)
+            )
+            by_model = unforeseen(points_m, spectra, known, bins, lambda some: ModalPrior.of(board, model, waves, some))
+            if by_model < by_waves:
+                words, kind, chosen = f"{in_words(board, model)}, between {len(points_m)} points", "completed", modal
+        field, foreseen = krige(points_m, spectra, known, chosen, progress=lambda done, total: progress("points", done, total))
+        leave_out = _judged(board, bins, points_m, spectra, foreseen, known)
         reach = prior
     median, least = leave_out.summary()
     if not median >= LEAST_KEPT:
@@ -91,7 +108,7 @@ def interpolate(
             f"points left out keep {median:.2f} of their amplitude at the median, below {LEAST_KEPT:g}: {len(points_m)} points are"
             f" too few (calibrate plan proposes {scattered_count(board)} scattered ones), or their positions or records are wrong"
         )
-    provenance = msgspec.structs.replace(learned.provenance, model=words, points=len(points_m), kept=(median, least))
+    provenance = msgspec.structs.replace(learned.provenance, kind=kind, model=words, points=len(points_m), kept=(median, least))
     return InterpolatedResponses(board, bins, field, provenance, leave_out, reach, points_m), waves
 
 

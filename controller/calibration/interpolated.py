@@ -17,7 +17,7 @@ from controller.errors import CalibrationError
 
 Floats = NDArray[np.float64]
 
-LEAST_SHARE = 0.9  # foreseen from the places of the points: farther from them nothing is estimated
+LEAST_SHARE = 0.8  # foreseen from the places of the points; farther from them nothing is estimated, and no scene may ask for it
 POINTS_AT_ONCE = 64  # transforms of 64 points take some 70 MB
 BINS_ASKED = 8
 

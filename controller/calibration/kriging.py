@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -29,6 +30,7 @@ NEAR = 0.003
 NEAR_WAVES = 0.478  # wavelengths at the upper edge of the band: 4 mm on the paper's plate
 DIRECTIONS = 12  # of waves that meet an edge, each way
 POINTS_AT_ONCE = 64
+BESSEL_PER_UNIT = 512
 
 
 class SpectralField(Protocol):
@@ -82,7 +84,7 @@ class Waves:
         near = NEAR * np.exp(-((distance_m / self.near_m) ** 2))
 
         def covariance(bin_: int) -> Floats:
-            inside: Floats = j0(self.wavenumber[bin_] * distance_m) + near
+            inside: Floats = bessel(self.wavenumber[bin_] * distance_m) + near
             if self.edge_variance:
                 inside += self.fading(targets_m, bin_) @ self.fading(points_m, bin_).T
             return inside
@@ -218,6 +220,21 @@ def alike(known: NDArray[np.bool_]) -> Iterator[tuple[NDArray[np.intp], NDArray[
         points = np.flatnonzero(patterns[:, index])
         if points.size:
             yield points, np.flatnonzero(owner.reshape(-1) == index)
+
+
+def bessel(places: Floats) -> Floats:
+    """J0 at places from 0, of any shape, between values 1/512 apart: within 5e-7, and much faster."""
+    scaled = places * BESSEL_PER_UNIT
+    whole = scaled.astype(np.int32)
+    values, slopes = _bessel_table(1 << max(int(whole.max(initial=0) + 2).bit_length(), 16))
+    found: Floats = values[whole] + (scaled - whole) * slopes[whole]
+    return found
+
+
+@lru_cache(maxsize=8)
+def _bessel_table(count: int) -> tuple[Floats, Floats]:
+    values: Floats = j0(np.arange(count + 1) / BESSEL_PER_UNIT)
+    return values[:-1], np.diff(values)
 
 
 def _inverse(symmetric: Floats) -> Floats:

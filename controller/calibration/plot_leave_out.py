@@ -50,7 +50,7 @@ def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, wave
     low_hz, high_hz = board.waveform.band_low_hz, board.waveform.band_high_hz
     frequency_hz = np.linspace(low_hz, high_hz, 200)
     fitted = waves.dispersion.factor + waves.dispersion.slope_per_hz * (frequency_hz - waves.dispersion.reference_hz)
-    wave.plot(frequency_hz * 1e-3, 100 * (fitted - 1), color="black", lw=1, label="line through the parts")
+    wave.plot(frequency_hz * 1e-3, 100 * (fitted - 1), color="black", lw=1)
     wave.errorbar(
         np.array(waves.frequency_hz) * 1e-3, 100 * (np.array(waves.factors) - 1), 100 * waves.scatter, fmt="o", color="crimson"
     )
@@ -62,8 +62,8 @@ def plot_leave_out(path: Path, board: Board, source: InterpolatedResponses, wave
         decay.errorbar(middle_khz, one.time_s * 1e3, error_ms, half_khz, fmt="o", color="crimson")
     decay.axhline(plate.decay_time_ms, color="0.5", lw=1, ls="--", label="board.toml")
     decay.set(xlabel="frequency (kHz)", ylabel="decay time (ms)")
-    decay.set_ylim(bottom=0)
-    decay.legend(fontsize=8)
+    decay.set_ylim(0, 1.4 * max([plate.decay_time_ms, *(one.time_s * 1e3 for one in decays)]))
+    decay.legend(fontsize=8, loc="lower right")
     try:
         figure.savefig(path, dpi=120)
     except (OSError, ValueError) as error:

@@ -114,9 +114,8 @@ def fit_waves(
     def error(factor: float, chosen: NDArray[np.intp], edge_variance: float) -> float:
         """Energy of points left out that is not foreseen, over all."""
         nonlocal done
-        some = replace(bins, frequency_hz=bins.frequency_hz[chosen], gain=bins.gain[chosen])
         of_bins = spectra[np.ix_(chosen, whole, channels)]
-        prior = Waves.of(replace(dispersion, factor=factor), some, board, edge_variance)
+        prior = Waves.of(replace(dispersion, factor=factor), bins.part(chosen), board, edge_variance)
         _, foreseen = krige(points_m[whole], of_bins, np.ones((len(whole), len(channels)), bool), prior)
         done += 1
         progress(done, steps)

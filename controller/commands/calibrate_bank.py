@@ -14,9 +14,12 @@ from controller.bank.grid import Grid
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.commands.bank import MET_AHEAD_M
 from controller.commands.calibrate_check import calibration_cache, declare_accept
 from controller.commands.output import picture_path, progress_bar, show
 from controller.errors import CalibrationError, ConfigError
+from controller.scene.scene import load_scene
+from controller.scene.scene_file import find_scene
 
 if TYPE_CHECKING:
     from controller.calibration.decay_fit import Decay
@@ -41,6 +44,11 @@ def add(step: argparse.ArgumentParser) -> None:
         "--pitch-mm", type=float, metavar="P", help="distance of the cells in mm (default: the board's bank.pitch_mm)"
     )
     step.add_argument("--memory-mb", type=float, metavar="M", help="memory that the bank's build may take, in MB (default: 1500)")
+    step.add_argument(
+        "--model",
+        action="store_true",
+        help="let the board's plate model fill gaps between scattered points, if its edges prove right",
+    )
     step.add_argument("--also", metavar="FOLDER", help="the same plate at another temperature: determines coefficient_per_k")
     step.add_argument("--plot", metavar="FILE", help="draw what points left out keep, and the fits (.png, .svg, .pdf)")
     declare_accept(step)
@@ -52,18 +60,21 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.bank_builder.build import build_bank
+    from controller.bank_builder.choice import choose
     from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
     from controller.calibration.decay_fit import fit_decays
     from controller.calibration.drift_fit import fit_drift
     from controller.calibration.interpolate import interpolate
+    from controller.physics.plate_modes import modes_of
 
     picture = picture_path(options)
     board = load_board(find_board(options.board))
     pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
     if not pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    chooses = board.compose.method == "auto" and options.pitch_mm is None
     refuse_coarse(board, pitch_mm * 1e-3)
-    own = bank_path(board, pitch_mm * 1e-3)
+    own = bank_path(board, None if chooses else pitch_mm * 1e-3)
     path = Path(options.out) if options.out else own
     bars: dict[str, Any] = {}
 
@@ -73,12 +84,18 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     with threadpool_limits(1, "blas"):  # many small matrices
         learned, findings, dead = _learn(board, Path(options.folder), options)
         drift = fit_drift(board, learned, _learn(board, Path(options.also), options)[0]) if options.also else None
-        source, waves = interpolate(board, learned, progress, dead)
+        source, waves = interpolate(board, learned, progress, dead, modes_of(board) if options.model else None)
         decays = fit_decays(learned.responses, learned.known, learned.noise, board.waveform, learned.bit_clock_hz)
         if picture:
             from controller.calibration.plot_leave_out import plot_leave_out
 
             plot_leave_out(picture, board, source, waves, decays)
+        choice = None
+        if chooses:
+            scene_file = find_scene(board)
+            choice = choose(board, load_scene(scene_file, board), scene_file, MET_AHEAD_M, source)
+            pitch_mm = choice["pitch_mm"]
+            print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
         grid = Grid.of(board.plate, pitch_mm * 1e-3)
         cells = source.near_enough(grid.points())
         if not cells.any():
@@ -92,9 +109,14 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             measure_sgemm=False,
             overwrite=path == own,
             memory_mb=options.memory_mb,
+            choice=choice,
             source=source,
         )
     notes = [*findings, *_notes(board, learned, waves, decays, drift)]
+    if options.model and source.provenance.kind == "measured":
+        notes.append(
+            "the board's model foresees points left out no better than waves do, and was not used: its edges are not the plate's"
+        )
     if not cells.all():
         notes.append(f"{int((~cells).sum()):,} of {cells.size:,} cells are too far from the measured points, and not in the bank")
     if warning := interpolation_warning(report.interpolation_error):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import datetime
 import subprocess
 import sys
 from pathlib import Path
@@ -141,11 +140,12 @@ def _measured(played: InPlace, name: str) -> Any:
 
 def _settings(options: argparse.Namespace, board: Board, recorder: Recorder, first_us: float) -> MeasurementFile:
     """What measurement.toml says."""
+    from controller.calibration.in_place import date_now
     from controller.calibration.measurement_file import MeasurementFile, RecordsTable, WordsDrive
 
     sensitivity = {name: getattr(options, name) for name in SENSITIVITIES if getattr(options, name) is not None}
     return MeasurementFile(
-        date=datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        date=date_now(),
         sample_rate_hz=recorder.rate_hz,
         temperature_c=options.temperature_c,
         board_sha256=board.digest().hex(),

@@ -10,7 +10,7 @@ from controller.board.lookup import find_board
 from controller.commands.focus_movie import add_movie, film, movie_path
 from controller.commands.output import picture_path, show
 from controller.commands.tables import amplitude_table, plain_table
-from controller.errors import ConfigError
+from controller.errors import ConfigError, UsageError
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
@@ -62,6 +62,8 @@ def focus(options: argparse.Namespace) -> int:
     from controller.benchmark.focus_figures import figures
 
     picture, movie = picture_path(options), movie_path(options)
+    if options.finger_load and not options.at:
+        raise UsageError("--finger-load is of a focus: give --at X_MM Y_MM too")
     board = load_board(find_board(options.board))
     if options.figures:
         show(options, figures(board, options.seed), plain_table)

@@ -58,5 +58,5 @@ def film(options: argparse.Namespace, path: Path, emission: Emission, points_m: 
     step_s = None if options.movie_step_us is None else options.movie_step_us * 1e-6
     movie = Movie.of(twin, from_s, to_s, step_s, options.movie_frames)
     frames = movie.frames(twin, emission.words, options.memory_mb)
-    largest_m = float(abs(emission.field.at(points_m)).max()) or 1.0
+    largest_m = float(abs(emission.field.at(points_m)).max()) or 1e-6  # nothing moves
     write_movie(path, movie, frames, points_m, largest_m, twin.scale.circle_m, progress_bar("movie"))

@@ -10,6 +10,7 @@ import msgspec
 from controller.board.board import Board
 from controller.board.panel import Plate
 from controller.board.patches import Patch, Patches
+from controller.errors import ConfigError
 from controller.physics.closed_form import SimplySupported
 from controller.physics.damping import damped
 from controller.physics.mindlin import MindlinPlate
@@ -53,7 +54,11 @@ def _bare(plate: Plate, highest_hz: float) -> Modes:
     if plate.theory == "kirchhoff":
         return _of_edges(plate, highest_hz)
     theory = MindlinPlate.of(plate)
-    return theory.corrected(_of_edges(plate, theory.without_correction_hz(highest_hz)))
+    without_hz = theory.without_correction_hz(highest_hz)
+    try:
+        return theory.corrected(_of_edges(plate, without_hz))
+    except ConfigError as error:
+        raise ConfigError(f"{error} ({without_hz:g} Hz by Kirchhoff's theory are {highest_hz:g} Hz by Mindlin's)") from error
 
 
 def _of_edges(plate: Plate, highest_hz: float) -> Modes:

@@ -47,7 +47,9 @@ def test_blocks_of_bits_give_what_bit_by_bit_gives(emission, monkeypatch, every,
     wanted = stepped[first:][(len(stepped) - 1 - first) % every :: every]
     found = np.concatenate(list(modal_frames(twin.step, twin.forces, volts, period_s, every, first)))
     assert found.shape == wanted.shape
-    assert abs(found - wanted).max() <= 1e-12 * abs(stepped).max()
+    error = abs(found - wanted).max() / abs(stepped).max()
+    print(f"largest difference {error:.1e} of the largest displacement of a mode, by sums of blocks in float32")
+    assert error <= 1e-5
 
 
 def test_the_frame_at_t_is_the_field_at_t(emission):
@@ -200,14 +202,14 @@ def test_the_command_refuses_in_one_line(capsys, tmp_path, monkeypatch, argument
 
 @pytest.mark.slow
 def test_frames_take_at_most_twice_the_time_of_their_matrix_products(board, capsys, tmp_path):
-    """Best of seven, in turns, of processor time; the products in float32 alone, of matrices that are ready."""
+    """Best of fifteen, in turns, of processor time; the products in float32 alone, of matrices that are ready."""
     emission = emission_at(board, [(0.1, 0.07)])
     for window in ({}, {"from_s": -2e-3, "to_s": 1e-3}, {"from_s": -2e-3, "to_s": 3e-3}):
         movie = Movie.of(emission.twin, **window)
         grid = Grid.of(emission.twin.modes, movie.x_m, movie.y_m)
         amplitudes = np.concatenate(list(movie.amplitudes(emission.twin, emission.words)))
         ready = [grid.by_factors(amplitudes[k : k + grid.at_once]) for k in range(0, len(amplitudes), grid.at_once)]
-        times = np.empty((7, 2))
+        times = np.empty((15, 2))
         for turn in times:
             start = time.process_time()
             for matrices in ready:

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 from calibration.true_plate import TruePlate, random_places
+from scipy.special import j0
 from small_plate import small_board
 
 from controller.bank.file_format import REST_SAMPLES
 from controller.calibration.interpolate import interpolate
+from controller.calibration.kriging import bessel
 from controller.calibration.point_plan import grid_points, scattered_points
 from controller.errors import CalibrationError
 
@@ -80,20 +82,31 @@ def test_responses_are_those_of_the_protocol(plate, scattered):
     assert not whole[:, :, [q for q in range(32) if q not in {a.channel for a in BOARD.actuators}]].any()
 
 
+def test_the_table_of_the_bessel_function_is_right():
+    places = np.random.default_rng(1).uniform(0, 300, 10_000)
+    assert np.abs(bessel(places) - j0(places)).max() < 5e-7
+
+
 def test_what_cannot_be_interpolated_is_refused(plate):
     def refused(points_m, match, board=BOARD, **changes):
-        learned = plate.learned(points_m)
-        for name, value in changes.items():
-            object.__setattr__(learned, name, value(getattr(learned, name)))
+        fields = {
+            **vars(measured),
+            "points_m": points_m,
+            "responses": measured.responses[: len(points_m)],
+            "known": measured.known[: len(points_m)],
+        }
+        learned = type(measured)(**fields | {name: value(fields[name]) for name, value in changes.items()})
         with pytest.raises(CalibrationError, match=match) as raised:
             interpolate(board, learned)
         assert "\n" not in str(raised.value)
         assert raised.value.exit_code == 78
 
     coarse = np.stack(np.meshgrid(np.arange(4e-3, 0.07, 6e-3), np.arange(4e-3, 0.05, 6e-3)), axis=-1).reshape(-1, 2)
-    some = scattered_points(BOARD, 80, 2e-3)
-    refused(coarse, r"regular grid of 6.00 mm, above half a wavelength \(4.18 mm\)")
-    refused(scattered_points(BOARD, 34, 2e-3), "34 points are too few")
+    some = scattered_points(BOARD, 96, 2e-3)
+    measured = plate.learned(some)
+    refused(coarse[:80], r"regular grid of 6.00 mm, above half a wavelength \(4.18 mm\)")
+    with pytest.raises(CalibrationError, match="34 points are too few"):
+        interpolate(BOARD, plate.learned(scattered_points(BOARD, 34, 2e-3)))
     refused(some[:10], "10 points were measured: 12 is the least")
     refused(some, "of 0.20 ms are shorter than an emission of 0.8 ms", responses=lambda h: h[:, :100])
     refused(some, "do not fit the board's bit_clock_hz", bit_clock_hz=lambda f: f * 1.001)

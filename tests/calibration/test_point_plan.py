@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 from small_plate import WHOLE
 
+from controller.bank.grid import Grid
 from controller.calibration.dispersion import Dispersion
+from controller.calibration.interpolated import LEAST_SHARE
+from controller.calibration.kriging import Waves, foreseen_shares
 from controller.calibration.point_plan import grid_points, half_wave_m, path_m, scattered_points, short_path
+from controller.calibration.spectra import Bins
+from controller.calibration.wave_fit import EDGE_VARIANCES
 from controller.cli import main
 from controller.errors import ConfigError
 
@@ -66,10 +71,30 @@ def test_the_command_writes_positions_and_says_how_long_it_takes(tmp_path, capsy
     assert told["minutes"] == pytest.approx((20 * 32 * 0.05 + told["path_m"] / 0.05) / 60, abs=0.1)
     assert told["foreseen_share"]["median"] < 0.8, "20 points are too few"
     machine = tmp_path / "points.gcode"
-    assert main(["calibrate", "plan", "--points", "20", "--out", str(machine), "--plot", str(tmp_path / "plan.png")]) == 0
+    assert main(["calibrate", "plan", "--points", "20", "--out", str(machine)]) == 0
     assert machine.read_text().count("G0 X") == machine.read_text().count("G4 P3400 ") == 20
-    assert (tmp_path / "plan.png").stat().st_size > 10_000
     assert "less than 0.97 of the amplitude between them: 258 are proposed" in capsys.readouterr().err
     assert main(["calibrate", "plan", "--points", "20", "--out", str(tmp_path / "absent" / "points.csv")]) == 78
     assert capsys.readouterr().err.count("\n") == 1
     assert main(["calibrate", "plan", "--grid", "--margin-mm", "3"]) == 2
+
+
+def test_scattered_points_reach_every_cell_of_the_bank_also_in_the_corners():
+    """A cell that is not in the bank would keep `run` from a scene that can ask for it."""
+    points = scattered_points(WHOLE, 250, 2e-3)
+    cells = Grid.of(WHOLE.plate, 2.5e-3).points()
+    corners = [(x_m, y_m) for x_m in (0, WHOLE.plate.length_m) for y_m in (0, WHOLE.plate.width_m)]
+    near = cells[np.min([np.hypot(*(cells - corner).T) for corner in corners], axis=0) < 8e-3]
+    bins = Bins.of(WHOLE.waveform, 2 * WHOLE.waveform.samples)
+    prior = Waves.of(Dispersion.of(WHOLE.plate), bins, WHOLE, EDGE_VARIANCES[-1])
+    shares = foreseen_shares(prior, points, near, bins.in_band[:: len(bins.in_band) // 8])
+    print(f"{len(near)} cells in the corners: {shares.min():.3f} at least")
+    assert shares.min() > LEAST_SHARE
+
+
+@pytest.mark.slow
+def test_the_plan_is_drawn(tmp_path, capsys):
+    assert main(["calibrate", "plan", "--plot", str(tmp_path / "plan.png"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["foreseen_share"]["worst_5_percent"] > 0.98
+    assert (tmp_path / "plan.png").stat().st_size > 10_000

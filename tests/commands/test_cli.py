@@ -217,6 +217,8 @@ def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
         (("focus",), 78, "--at X_MM Y_MM"),
         (("focus", "--at", "300", "20"), 78, "--at 300"),
         (("focus", "--at", "nan", "20"), 78, "--at nan"),
+        (("focus", "--finger-load", "100"), 2, "--finger-load is of a focus: give --at X_MM Y_MM too"),
+        (("focus", "--figures", "--finger-load", "100"), 2, "--finger-load is of a focus"),
     ],
 )
 def test_a_mistake_is_told_in_one_line_with_the_right_exit_code(capsys, arguments, code, said):
@@ -233,6 +235,11 @@ def test_a_mistake_is_told_in_one_line_with_the_right_exit_code(capsys, argument
         ("bank",),
         ("focus", "--at", "1"),
         ("focus", "--figures", "--seed", "-1"),
+        ("focus", "--at", "80", "60", "--finger-load", "heavy"),
+        ("focus", "--at", "80", "60", "--finger-load", "-1"),
+        ("focus", "--at", "80", "60", "--finger-load", "nan"),
+        ("focus", "--at", "80", "60", "--finger-load", "100,1"),
+        ("focus", "--at", "80", "60", "--finger-load", "100,1,2,3"),
     ],
 )
 def test_wrong_usage_ends_with_2(capsys, arguments):

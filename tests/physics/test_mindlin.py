@@ -10,6 +10,7 @@ from controller.board.board import load_board
 from controller.board.layers import MOST_SHEAR, Layer, laminate
 from controller.board.lookup import find_board
 from controller.board.panel import Plate
+from controller.errors import ConfigError
 from controller.physics.field import FocusScale
 from controller.physics.mindlin import MindlinPlate
 from controller.physics.plate import bending_stiffness, bending_wavelength_m
@@ -119,3 +120,11 @@ def test_a_stiffer_plate_of_layers_keeps_its_layers():
     plate = of_layers(*LAMINATED).with_stiffness(1.02)
     assert plate.young_modulus_pa == pytest.approx(1.02 * of_layers(*LAMINATED).young_modulus_pa)
     assert plate.layers[1].young_modulus_pa == pytest.approx(1.02 * 3e9)
+
+
+def test_a_refusal_tells_both_frequencies():
+    floor = msgspec.structs.replace(PAPER, length_mm=4000.0, width_mm=3000.0, thickness_mm=20.0)
+    with pytest.raises(
+        ConfigError, match=r"more than 30000 modes .* \(247612 Hz by Kirchhoff's theory are 100000 Hz by Mindlin's\)"
+    ):
+        modes_of(msgspec.structs.replace(BOARD, plate=floor), 100e3)

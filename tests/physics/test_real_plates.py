@@ -29,8 +29,11 @@ def test_a_bank_by_mindlins_theory_focuses_on_its_own_plate_and_not_on_kirchhoff
     text = (WHOLE.folder / "board.toml").read_text().replace('theory = "kirchhoff"', 'theory = "mindlin"')
     (folder / "board.toml").write_text(text)
     (folder / "scene.toml").write_text((WHOLE.folder / "scene.toml").read_text())
-    assert main(["focus", "--board", str(folder), "--at", "80", "60", "--json"]) == 0
-    alone = json.loads(capsys.readouterr().out)["foci"][0]
+    assert main(["focus", "--board", str(folder), "--at", "80", "60", "--finger-load", "100,0.1,1e3", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    alone = told["foci"][0]
+    assert 0 < alone["finger_on_it"]["kept"] < 0.2 < alone["finger_on_it"]["peak_kept"] < alone["finger_on_it"]["peak_kept_by_eq_7"]
+    assert 0.85 < told["finger_elsewhere"]["kept"]["median"] < 1
     assert alone["relative_amplitude"] == pytest.approx(1.0, abs=1e-6)
     mindlin = load_board(folder)
     file = tmp_path / "mindlin.bank"

@@ -73,7 +73,7 @@ def kept(run):
     return [focus.relative_amplitude for focus in judge(run).foci[1:]]
 
 
-@pytest.mark.parametrize("percent", [0.5, -0.5])
+@pytest.mark.parametrize("percent", [0.5, pytest.param(-0.5, marks=pytest.mark.slow)])
 def test_half_a_percent_costs_forty_percent_and_the_bit_clock_has_it_back(panel, percent):
     board, _, _ = panel
     run = played(panel, Drift.constant(percent))
@@ -88,11 +88,13 @@ def test_half_a_percent_costs_forty_percent_and_the_bit_clock_has_it_back(panel,
     json.dumps(told)
 
 
+@pytest.mark.slow
 def test_a_correction_wrong_by_a_tenth_is_noticed(panel):
     wrong = Drift(np.zeros(1), np.full(1, 5e-3), np.full(1, 23 + 0.8 * KELVIN))
     assert kept(played(panel, wrong)) < kept(played(panel, Drift.constant(0.5)))
 
 
+@pytest.mark.slow
 def test_a_plate_that_warms_is_followed(panel):
     drift = Drift(np.array([0.0, 6.0]), np.array([0.0, 5e-3]))
     times = tuple(np.arange(1, 7.0).tolist())
