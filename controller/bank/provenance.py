@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 import msgspec
 
+from controller.board.board import sha256
+
 MOST_FILES = 8  # of a folder and a kind that a header names one by one
 MEASURE_AGAIN = "haptic-panel calibrate bank FOLDER"  # what builds a bank from measurements
 
@@ -70,7 +72,7 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
                 found += files
             else:
                 every = "".join(f"{file.sha256}  {file.name}\n" for file in files)  # as sha256sum prints them
-                found.append(SourceFile(f"{pattern} ({len(files)} files)", hashlib.sha256(every.encode()).hexdigest()))
+                found.append(SourceFile(f"{pattern} ({len(files)} files)", sha256(every.encode()).hex()))
         return msgspec.structs.replace(self, files=tuple(found))
 
     def in_words(self) -> str:

@@ -179,10 +179,11 @@ class Board(Record, frozen=True):
             if getattr(self.plate, key) == left_out:
                 del plate[key]
         tables = (plate, self.actuators, self.driver, self.waveform, *([self.patches] if self.patches else []))
-        return _sha256(msgspec.json.encode(tables))  # keys in the order of the records
+        return sha256(msgspec.json.encode(tables))  # keys in the order of the records
 
 
-def _sha256(data: bytes) -> bytes:
+def sha256(data: bytes) -> bytes:
+    """Digest of `data`, without loading OpenSSL where Python has its own."""
     for name in SHA256:
         with suppress(ImportError):
             return bytes(import_module(name).sha256(data).digest())
