@@ -60,8 +60,6 @@ class Provenance(msgspec.Struct, frozen=True, omit_defaults=True):
 
         A header has no room for a file for each of thousands of points.
         """
-        import hashlib  # noqa: PLC0415 - loads OpenSSL, 4 MB; a device reads provenances only
-
         kinds: dict[PurePosixPath, list[SourceFile]] = {}
         for file in self.files:
             path = PurePosixPath(file.name)
