@@ -61,7 +61,9 @@ def fit_decays(
     length = 2 * samples  # what a filter spreads beyond both ends falls into silence
     frequency_hz: Floats = np.fft.rfftfreq(length, 1 / bit_clock_hz).astype(np.float64)
     spectra = rfft(records, length, axis=1)
-    floor = float(np.nanmean(np.where(known[chosen][:, channels], noise[chosen][:, channels], np.nan) ** 2)) if known.any() else 0.0
+    of_records = noise[np.ix_(chosen, channels)][known[np.ix_(chosen, channels)]]
+    told = of_records[np.isfinite(of_records)]
+    floor = float((told**2).mean()) if told.size else 0.0
     edges = np.linspace(waveform.band_low_hz, waveform.band_high_hz, PARTS + 1)
     middle_hz = (waveform.band_low_hz + waveform.band_high_hz) / 2
     first = int(SPREAD_PERIODS / middle_hz * bit_clock_hz)
@@ -69,7 +71,7 @@ def fit_decays(
     for low_hz, high_hz in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
         gain = band_gain(frequency_hz, (low_hz, high_hz))
         power = (irfft(spectra * gain[:, None], length, axis=1)[:, :samples] ** 2).mean(axis=0)  # (sample, channel)
-        noise_power = (floor if np.isfinite(floor) else 0.0) * float((gain**2).mean())
+        noise_power = floor * float((gain**2).mean())
         windows = np.array_split(np.arange(first, samples), WINDOWS)
         time_s = np.array([window.mean() for window in windows]) / bit_clock_hz
         levels = np.array([power[window].mean(axis=0) for window in windows]) - noise_power  # (window, channel)

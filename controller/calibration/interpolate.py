@@ -66,7 +66,7 @@ def interpolate(
     known, used = _checked(board, learned, dead)
     points_m = learned.points_m[used]
     bins = Bins.of(waveform, learned.responses.shape[1])
-    spectra = bins.of_records(learned.responses[used])
+    spectra = bins.of_records(learned.responses, used)
     spectra *= known[None].astype(np.float32)
     lattice = Lattice.found_in(points_m)
     if lattice is not None:

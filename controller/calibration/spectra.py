@@ -66,11 +66,11 @@ class Bins:
         """Some of the bins."""
         return replace(self, frequency_hz=self.frequency_hz[chosen], gain=self.gain[chosen])
 
-    def of_records(self, responses: NDArray[np.floating[Any]]) -> Spectra:
-        """Spectra of records, (point, sample, channel), by bins: (bin, point, channel)."""
-        spectra = np.empty((self.frequency_hz.size, len(responses), responses.shape[2]), np.complex64)
-        for point, record in enumerate(responses):
-            spectra[:, point] = rfft(record, self.length, axis=0)[: self.frequency_hz.size]
+    def of_records(self, responses: NDArray[np.floating[Any]], points: NDArray[np.intp]) -> Spectra:
+        """Spectra of the records, (point, sample, channel), of some points, by bins: (bin, point, channel)."""
+        spectra = np.empty((self.frequency_hz.size, len(points), responses.shape[2]), np.complex64)
+        for index, point in enumerate(points.tolist()):
+            spectra[:, index] = rfft(responses[point], self.length, axis=0)[: self.frequency_hz.size]
         return spectra
 
     def band_limited(self, spectra: Spectra) -> NDArray[np.float32]:

@@ -14,9 +14,12 @@ from controller.bank.grid import Grid
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.commands.bank import MET_AHEAD_M
 from controller.commands.calibrate_check import calibration_cache, declare_accept
 from controller.commands.output import picture_path, progress_bar, show
 from controller.errors import CalibrationError, ConfigError
+from controller.scene.scene import load_scene
+from controller.scene.scene_file import find_scene
 
 if TYPE_CHECKING:
     from controller.calibration.decay_fit import Decay
@@ -57,6 +60,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     from threadpoolctl import threadpool_limits
 
     from controller.bank_builder.build import build_bank
+    from controller.bank_builder.choice import choose
     from controller.bank_builder.interpolation_error import interpolation_warning, refuse_coarse
     from controller.calibration.decay_fit import fit_decays
     from controller.calibration.drift_fit import fit_drift
@@ -68,8 +72,9 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     pitch_mm = board.bank.pitch_mm if options.pitch_mm is None else options.pitch_mm
     if not pitch_mm >= SMALLEST_PITCH_MM:  # NaN too
         raise ConfigError(f"--pitch-mm: pitch_mm = {pitch_mm:g} is not {SMALLEST_PITCH_MM:g} or more")
+    chooses = board.compose.method == "auto" and options.pitch_mm is None
     refuse_coarse(board, pitch_mm * 1e-3)
-    own = bank_path(board, pitch_mm * 1e-3)
+    own = bank_path(board, None if chooses else pitch_mm * 1e-3)
     path = Path(options.out) if options.out else own
     bars: dict[str, Any] = {}
 
@@ -85,6 +90,12 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             from controller.calibration.plot_leave_out import plot_leave_out
 
             plot_leave_out(picture, board, source, waves, decays)
+        choice = None
+        if chooses:
+            scene_file = find_scene(board)
+            choice = choose(board, load_scene(scene_file, board), scene_file, MET_AHEAD_M, source)
+            pitch_mm = choice["pitch_mm"]
+            print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
         grid = Grid.of(board.plate, pitch_mm * 1e-3)
         cells = source.near_enough(grid.points())
         if not cells.any():
@@ -98,6 +109,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             measure_sgemm=False,
             overwrite=path == own,
             memory_mb=options.memory_mb,
+            choice=choice,
             source=source,
         )
     notes = [*findings, *_notes(board, learned, waves, decays, drift)]

@@ -10,12 +10,12 @@ import pytest
 from small_plate import WHOLE, small_board
 
 from controller.bank.grid import Grid
-from controller.bank.inspection import bank_info, fit, measured_at, verify_bank
+from controller.bank.inspection import bank_info, fit, measured_at, verify_bank, wrong_pitch
 from controller.bank.packing import channel_bits, drive_words
 from controller.bank.provenance import Provenance, SourceFile, provenance_of
 from controller.bank.reader import Bank
 from controller.bank_builder.build import build_bank
-from controller.bank_builder.choice import settings
+from controller.bank_builder.choice import choose, settings
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
@@ -250,3 +250,16 @@ def test_whether_a_bank_was_measured_is_seen_even_if_it_is_damaged(built, tmp_pa
     build_bank(BOARD, tmp_path / "modelled", PITCH_M, np.arange(24) == CELL, measure_sgemm=False)
     assert not measured_at(tmp_path / "modelled")
     assert bank_info(tmp_path / "modelled")["responses"].startswith("modelled: Kirchhoff plate, edges simply supported, decay 1 ms")
+
+
+def test_a_bank_that_is_chosen_by_measured_responses_is_the_one_that_auto_plays(tmp_path):
+    board = msgspec.structs.replace(WHOLE, compose=msgspec.structs.replace(WHOLE.compose, method="auto"))
+    source = Measured(WHOLE, samples=WHOLE.waveform.samples, plate_m=(WHOLE.plate.length_m, WHOLE.plate.width_m))
+    file = find_scene(WHOLE, "keyboard")
+    choice = choose(board, load_scene(file, WHOLE), file, 5e-3, source)
+    cells = np.arange(Grid.of(board.plate, choice["pitch_mm"] * 1e-3).cells) < 3
+    path = tmp_path / "bank"
+    build_bank(board, path, choice["pitch_mm"] * 1e-3, cells, measure_sgemm=False, choice=choice, source=source)
+    with Bank.open(path, board) as bank:
+        assert wrong_pitch(bank, board) == ""
+        assert bank.header.provenance == TOLD

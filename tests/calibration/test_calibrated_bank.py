@@ -6,7 +6,7 @@ import shutil
 import msgspec
 import numpy as np
 import pytest
-from calibration.true_plate import TruePlate
+from calibration.true_plate import TruePlate, random_places
 from small_plate import WHOLE, small_board
 
 from controller.bank.grid import Grid
@@ -87,9 +87,7 @@ def test_places_that_were_not_measured_on_the_papers_plate(edges):
     four = tuple(a for a in WHOLE.actuators if a.channel in (1, 10, 19, 28))
     board = msgspec.structs.replace(WHOLE, actuators=four)
     plate = TruePlate(board, 4.0, edges=edges, theory="mindlin")
-    inside = scattered_points(board, 14, 30e-3, seed=5)
-    near = scattered_points(board, 60, 4e-3, seed=6)
-    near = near[np.minimum(near, (0.21, 0.148) - near).min(axis=1) <= 20e-3][:14]
+    inside, near = random_places(board, 20, 30e-3), random_places(board, 48, 4e-3, 20e-3)
     for points_m, least_inside, least_near in (
         (grid_points(board), 0.997, 0.993),
         (scattered_points(board, 250, 2e-3), 0.993, 0.982),

@@ -25,6 +25,8 @@ def test_the_decay_is_that_of_the_plate(time_ms):
     for one in found:
         assert one.error_s < 0.03e-3 * time_ms * 1.01
         assert abs(one.time_s - time_ms * 1e-3) < 3 * one.error_s + 0.01e-3 * time_ms
+    untold = fit_decays(learned.responses, learned.known, np.full_like(learned.noise, np.nan), BOARD.waveform, learned.bit_clock_hz)
+    assert [one.time_s for one in untold] == pytest.approx([one.time_s for one in found], rel=0.02)
 
 
 def at_temperature(learned, temperature_c):
