@@ -14,7 +14,7 @@ from controller.calibration.direct_wave import DirectWaves
 from controller.errors import CalibrationError
 
 Floats = NDArray[np.float64]
-Kind = Literal["dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short"]
+Kind = Literal["dead", "swapped", "inverted", "clipped", "strength", "missing", "noisy", "delay", "clock", "board", "short", "band"]
 FATAL: tuple[Kind, ...] = ("dead", "swapped", "inverted", "clipped", "strength")  # what makes a bank wrong, unless it is accepted
 
 DEAD_POWER = 1e-2  # of the median channel
@@ -90,10 +90,10 @@ def dead_channels(power: Floats, coherence: Floats, channels: Sequence[int], dri
     if not others:
         return found
     level = np.nanmedian(power[:, others], axis=0)
-    quiet = [channel for channel, own in zip(others, level, strict=True) if own < DEAD_POWER * np.median(level)]
+    quiet = [channel for channel, own in zip(others, level, strict=True) if own <= DEAD_POWER * np.median(level)]
     incoherent = [channel for channel in others if np.nanmedian(_or(coherence[:, channel], 1.0)) < DEAD_COHERENCE]
     if dead := sorted({*quiet, *incoherent}):
-        shares = [f"{np.sqrt(max(np.nanmedian(power[:, channel]) / np.median(level), 0)):.1%}" for channel in dead]
+        shares = [f"{np.sqrt(max(np.nanmedian(power[:, channel]) / (np.median(level) or 1.0), 0)):.1%}" for channel in dead]
         text = f"{_channels(dead)} dead: {listed(shares)} of the others' response; check wire, patch and driver stage"
         found.append(Finding("dead", text, tuple(dead)))
     return found

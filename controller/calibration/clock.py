@@ -18,9 +18,9 @@ from controller.calibration.measurements import PointRecords
 
 WIDEST_PPM = 600.0
 COARSE_PPM = 200.0
-SIGNIFICANT = 3.0  # standard errors
-TOLD = 0.05  # rise of the contradiction, over its least, within `COARSE_PPM`
-BEFORE_S = 20e-6, 1e-3  # before its pulse there is no response; nearer the band's own length blurs it
+SIGNIFICANT = 6.0  # standard errors of four points: by chance once in a hundred
+TOLD = 0.5  # rise of the contradiction, over its least, within `COARSE_PPM`
+BEFORE_S = 0.4e-3, 1.5e-3  # before its pulse there is no response; nearer, the filter still rings
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def clock_of(deconvolution: Deconvolution, records: Sequence[PointRecords], dela
         for one in records
     ]
     ppm = float(np.mean(found))
-    if min(exact(ppm - step), exact(ppm + step)) < (1 + TOLD) * exact(ppm):
+    if min(exact(ppm - step), exact(ppm + step)) <= (1 + TOLD) * exact(ppm):
         return Clock(0.0, np.nan)
     error_ppm = float(np.std(found, ddof=1)) / len(found) ** 0.5 if len(found) > 1 else step / 4
     return Clock(round(ppm, 2) if abs(ppm) > SIGNIFICANT * error_ppm else 0.0, error_ppm)

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
 from controller.board.board import Board
-from controller.calibration.drives import transform
+from controller.calibration.drives import Drive, held_spectrum, transform
 from controller.calibration.measurements import Measurement, PointRecords
 from controller.errors import CalibrationError
 from controller.physics.modal_response import edge_width_hz
@@ -32,7 +32,10 @@ Kind = TypeVar("Kind", np.bool_, np.float64, np.complex64)
 
 REGULARISATION = 1e-5  # one sequence of noise leaves a bias of its root
 RESOLVED = 0.9  # share of a channel's response that the drive determines, in the mean over the band
-EXCITED = 0.5  # the same at one frequency
+EXCITED = 1e-3  # of the power of a drive where it is strongest, in the mean over `SMOOTH_HZ`
+SMOOTH_HZ = 1e3
+TAPER_HZ = 3e3  # from what is excited to what is not
+LEAST_SHARE = 1e-3  # of the energy of a drive that lies in the band
 NYQUIST_SHARE = 0.9  # of the recorder's half rate that its filter passes
 EARLIEST_S = 0.9e-3  # before the pulse, where noise is looked for
 DERIVATIVES = {"m": 0, "m/s": 1, "m/s^2": 2}
@@ -171,8 +174,16 @@ class Deconvolution:
         played = drive.spectra(self.bins.frequency_hz[0], self.bins.step_hz, len(self.bins.gain), 1 / board.waveform.bit_clock_hz)
         self.driven: NDArray[np.bool_] = np.asarray(drive.drives.any(axis=0))
         self._drives = drive.drives[:, self.driven]
+        end_s, needed_s = length / self._rate_hz + first_s, drive.duration_s + board.waveform.duration_s / 2
+        if end_s < needed_s:
+            raise CalibrationError(
+                f"{measurement.folder}: records of {length:,} samples end {end_s * 1e3:.3g} ms after the start of a drive of"
+                f" {drive.duration_s * 1e3:.3g} ms: record until {needed_s * 1e3:.3g} ms at least, better until the plate is still"
+            )
         self._played: Complex = np.ascontiguousarray(played[:, self.driven].transpose(2, 0, 1))  # (bin, emission, channel)
-        self._in_band = self.bins.gain > 0.5
+        self._excited = self._excited_bins(measurement, drive)
+        self._taper = _tapered(self._excited, max(int(TAPER_HZ / self.bins.step_hz), 1))
+        self._in_band = (self.bins.gain > 0.5) & self._excited
         power = (abs(self._played[self._in_band]) ** 2).sum(axis=1).mean(axis=0)
         self._epsilon = REGULARISATION * float(power.mean()) * measurement.repetitions
         self._operators: dict[bytes, tuple[Complex, Floats, Floats, Floats]] = {}
@@ -264,8 +275,25 @@ class Deconvolution:
                 f"{emissions} emissions do not determine {channels} channels that they drive together: play {channels} or more,"
                 " each with words of its own, or one channel at a time"
             )
-        excited = self.bins.frequency_hz[(resolution > EXCITED).all(axis=1)]
+        excited = self.bins.frequency_hz[self._excited]
         return float(excited[0]), float(excited[-1])
+
+    def _excited_bins(self, measurement: Measurement, drive: Drive) -> NDArray[np.bool_]:
+        """Frequencies at which every channel's drive has power enough."""
+        power = (abs(self._played) ** 2).sum(axis=1)
+        held = held_spectrum(self.bins.frequency_hz, 1 / self.bins.bit_clock_hz)
+        inside = 2 * self.bins.step_hz * (power * abs(held[:, None]) ** 2).sum(axis=0)
+        whole = np.broadcast_to((drive.volts**2).sum(axis=2) / drive.rate_hz, drive.drives.shape)
+        share = inside / np.where(drive.drives, whole, 0).sum(axis=0)[self.driven]
+        if share.min() < LEAST_SHARE:
+            channel = int(np.flatnonzero(self.driven)[share.argmin()])
+            raise CalibrationError(
+                f"{measurement.folder}: what channel {channel} played holds {share.min():.1e} of its energy in the band from"
+                f" {self.bins.frequency_hz[0] / 1e3:.0f} to {self.bins.frequency_hz[-1] / 1e3:.0f} kHz: nothing to learn from"
+            )
+        width = max(int(SMOOTH_HZ / self.bins.step_hz), 1)
+        smooth = np.stack([np.convolve(own, np.ones(width) / width, "same") for own in power.T])
+        return np.asarray((smooth > EXCITED * smooth.max(axis=1, keepdims=True)).all(axis=0))
 
     def _of_all(self, of_driven: NDArray[Kind], otherwise: float = 0) -> NDArray[Kind]:
         """What is of the channels that were driven, with those that were not."""
@@ -284,8 +312,17 @@ class Deconvolution:
             normal = adjoint @ played
             ridge = normal + self._epsilon * np.eye(normal.shape[1])
             inverse = np.linalg.solve(ridge, adjoint).astype(np.complex128, copy=False)
+            inverse *= self._taper[:, None, None]
             seen = inverse @ played
             spread = (abs(inverse) ** 2 / np.maximum(count, 1)).sum(axis=2)
-            leverage = np.einsum("kec,kce->e", played, inverse).real / len(played)
+            leverage = np.einsum("kec,kce->e", played, inverse).real / self._excited.sum()
             self._operators[key] = inverse, spread, np.einsum("kcc->kc", seen).real, leverage
         return self._operators[key]
+
+
+def _tapered(mask: NDArray[np.bool_], width: int) -> Floats:
+    """1 well inside of `mask`, falling to 0 at its ends over so many bins; the ends of the array are inside."""
+    padded = np.pad(mask.astype(np.float64), 2 * width, mode="edge")
+    inner = np.convolve(padded, np.ones(2 * width + 1), "same") > 2 * width + 0.5
+    window = np.hanning(2 * width + 3)[1:-1]
+    return np.asarray(np.convolve(inner, window / window.sum(), "same")[2 * width : -2 * width] * mask)

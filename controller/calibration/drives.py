@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 MOST_WORDS = 4_000_000  # of an emission, and of all of them
 SWEEP_OVERSAMPLING = 16  # samples of a period of a sweep's highest frequency
+LEAST_SWEEP_RATE_HZ = 1e6  # or the spectrum of a low sweep repeats within the band
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +153,7 @@ def _samples(folder: Path, table: SamplesDrive) -> Drive:
 
 
 def _sweep_rate_hz(table: SweepDrive) -> float:
-    return SWEEP_OVERSAMPLING * max(table.start_hz, table.stop_hz)
+    return max(SWEEP_OVERSAMPLING * max(table.start_hz, table.stop_hz), LEAST_SWEEP_RATE_HZ)
 
 
 def _sweep(table: SweepDrive) -> Floats:

@@ -65,7 +65,9 @@ def findings_of(
     return findings
 
 
-def remarks_on(measurement: Measurement, board: Board, clock: Clock, delay_s: float, ringing: float) -> list[Finding]:
+def remarks_on(
+    measurement: Measurement, board: Board, clock: Clock, delay_s: float, ringing: float, excited_hz: tuple[float, float]
+) -> list[Finding]:
     """What was corrected, and what is worth knowing.
 
     Parameters
@@ -77,6 +79,8 @@ def remarks_on(measurement: Measurement, board: Board, clock: Clock, delay_s: fl
         That was corrected.
     ringing : float
         What is left of responses where the records end.
+    excited_hz : (float, float)
+        What was played reaches so far.
     """
     settings, findings = measurement.settings, list[Finding]()
     if delay_s and settings.records.first_sample_us is not None:
@@ -84,6 +88,13 @@ def remarks_on(measurement: Measurement, board: Board, clock: Clock, delay_s: fl
         late = f"{abs(delay_s) * 1e6:.1f} us {'later' if delay_s > 0 else 'earlier'}"
         text = f"waves arrive {late} than records.first_sample_us says, which should be {right_us:.0f}: corrected"
         findings.append(Finding("delay", text))
+    low_hz, high_hz = excited_hz
+    if low_hz > board.waveform.band_low_hz or high_hz < board.waveform.band_high_hz:
+        text = (
+            f"what was played reaches from {low_hz / 1e3:.1f} to {high_hz / 1e3:.1f} kHz only, of the band from"
+            f" {board.waveform.band_low_hz / 1e3:g} to {board.waveform.band_high_hz / 1e3:g} kHz"
+        )
+        findings.append(Finding("band", text))
     if abs(clock.ppm) > CLOCK_TOLERANCE_PPM:
         text = f"the recorder's clock is {abs(clock.ppm):.1f} ppm {'fast' if clock.ppm > 0 else 'slow'}: corrected"
         findings.append(Finding("clock", text))

@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 BEFORE_S: Final = 0.2e-3  # of a record, before the first drive word
 LEAD_S: Final = 20e-3  # from the start of the recorder to the first emission, beside the time that an upload takes
 SLACK_S: Final = 0.25  # by which a recorder may begin late
+NEAR_SAMPLES: Final = 20  # by which an emission may differ from where the one before it lets it be expected
 FRAMES_AT_MOST: Final = 6  # with an upload: store, play, answers
 
 
@@ -188,7 +189,9 @@ class InPlace:
             levels = (self._words[emission] >> self._sync_channel & 1).astype(bool)
             first = not emission and not repetition
             try:
-                begin = begin_of(track[:, 1], rate_hz, levels, waveform.bit_clock_hz, nominal, slack if first else 20)
+                if first:  # what else is heard in so long a time would shift it
+                    nominal = begin_of(track[:, 1], rate_hz, levels, waveform.bit_clock_hz, nominal, slack)
+                begin = begin_of(track[:, 1], rate_hz, levels, waveform.bit_clock_hz, nominal, NEAR_SAMPLES)
             except CalibrationError as error:
                 raise CalibrationError(f"emission {emission}, repetition {repetition}: {error}") from None
             records[emission, repetition] = shifted(track[:, 0], begin, round(BEFORE_S * rate_hz), count)

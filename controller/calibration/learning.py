@@ -123,7 +123,7 @@ def learn(
     count = 2 * board.waveform.samples if samples is None else samples
     responses, ringing = responses_in_time(measurement, board, deconvolution, results, count, delay_s, files)
     findings = findings_of(measurement, board, deconvolution, results, responses, waves)
-    findings += remarks_on(measurement, board, clock, delay_s, ringing)
+    findings += remarks_on(measurement, board, clock, delay_s, ringing, excited_hz)
     residual = np.full(len(measurement.names), np.nan)
     for point, found in results.items():
         residual[point] = found.residual

@@ -29,6 +29,8 @@ from controller.calibration.record_formats import (
 )
 from controller.errors import CalibrationError
 
+LARGEST = 1e9  # m, m/s or m/s^2: no sensor gives that
+
 Place = tuple[int, int]  # emission, repetition
 
 
@@ -240,6 +242,9 @@ class Measurement:
             e, r = np.argwhere(there & ~np.isfinite(values).all(axis=2))[0]
             raise CalibrationError(f"{where}: emission {e}, repetition {r}: samples that are no numbers")
         values *= settings.quantity[1]
+        if there.any() and not abs(values[there]).max() < LARGEST:
+            largest = abs(values[there]).max()
+            raise CalibrationError(f"{where}: samples up to {largest:.3g} {settings.quantity[0]}: wrong unit, or no record")
         return PointRecords(values, there, first / self.settings.sample_rate_hz, clipped, self.files(point))
 
 

@@ -59,7 +59,8 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
     time_ms = (np.arange(found.responses.shape[1]) + 1) / found.bit_clock_hz * 1e3
     known = np.flatnonzero(found.known.any(axis=1))
     chosen = known[np.linspace(0, len(known) - 1, min(SHOWN_POINTS, len(known))).astype(int)]
-    for axes, point in zip(np.atleast_1d(rows[1].subplots(max(len(chosen), 1), 1, sharex=True)), chosen, strict=False):
+    below = np.atleast_1d(rows[1].subplots(max(len(chosen), 1), 1, sharex=True))
+    for axes, point in zip(below, chosen, strict=False):
         channel = int(np.flatnonzero(found.known[point])[0])
         axes.plot(time_ms, found.responses[point, :, channel] * 1e12, lw=0.6, color="black")
         noise_pm = found.noise[point, channel] * 1e12
@@ -70,7 +71,7 @@ def plot_check(path: Path, board: Board, learned: Learned) -> None:
         axes.set_title(
             f"point {measurement.names[point]} at {x_mm[point]:.1f}, {y_mm[point]:.1f} mm, channel {channel}", fontsize=9
         )
-    axes.set_xlabel("time after the start of a pulse of one bit period (ms)")
+    below[-1].set_xlabel("time after the start of a pulse of one bit period (ms)")
     try:
         figure.savefig(path, dpi=120)
     except (OSError, ValueError) as error:

@@ -39,7 +39,7 @@ def _warnings(found: Figures, given: Figures) -> Iterator[str]:
     if found["mindlin_shift"] < -0.005:
         yield (
             f"eq. (5) is Kirchhoff's: shear and inertia make the shortest wave {found['mindlin_wavelength_mm']['high']:.3g} mm and"
-            f" lower its frequency by {-100 * found['mindlin_shift']:.2g} %; 0.5 % of error costs 40 % of the amplitude"
+            f" lower its frequency by {-100 * found['mindlin_shift']:.2g} %; an error of 0.5 % costs a bank 40 %"
         )
     if waves["thickness_of_shortest"] > 0.3:
         yield (

@@ -86,7 +86,7 @@ def test_what_is_recorded_is_what_the_words_do_and_the_pins_are_the_words_bit_fo
     expected = exact(board, words)
     error = [np.sqrt(np.mean((records[:, r] - expected) ** 2) / np.mean(expected**2)) for r in range(2)]
     print(f"rms difference of two repetitions from the exact motion: {error[0]:.4f}, {error[1]:.4f} of its rms")
-    assert max(error) < 0.02, "0.03 samples of misalignment at 70 kHz"
+    assert max(error) < 0.01, "a hundredth of a sample of misalignment"
     rolled = np.roll(expected, 1, axis=-1)
     assert np.sqrt(np.mean((records[:, 0] - rolled) ** 2) / np.mean(expected**2)) > 0.2, "a slip by a sample is noticed"
     capture, bit = pins.last, board.bit_ticks

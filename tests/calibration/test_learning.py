@@ -243,3 +243,18 @@ def test_the_example_of_the_readme_is_learned(tmp_path, monkeypatch):
     error = np.linalg.norm(found.responses.responses[:, :1000] - true) / np.linalg.norm(true)
     print(f"relative error {error:.2e}")
     assert error < 0.02
+
+
+def test_records_and_drives_that_tell_nothing_are_refused(tmp_path):
+    """Before anything is deconvolved, with what to do."""
+    sweep = SweepDrive(start_hz=1e3, stop_hz=2e3, duration_ms=2, amplitude_v=30.0, channels=(0, 5), fade_ms=0.5)
+    for number, (drive, array, records, said) in enumerate(
+        (
+            (WORDS, packed(words()), clean()[..., :300], r"records of 300 samples end 1.3 ms after the start of a drive of 1.2 ms"),
+            (WORDS, packed(words()[:4]), clean()[:, :4], r"4 emissions do not determine 8 channels that they drive together"),
+            (sweep, None, clean()[:, :2], r"channel 0 played holds .* of its energy in the band from 12 to 78 kHz"),
+            (WORDS, packed(words()), clean() * 1e15, r"point 1: samples up to .* m/s: wrong unit"),
+        )
+    ):
+        with pytest.raises(CalibrationError, match=said):
+            learned(tmp_path / str(number), drive, array, records)
