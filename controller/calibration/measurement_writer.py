@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import contextlib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -113,26 +114,41 @@ def write_records(folder: Path, settings: MeasurementFile, name: str, values: Ar
                     _saved(file, chosen)
 
 
-def _saved(file: Path, array: NDArray[np.generic] | None = None, **arrays: NDArray[np.generic]) -> None:
+@contextlib.contextmanager
+def _whole(file: Path) -> Iterator[Path]:
+    """Another name to write `file` under, which takes its place once it is whole: what is interrupted is measured again.
+
+    Raises
+    ------
+    CalibrationError
+        If it cannot be written.
+    """
+    written = file.with_name(f".{file.name}{file.suffix}")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        if array is None:
-            np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
-        else:
-            np.save(file, array)
+        yield written
+        written.replace(file)
     except OSError as error:
         raise CalibrationError(f"{file}: cannot be written ({error.strerror})") from error
+    finally:
+        with contextlib.suppress(OSError):
+            written.unlink(missing_ok=True)
+
+
+def _saved(file: Path, array: NDArray[np.generic] | None = None, **arrays: NDArray[np.generic]) -> None:
+    with _whole(file) as written:
+        if array is None:
+            np.savez_compressed(written, **arrays)  # type: ignore[arg-type]
+        else:
+            np.save(written, array)
 
 
 def _saved_wav(file: Path, rate_hz: float, rows: NDArray[np.generic], full_scale: float | None) -> None:
     if len(rows) != 1:
         raise CalibrationError(f"{file}: a WAV file holds one record, not {len(rows)}: name files by emission and repetition")
     samples = rows[0] if rows.dtype.kind != "f" else (rows[0] / (full_scale or 1.0)).astype(np.float32)
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        wavfile.write(file, round(rate_hz), samples)
-    except OSError as error:
-        raise CalibrationError(f"{file}: cannot be written ({error.strerror})") from error
+    with _whole(file) as written:
+        wavfile.write(written, round(rate_hz), samples)
 
 
 def _write_uff(file: Path, settings: MeasurementFile, records: dict[int, NDArray[np.generic]]) -> None:
@@ -155,13 +171,10 @@ def _write_uff(file: Path, settings: MeasurementFile, records: dict[int, NDArray
                     orddenom_spec_data_type=0, z_axis_spec_data_type=0, z_axis_value=0.0,
                 )
             )  # fmt: skip
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        writer = pyuff.UFF(str(file))
+    with _whole(file) as written:
+        writer = pyuff.UFF(str(written))
         writer.refresh = lambda: True  # it would read the whole file again after each set
         writer.write_sets(sets, "overwrite")
-    except OSError as error:
-        raise CalibrationError(f"{file}: cannot be written ({error.strerror})") from error
 
 
 def _add_nodes(file: Path, nodes: list[int], points_m: NDArray[np.float64]) -> None:

@@ -70,7 +70,9 @@ def measure(options: argparse.Namespace) -> int:
     board = load_board(find_board(options.board))
     _check(options, board)
     sync = min(actuator.channel for actuator in board.actuators) if options.sync is None else options.sync
-    ring_s = 8e-3 * board.plate.decay_time_ms
+    damping = board.plate.damping
+    times_ms = [at.decay_time_ms for at in damping.decay_times] if damping else []
+    ring_s = 8e-3 * max(times_ms or [board.plate.decay_time_ms])
     record_s = board.waveform.duration_s + ring_s if options.record_ms is None else options.record_ms * 1e-3
     names, points_m = read_points(Path(options.points), board)
     words = drive_words(board, options.drive)

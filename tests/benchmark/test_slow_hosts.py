@@ -30,7 +30,7 @@ def test_few_beats_are_late_on_a_slow_host(run, p50_us, fingers):
     assert 100 * sum(done.late) <= LATE_PERCENT[p50_us] * len(done.late)
 
 
-@pytest.mark.parametrize("p50_us", [550, 1300])
+@pytest.mark.parametrize("p50_us", [pytest.param(550, marks=pytest.mark.slow), 1300])
 def test_few_beats_of_five_trains_at_once_are_late_where_each_cannot_have_an_upload(run, board, p50_us):
     done = run(p50_us, Recording.open(board.beside(board.touch.recording)))
     assert len(done.late) >= 400

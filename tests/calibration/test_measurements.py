@@ -20,7 +20,7 @@ from controller.calibration.measurement_file import (
     WordsDrive,
     read_settings,
 )
-from controller.calibration.measurement_writer import write_measurement
+from controller.calibration.measurement_writer import write_measurement, write_records
 from controller.calibration.measurements import read_measurement
 from controller.errors import CalibrationError
 
@@ -79,6 +79,23 @@ def test_every_format_reads_as_it_was_written(tmp_path, files, points, tolerance
         assert records.there.all()
         assert not records.clipped.any()
         assert records.files
+
+
+def test_a_record_that_was_interrupted_is_missing_and_an_old_one_stays(tmp_path, monkeypatch):
+    folder_of(tmp_path / "old")
+    before = (tmp_path / "old" / "point_2.npy").read_bytes()
+
+    def half(file, array):
+        file.write_bytes(before[: len(before) // 2])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(np, "save", half)
+    for folder in ("old", "new"):
+        with pytest.raises(KeyboardInterrupt):
+            write_records(tmp_path / folder, described(), "2", VALUES[1])
+        assert not list((tmp_path / folder).glob(".*")), "nothing is left of the attempt"
+    assert (tmp_path / "old" / "point_2.npy").read_bytes() == before
+    assert not (tmp_path / "new" / "point_2.npy").exists()
 
 
 def test_records_that_run_through_are_cut_at_the_periods(tmp_path):

@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from conftest import evemu
+from scripted_evemu import evemu
 
 from controller.board.lookup import find_board
 from controller.cli import main

@@ -132,6 +132,7 @@ def test_of_two_fingers_that_turn_at_random_a_quarter_of_what_is_sent_ahead_is_n
     assert 0 < wasted <= 0.25 * sent
 
 
+@pytest.mark.slow
 def test_at_most_a_fifth_of_prefetched_waveforms_is_never_played(perform, board, bank_file):
     """Over the recordings of real panels on each scene of the board alone, and over strokes to and fro on textures."""
     scene, library = (load_scene(board.folder / name, board) for name in ("scene.toml", "library.toml"))

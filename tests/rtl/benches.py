@@ -116,7 +116,7 @@ SLOW_RUNS |= {
     )
     for clock_hz, baud in OTHER_RATES
 }
-RUNS["stage_limits_resting"] = partial(
+SLOW_RUNS["stage_limits_resting"] = partial(
     run_bench, "stage_limits", {"EDGE_WINDOW_TICKS": 4800}, test_filter="rest_between|random_days"
 )
 RUNS["serial_link"] = partial(run_bench, "uart_panel", SERIAL, beside=[Path(__file__).parent / "uart_panel.v"])

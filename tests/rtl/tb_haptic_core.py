@@ -63,7 +63,7 @@ FIRST_WORD_TICKS = 1 + TRIGGER_LATENCY_TICKS  # tick 0 ends with the first clock
 FINE = (BIT_TICKS << 16) + 21846  # 6 1/3 ticks a word
 UART_BYTE = 10 * UART_BIT_TICKS
 RANDOM_FRAMES = int(os.environ.get("HAPTIC_PANEL_RANDOM_FRAMES", "150"))  # 1000 with `pytest -m slow`
-SCRIPTS_LATE = 3  # of which the model also gets inputs one tick late
+SCRIPTS_LATE = 2  # of which the model also gets inputs one tick late
 ON = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT | State.ARMED | State.HV_ENABLE
 OFF = State.RUN_PERMIT | State.TEMPERATURE_GOOD | State.HEARTBEAT  # the link that armed was heard a moment ago
 

@@ -6,7 +6,7 @@ import math
 import msgspec
 import numpy as np
 import pytest
-from conftest import evemu
+from scripted_evemu import evemu
 from small_plate import small_board
 
 from controller.bank.reader import Bank
