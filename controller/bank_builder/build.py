@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
 import json
 import resource
@@ -337,6 +338,7 @@ def _count_edges(board: Board, words: NDArray[np.uint32], name: str, parameters:
     return rate_hz
 
 
+@functools.cache  # of the machine: the same for every build
 def best_sgemm_rate(shapes: tuple[tuple[int, int, int], ...] = SGEMM_SHAPES, repeats: int = 4) -> float:
     """Best rate of float32 matrix multiplication, in additions and multiplications for a second of processor time.
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import zoom_fft
 
 from controller.bank.packing import channel_bits
 from controller.board.board import Board
@@ -82,6 +81,8 @@ def surface_spectrum(
     step_hz : float
         Between the frequencies.
     """
+    from scipy.signal import zoom_fft  # noqa: PLC0415 - a second of imports, which a build of a bank does without
+
     modes = modes_of(board) if modes is None else modes
     forces = channel_forces(board, modes)
     first = idle_word if before_word is None else before_word

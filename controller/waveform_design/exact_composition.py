@@ -14,7 +14,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 from threadpoolctl import threadpool_limits
 
 from controller.bank.packing import CHANNELS, WORD, channel_bits
@@ -142,6 +141,8 @@ def best_bits(in_band: Floats, whole: Floats, asked: Floats, quiet: Floats, bloc
     wanted = signs * float(np.abs(full).mean())
     if not np.all(asked == 1):
         wanted = wanted * asked
+        from scipy.ndimage import uniform_filter1d  # noqa: PLC0415 - imports that most builds of a bank do without
+
         strength = uniform_filter1d(np.abs(sums).reshape(-1, CHANNELS), block_samples, axis=0, mode="nearest").ravel()
         threshold = max(masking_threshold(float(np.sqrt((asked**2).mean()))), SMALLEST_THRESHOLD)
         weights = np.append(weights[:count] * asked, weights[count:]) / threshold
