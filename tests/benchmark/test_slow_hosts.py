@@ -23,7 +23,9 @@ def run(board, bank_file):
 
 
 @pytest.mark.parametrize("fingers", [1, pytest.param(2, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("p50_us", LATE_PERCENT)
+@pytest.mark.parametrize(
+    "p50_us", [pytest.param(p50, marks=() if p50 in {220, 1300} else pytest.mark.slow) for p50 in LATE_PERCENT]
+)
 def test_few_beats_are_late_on_a_slow_host(run, p50_us, fingers):
     done = run(p50_us, moving(10.0, fingers))
     assert len(done.late) >= 500 * fingers
@@ -37,7 +39,7 @@ def test_few_beats_of_five_trains_at_once_are_late_where_each_cannot_have_an_upl
     assert 100 * sum(done.late) <= LATE_PERCENT[p50_us] * len(done.late)
 
 
-@pytest.mark.parametrize("p50_us", [550, 1300])
+@pytest.mark.parametrize("p50_us", [pytest.param(550, marks=pytest.mark.slow), 1300])
 def test_a_late_beat_starts_on_arrival_and_does_not_shift_the_next_ones(run, p50_us):
     done = run(p50_us, moving(10.0), seed=5)
     late_s = [off_s for off_s in done.off_s if off_s > LATE_S]
