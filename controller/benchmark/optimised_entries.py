@@ -12,7 +12,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
@@ -27,17 +26,14 @@ from controller.board.lookup import find_board
 from controller.physics.audible import surface_energy
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
+from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
+from controller.physics.retuned import drifted
 from controller.waveform_design.descent import AIMS, Descent
 from controller.waveform_design.plain import SignOfSum
 
 DRIFTS = (0.0, 0.001, 0.005)
 Figures = dict[str, Any]
-
-
-def drifted(board: Board, by: float) -> Board:
-    """The same board, its plate's frequencies higher by this share."""
-    return msgspec.structs.replace(board, plate=board.plate.with_stiffness((1 + by) ** 2))
 
 
 def figures(board: Board, cells: int, seed: int) -> Figures:
@@ -58,7 +54,7 @@ def figures(board: Board, cells: int, seed: int) -> Figures:
     """
     grid = Grid.of(board.plate, board.bank.pitch_mm * 1e-3)
     points_m = grid.points()[np.sort(np.random.default_rng(seed).choice(grid.cells, min(cells, grid.cells), replace=False))]
-    twins = [[PlateTwin(drifted(board, sign * by)) for sign in ((1, -1) if by else (1,))] for by in DRIFTS]
+    twins = [[PlateTwin(board, modes=drifted(modes_of(board), sign * by)) for sign in ((1, -1) if by else (1,))] for by in DRIFTS]
     model = ResponseModel(board, mode_cut_hz(board.waveform))
     methods: Figures = {}
     plain: list[NDArray[np.uint32]] = []

@@ -14,8 +14,8 @@ from scipy.stats.qmc import Halton
 
 from controller.benchmark.paper_panel import PaperPanel, kept
 from controller.benchmark.paper_row import Row
-from controller.physics.drifted_modes import DriftedModes
 from controller.physics.driver import DriverResponse
+from controller.physics.retuned import drifted
 from controller.physics.step_response import StepResponse
 from controller.touch.prediction import Motion
 
@@ -102,7 +102,7 @@ def drift_rows(panel: PaperPanel) -> list[Row]:
     driver = DriverResponse.of(panel.board.driver)
     as_it_is, rescaled = [], []
     for drift in (-DETUNING, DETUNING):
-        step = StepResponse.of(DriftedModes(panel.modes, drift), driver)
+        step = StepResponse.of(drifted(panel.modes, drift), driver)
         true = panel.band_responses(panel.points_m, waveform.bit_period_s, waveform.samples, step)
         faster = panel.band_responses(panel.points_m, waveform.bit_period_s / (1 + drift), waveform.samples, step)
         for learned, now, then in zip(panel.in_band[:, ::-1], true, faster, strict=True):

@@ -22,9 +22,9 @@ from controller.calibration.excitation import Kind, drive_words
 from controller.calibration.measurement_file import MeasurementFile, Quantity, RecordsTable, WordsDrive
 from controller.calibration.measurement_writer import write_measurement, write_records
 from controller.errors import CalibrationError
-from controller.physics.drifted_modes import DriftedModes
 from controller.physics.motion import PlateMotion
 from controller.physics.plate_modes import modes_of
+from controller.physics.retuned import drifted
 
 Floats = NDArray[np.float64]
 
@@ -217,7 +217,7 @@ class _Plate:
 
     def records(self, points_m: Floats, drift: float) -> NDArray[np.float32]:
         """Records without noise: (point, emission, sample)."""
-        motion = PlateMotion(self._real, DriftedModes(self.modes, drift) if drift else self.modes)
+        motion = PlateMotion(self._real, drifted(self.modes, drift) if drift else self.modes)
         return motion.of_points(points_m, self._step_s, self._steps_v, self._times_s, self._quantity)
 
 

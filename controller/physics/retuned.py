@@ -1,4 +1,4 @@
-"""Modes with other frequencies or other decay, and the same shapes."""
+"""Modes with other frequencies or other decay, and the same shapes: another theory, another damping, another temperature."""
 
 from __future__ import annotations
 
@@ -76,3 +76,8 @@ def retuned(modes: Modes, angular_frequency: Floats | None = None, decay_rate: F
     base = modes.base if isinstance(modes, Retuned) else modes
     frequency = modes.angular_frequency if angular_frequency is None else angular_frequency
     return Retuned(base, frequency, modes.decay_rate if decay_rate is None else decay_rate)
+
+
+def drifted(modes: Modes, drift: float) -> Modes:
+    """`modes` with all frequencies higher by the share `drift`: what another temperature does to glass."""
+    return retuned(modes, modes.angular_frequency * (1 + drift))

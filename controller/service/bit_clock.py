@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Final, Protocol
+from typing import Final
 
 from controller.fpga.session import Session
 from controller.log import Priority, log
-from controller.service.observed import Thermometer
+from controller.service.observed import Playing, Thermometer
 
 FIRST_S: Final = 0.1  # between attempts until the first temperature
 LEAST_STEP: Final = 20e-6  # of the scale: costs 1e-5 of the amplitude, and a repetition is not interrupted for a sensor's noise
-
-
-class Playing(Protocol):
-    """What of the event loop the bit clock concerns."""
-
-    @property
-    def stretch(self) -> Callable[[float], None]:
-        """Callable that takes the factor by which emissions are longer than in the bank."""
-
-    def pause_repetition(self, now_s: float) -> None:
-        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes."""
 
 
 class BitClock:

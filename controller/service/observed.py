@@ -51,7 +51,18 @@ class OutputsSeen(Protocol):
         """Why they are off."""
 
 
-class Watched(Protocol):
+class Playing(Protocol):
+    """What of the event loop the bit clock concerns."""
+
+    @property
+    def stretch(self) -> Callable[[float], None]:
+        """Callable that takes the factor by which emissions are longer than in the bank."""
+
+    def pause_repetition(self, now_s: float) -> None:
+        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes."""
+
+
+class Watched(Playing, Protocol):
     """State of the event loop that the service reports."""
 
     @property
@@ -65,10 +76,3 @@ class Watched(Protocol):
     @property
     def reloading(self) -> bool:
         """Whether another scene is being prepared."""
-
-    @property
-    def stretch(self) -> Callable[[float], None]:
-        """Callable that takes the factor by which emissions are longer than in the bank."""
-
-    def pause_repetition(self, now_s: float) -> None:
-        """End the repetition by the FPGA, if there is one, for as long as a setting of it takes."""

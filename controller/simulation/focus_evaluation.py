@@ -14,10 +14,10 @@ from itertools import groupby
 
 import numpy as np
 
-from controller.physics.drifted_modes import DriftedModes
 from controller.physics.field import Field, FocusMetrics
 from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
+from controller.physics.retuned import drifted
 from controller.scene.emission import Emission
 from controller.simulation.drift import FORGOTTEN, since
 from controller.simulation.simulated_run import Run
@@ -89,7 +89,7 @@ def _fields(run: Run) -> Iterator[tuple[PlateTwin, Field]]:
     ticks = run.capture.focus_ticks.tolist()
     for by, some in groupby(ticks, lambda tick: drift.level(run.link.time_s(tick) - run.start_s)):
         foci = np.array(list(some), np.uint64)
-        twin = PlateTwin(run.plate, modes=DriftedModes(modes, by))
+        twin = PlateTwin(run.plate, modes=drifted(modes, by))
         part = replace(since(run.capture, int(foci[0]) - remembered_ticks), focus_ticks=foci)
         yield from ((twin, field) for field in twin.fields(part, run.link.clock_hz))
 

@@ -15,10 +15,10 @@ from controller.calibration.measurements import read_measurement
 from controller.calibration.simulated_measurement import Faults, Recording, simulate_measurement
 from controller.cli import main
 from controller.errors import CalibrationError, ConfigError
-from controller.physics.drifted_modes import DriftedModes
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.motion import PlateMotion
 from controller.physics.plate_modes import modes_of
+from controller.physics.retuned import drifted
 
 NAMES = tuple("abcdef")
 POINTS_M = np.array([[0.01, 0.012], [0.03, 0.02], [0.05, 0.04], [0.06, 0.01], [0.02, 0.04], [0.035, 0.03]])
@@ -52,7 +52,7 @@ def test_the_motion_of_points_is_the_sum_of_the_banks_responses(tmp_path):
     step_s, times_s = np.arange(200) * on.waveform.bit_period_s, np.arange(1, 201) * on.waveform.bit_period_s
     got = motion.of_points(POINTS_M, step_s, steps_v, times_s - 1e-15, "m")[:, 0]
     error = np.abs(got - expected).max() / np.abs(expected).max()
-    wrong = PlateMotion(on, DriftedModes(modes_of(on), 0.01))
+    wrong = PlateMotion(on, drifted(modes_of(on), 0.01))
     off = wrong.of_points(POINTS_M, step_s, steps_v, times_s - 1e-15, "m")[:, 0]
     off_by = np.abs(off - expected).max() / np.abs(expected).max()
     print(f"largest error of 200 words {error:.1e} of the largest motion, {off_by:.2f} with frequencies 1 % off")

@@ -17,9 +17,9 @@ from controller.cli import main
 from controller.clocks import VirtualClock
 from controller.errors import ConfigError
 from controller.gateware_model.simulated_link import SimulatedLink
-from controller.physics.drifted_modes import DriftedModes
 from controller.physics.plate_modes import modes_of
 from controller.physics.plate_twin import PlateTwin
+from controller.physics.retuned import drifted
 from controller.scene.scene import load_scene
 from controller.service import run as service_run
 from controller.service import temperature
@@ -170,7 +170,7 @@ def test_the_service_itself_follows_a_sensor_of_the_kernel(panel, monkeypatch, t
         figures = service_run.serve(board, load_scene(scene_file, board), str(scene_file), bank, taps())
     assert figures["bit_clock_scale"] == pytest.approx(1.005, abs=1e-6)
     assert figures["emissions"] == 4
-    twins = [PlateTwin(board, modes=DriftedModes(modes_of(board), by)) for by in (0.005, 0.0)]
+    twins = [PlateTwin(board, modes=drifted(modes_of(board), by)) for by in (0.005, 0.0)]
     capture = links[0].take_capture()
     shares = []
     for twin in twins:
