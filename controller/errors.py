@@ -59,3 +59,7 @@ class CalibrationError(ControllerError):
     """Measurements that do not determine a calibration."""
 
     exit_code = 78
+
+
+class UpdateError(ControllerError):
+    """A release, repository or update that is refused, or that cannot be fetched or installed; the running release stays."""

@@ -46,7 +46,7 @@ complete haptic-panel \
         'n/--accept/(dead swapped inverted clipped strength)/' \
         'n/--quantity/(m m/s m/s^2)/' \
         'n/--targets/(3 4 5)/' \
-        'p/1/(run doctor board gateware bank design focus benchmark record calibrate calibrate-touch reload completion)/' \
+        'p/1/(run doctor board gateware bank design focus benchmark record calibrate calibrate-touch update reload completion)/' \
         'n/board/(check reference schema)/' \
         'n/gateware/(check)/' \
         'n/bank/(build choices info verify)/' \

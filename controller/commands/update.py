@@ -1,0 +1,21 @@
+"""`haptic-panel update`: signed releases on a device, and their repository. Each of its steps is a module beside this one."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from controller.commands.output import Declare
+
+STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; each is a module `update_NAME` of `commands`
+}
+
+
+def add(declare: Declare, common: argparse.ArgumentParser) -> None:
+    """Declare the steps."""
+    steps = declare().add_subparsers(title="steps", metavar="STEP", required=True)
+    for name, text in STEPS.items():
+        step = steps.add_parser(name, parents=[common], help=text, description=f"{text[0].upper()}{text[1:]}.")
+        import_module(f"controller.commands.update_{name.replace('-', '_')}").add(step)
