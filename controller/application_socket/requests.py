@@ -211,6 +211,7 @@ class Requests:
         return self._figures | {
             "state": condition.state.value,
             "cause": condition.cause,
+            "temperature_c": condition.temperature_c,
             "application_socket": asdict(self._counters),
         }
 
