@@ -40,7 +40,7 @@ class Layout:
 
     @classmethod
     def from_environment(cls) -> Layout:
-        """Those of $HAPTIC_PANEL_ROOT and $HAPTIC_PANEL_TRUSTED_ROOT, for tests and images that are prepared elsewhere; else `ROOT`."""
+        """That of $HAPTIC_PANEL_ROOT and $HAPTIC_PANEL_TRUSTED_ROOT, for tests and images prepared elsewhere; else the device's."""
         return cls(Path(os.environ.get("HAPTIC_PANEL_ROOT", ROOT)), Path(os.environ.get("HAPTIC_PANEL_TRUSTED_ROOT", TRUSTED_ROOT)))
 
     @property

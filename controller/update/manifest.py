@@ -71,7 +71,7 @@ class Manifest(Record, frozen=True):
     minimum_counter : int
         Counter of the oldest release from which it may be installed.
     built_s : int
-        When its sources were committed (SOURCE_DATE_EPOCH), in s since 1970: it is never earlier than that, whatever a device's clock says.
+        When its sources were committed (SOURCE_DATE_EPOCH), in s since 1970: a device's clock that says less is wrong.
     fall_back : int
         Interface of fall-back script and units that it needs (`FALL_BACK_INTERFACE`).
     files : list of ReleaseFile
