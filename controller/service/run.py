@@ -10,7 +10,7 @@ from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import LOG, Priority, log
+from controller.log import LOG, Event, log
 from controller.loop.wiring import Assembly, assemble
 from controller.scene.scene import Scene
 from controller.service.check_beside import check_responses_beside
@@ -106,8 +106,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         assembly.selection.prepare()
         housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
         for warning in enter_realtime(board.realtime):
-            log(warning, Priority.WARNING)
-        log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}")
+            log(warning, Event.NOT_REALTIME)
+        log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}", Event.STARTED)
         try:
             assembly.loop.run()
         except ControllerError as error:
