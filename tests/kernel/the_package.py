@@ -7,6 +7,8 @@ ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noni
 
 def done(*command, code=0):
     """What a command says; it ends with this exit code."""
-    ended = subprocess.run(command, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, cwd="/")
+    ended = subprocess.run(
+        command, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, cwd="/"
+    )
     assert ended.returncode == code, f"{command}: exit code {ended.returncode}\n{ended.stdout}"
     return ended.stdout
