@@ -2,10 +2,14 @@
 
 import contextlib
 import os
+import re
+import socket
+from pathlib import Path
 
 import pytest
 
-from controller.log import MAX_LINE_BYTES, Log, Priority, line
+from controller import log as log_module
+from controller.log import MAX_LINE_BYTES, Event, Log, Priority, line
 
 
 class Pipe:
@@ -83,3 +87,68 @@ def test_one_sentence_is_one_line_however_it_is_written_and_however_long(pipe):
     assert said.endswith(b"\n")
     assert len(said) <= MAX_LINE_BYTES
     assert said.startswith(b"haptic-panel: scene <0>haptic-panel: not really")
+
+
+@contextlib.contextmanager
+def connected(pipe, tmp_path, monkeypatch):
+    """Standard error connected to a journal, whose socket is returned."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listening:
+        listening.bind(str(tmp_path / "journal"))
+        listening.setblocking(False)
+        monkeypatch.setattr(log_module, "JOURNAL", tmp_path / "journal")
+        at = os.fstat(pipe.near.fileno())
+        monkeypatch.setenv("JOURNAL_STREAM", f"{at.st_dev}:{at.st_ino}")
+        with contextlib.redirect_stderr(pipe.near):
+            yield listening
+
+
+def test_the_journal_is_told_of_events_by_their_identifiers(pipe, tmp_path, monkeypatch):
+    with connected(pipe, tmp_path, monkeypatch) as journal:
+        log = Log()
+        log.write("outputs off: no permit", Event.NO_PERMIT)
+        log.write("board 'panel'\nMESSAGE_ID=0")
+        assert journal.recv(4096).decode().splitlines() == [
+            "MESSAGE=haptic-panel: outputs off: no permit",
+            "PRIORITY=4",
+            "SYSLOG_IDENTIFIER=haptic-panel",
+            "MESSAGE_ID=f9c85debb3c84917bfaadefcba88d64c",
+        ]
+        assert journal.recv(4096).decode().splitlines() == [
+            "MESSAGE=haptic-panel: board 'panel' MESSAGE_ID=0",
+            "PRIORITY=6",
+            "SYSLOG_IDENTIFIER=haptic-panel",
+        ]
+        assert (log.lost, pipe.read()) == (0, b"")
+
+
+def test_a_journal_that_reads_nothing_keeps_nobody_waiting(pipe, tmp_path, monkeypatch):
+    with connected(pipe, tmp_path, monkeypatch) as journal:
+        log = Log()
+        for _ in range(10_000):  # more than any queue holds
+            log.write("line")
+        dropped = log.lost
+        assert dropped
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                journal.recv(4096)
+        log.write("another", Event.STARTED)
+        said = [journal.recv(4096).decode().splitlines() for _ in range(2)]
+        assert said[0][0] == f"MESSAGE=haptic-panel: {dropped} lines before this one were lost: the log was full"
+        assert said[0][3] == f"MESSAGE_ID={Event.LINES_LOST.message_id}"
+        assert said[1][0] == "MESSAGE=haptic-panel: another"
+
+
+def test_without_the_journals_socket_lines_go_to_its_stream(pipe, tmp_path, monkeypatch):
+    with connected(pipe, tmp_path, monkeypatch):
+        monkeypatch.setattr(log_module, "JOURNAL", tmp_path / "nobody")
+        Log().write("the outputs are on", Event.OUTPUTS_ON)
+        assert pipe.read() == b"<6>haptic-panel: the outputs are on\n"
+
+
+def test_the_catalogue_explains_every_event_once():
+    text = (Path(__file__).parents[1] / "systemd/haptic-panel.catalog").read_text()
+    entries = re.findall(r"^-- ([0-9a-f]{32})\nSubject: (\S.*)\nDefined-By: haptic-panel\n\n(\S.*\n)+", text, re.MULTILINE)
+    explained = [message_id for message_id, *_ in entries]
+    assert len(explained) == len(set(explained)) == text.count("\n-- ")
+    assert len({event.message_id for event in Event}) == len(Event)
+    assert {event.message_id for event in Event} <= set(explained)

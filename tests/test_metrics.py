@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller.commands.tables import service_table
-from controller.metrics import P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
+from controller.metrics import BOUNDS_US, P999_SAMPLES, STAGES, Counters, LatencyHistogram, Stages
 
 durations = st.lists(st.integers(0, 10**12), min_size=1, max_size=300)
 
@@ -20,6 +20,19 @@ def test_percentiles_are_those_of_the_values_within_a_bucket(values, share):
     assert histogram.percentiles_ns([share])[0] == pytest.approx(exact, rel=1 / 128, abs=0.5)
     assert histogram.worst_ns == max(values)
     assert histogram.count == len(values)
+
+
+@given(durations)
+def test_coarse_counts_and_sum_are_those_of_the_values_within_a_bucket(values):
+    histogram = LatencyHistogram()
+    for value in values:
+        histogram.record(value)
+    coarse = histogram.coarse()
+    for bound_us, count in zip(BOUNDS_US, coarse["counts"], strict=True):
+        below, above = (sum(value <= 1000 * bound_us * (1 + sign / 128) for value in values) for sign in (-1, 1))
+        assert below <= count <= above
+    assert coarse["sum_us"] == pytest.approx(sum(values) * 1e-3, rel=1 / 256, abs=1e-3 * len(values))
+    assert coarse["count"] == len(values)
 
 
 @pytest.mark.parametrize("exact", [100, 12_345, 10**9])

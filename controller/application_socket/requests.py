@@ -21,7 +21,7 @@ from controller.board.board import Board
 from controller.board.descriptions import type_info
 from controller.board.validation import explain
 from controller.errors import ControllerError
-from controller.log import log
+from controller.log import Event, log
 from controller.loop.commands import PanelControl
 
 FIGURES_S = 1.0  # for which the same figures are sent: collecting them takes the loop milliseconds
@@ -171,7 +171,7 @@ class Requests:
                 self._answer(client, request.id, "refused", rights.why_not(client.peer, "operate"))
             case messages.Arm() | messages.Disarm():
                 on = isinstance(request, messages.Arm)
-                log(f"{rights.called(client.peer)} {'arms' if on else 'disarms'} the panel")
+                log(f"{rights.called(client.peer)} {'arms' if on else 'disarms'} the panel", Event.OPERATED)
                 control.switch(on)
                 self._switched_off.remember(not on)
                 self._answer(client, request.id, "done")
@@ -202,7 +202,7 @@ class Requests:
         except ControllerError as error:
             self.loaded(ticket, str(error))
         else:
-            log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}")
+            log(f"{self._clients.rights.called(client.peer)} loads the scene {name!r}", Event.OPERATED)
 
     def _all_figures(self, now_s: float, control: PanelControl) -> dict[str, Any]:
         if now_s >= self._figures_until_s:
@@ -211,6 +211,7 @@ class Requests:
         return self._figures | {
             "state": condition.state.value,
             "cause": condition.cause,
+            "temperature_c": condition.temperature_c,
             "application_socket": asdict(self._counters),
         }
 

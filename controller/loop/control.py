@@ -81,7 +81,12 @@ class LoopControl:
     def figures(self) -> dict[str, Any]:
         """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
         outputs = "on" if self._outputs.on else self._outputs.cause or "off"
-        return self._counters.export(histograms=False) | {"outputs": outputs, "schedule": self._timing.figures()}
+        return self._counters.export(histograms=False) | {
+            "outputs": outputs,
+            "waiting": len(self._scheduler.due),
+            "schedule": self._timing.figures(),
+            "latency_histograms": self._counters.coarse_latency(),
+        }
 
     def effects(self) -> tuple[str, ...]:
         """Names of the effects that `play` accepts."""

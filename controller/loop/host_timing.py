@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
-from controller.log import log
+from controller.log import Event, log
 
 FRACTION: Final = 0.99
 STEP: Final = 0.3  # of the logarithm: a record above raises the percentile by 35 %, each one below lowers it by 0.3 %
@@ -154,7 +154,8 @@ class HostTiming:
         self._uploads += 1
         if self._uploads == SAID_AFTER and self.uploads_hz < SLOWER / self._plate_s:
             reached_hz, plate_hz = self.uploads_hz, 1 / self._plate_s
-            log(f"this host reaches {reached_hz:.0f} emissions/s with a moving finger; the plate allows {plate_hz:.0f}")
+            reached = f"this host reaches {reached_hz:.0f} emissions/s with a moving finger"
+            log(f"{reached}; the plate allows {plate_hz:.0f}", Event.SLOW_HOST)
 
     def figures(self) -> dict[str, Any]:
         """What was measured, and what follows from it; for JSON."""

@@ -13,6 +13,7 @@ from controller.errors import ControllerError, FaultError
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
+from controller.fpga.registers import Fault
 from controller.fpga.session import Session
 from controller.metrics import Counters
 
@@ -128,6 +129,8 @@ class Outputs:
         else:
             self._counters.outages += 1
             self._counters.outage = str(error)
+            for cause in _causes(error):
+                self._counters.outage_causes[cause] = self._counters.outage_causes.get(cause, 0) + 1
         self._recovery.begin(error, now_s)
 
     def emission_started(self) -> None:
@@ -182,3 +185,8 @@ class Outputs:
         sent_s = max(before_s, self._session.wire_free_s())  # not later: what came back may have been read late
         self._clock_estimate.add(before_s, sent_s, status.timestamp_ticks)
         self._counters.heartbeats += 1
+
+
+def _causes(error: ControllerError) -> list[str]:
+    """Names of the faults of an outage; LINK where the FPGA named none."""
+    return [cause.name or "" for cause in Fault if isinstance(error, FaultError) and error.faults & cause] or ["LINK"]

@@ -6,7 +6,7 @@ import math
 from typing import Final
 
 from controller.fpga.session import Session
-from controller.log import Priority, log
+from controller.log import Event, log
 from controller.service.observed import Playing, Thermometer
 
 FIRST_S: Final = 0.1  # between attempts until the first temperature
@@ -66,6 +66,6 @@ class BitClock:
         if self._thermometer.cause != self._cause:
             self._cause = self._thermometer.cause
             if self._cause:
-                log(self._cause, Priority.WARNING)
+                log(self._cause, Event.SENSOR_LOST)
             else:
-                log("the temperature sensor is read again")
+                log("the temperature sensor is read again", Event.SENSOR_BACK)

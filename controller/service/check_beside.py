@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from controller.bank.reader import Bank
 from controller.errors import BankError
-from controller.log import Priority, log
+from controller.log import Event, log
 
 NICE = 10
 
@@ -50,4 +50,4 @@ def _check(bank: Bank, cells: Iterable[int]) -> None:
         except BankError as error:
             first = first or error
     if first is not None:
-        log(f"{first}; what needs a damaged response is not played", Priority.WARNING)
+        log(f"{first}; what needs a damaged response is not played", Event.BANK_DAMAGED)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from controller.board.board import Board
 from controller.board.panel_state import Condition, PanelState
 from controller.fpga.session import Session
-from controller.log import Priority, log
+from controller.log import Event, log
 from controller.loop.scene_source import PreparedScene
 from controller.service.bit_clock import BitClock
 from controller.service.observed import Panel, Thermometer, Watched
@@ -17,6 +17,12 @@ from controller.service.systemd import Notifier, Watchdog
 
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
+OFF = {
+    PanelState.FAULTED: Event.FAULTED,
+    PanelState.NO_PERMIT: Event.NO_PERMIT,
+    PanelState.WAITING_FOR_FPGA: Event.WAITING_FOR_FPGA,
+    PanelState.WAITING_FOR_PANEL: Event.WAITING_FOR_PANEL,
+}  # of outputs that nobody asked to be off
 
 
 class Housekeeping:
@@ -134,9 +140,9 @@ class Housekeeping:
         """Report a scene that is in force, or why it was refused."""
         self._scene_stays = f"the scene stays as it was: {prepared.reason}" if prepared.scene is None else ""
         if self._scene_stays:
-            log(self._scene_stays, Priority.WARNING)
+            log(self._scene_stays, Event.SCENE_REFUSED)
         else:
-            log("another scene is played, or the same read again")
+            log("another scene is played, or the same read again", Event.SCENE_LOADED)
         self._notifier.status(self._status)
         if not prepared.ticket:
             self._reloads += 1
@@ -181,15 +187,14 @@ class Housekeeping:
         """Log what changed, except whether something is being played."""
         now = self.condition
         if now.outputs_on != before.outputs_on and now.outputs_on:
-            log("the outputs are on")
+            log("the outputs are on", Event.OUTPUTS_ON)
         if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
-            asked = now.state in (PanelState.DISARMED, PanelState.IDLE)
             said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
-            log(said, Priority.INFO if asked else Priority.WARNING)
+            log(said, OFF.get(now.state, Event.OUTPUTS_OFF))
         if now.panel_present and not before.panel_present:
-            log("the touch panel is back")
+            log("the touch panel is back", Event.PANEL_BACK)
         elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):
-            log(f"{now.state.value}: {now.cause}", Priority.WARNING)
+            log(f"{now.state.value}: {now.cause}", Event.WAITING_FOR_PANEL)
 
     @property
     def _status(self) -> str:

@@ -17,6 +17,7 @@ OFFLINE = frozenset(
     {"scipy", "matplotlib", "mpl_toolkits", "PIL", "tqdm", "threadpoolctl", "dask", "distributed"}
 )  # installed by the extra `offline`
 MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
+WATCH = frozenset({"prometheus_client"})  # installed by the extra `watch`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 
 
@@ -34,6 +35,8 @@ def missing_package(name: str | None) -> str | None:
         return f"{package} is missing, one of the offline tools that this needs: {install_line('offline')}"
     if package in MEASURE:
         return f"{package} is missing, which records from a sound card: {install_line('measure')}"
+    if package in WATCH:
+        return f"{package} is missing, which Prometheus is told the figures with: {install_line('watch')}"
     if package in DRIVERS:
         return f"{package} is missing, the driver that this device needs (Linux only): {install_line()}"
     return None

@@ -11,7 +11,7 @@ from controller.board.board import Board
 from controller.board.panel_state import Condition
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
-from controller.log import LOG, Priority, log
+from controller.log import LOG, Event, log
 from controller.loop.wiring import Assembly, assemble
 from controller.scene.scene import Scene
 from controller.service.check_beside import check_responses_beside
@@ -112,8 +112,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         status.watch(assembly.counters, assembly.waiting)
         housekeeping.watch(assembly.loop, panel, (status.changed,) if commands is None else (status.changed, commands.changed))
         for warning in enter_realtime(board.realtime):
-            log(warning, Priority.WARNING)
-        log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}")
+            log(warning, Event.NOT_REALTIME)
+        log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}", Event.STARTED)
         try:
             assembly.loop.run()
         except ControllerError as error:

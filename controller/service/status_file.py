@@ -140,7 +140,7 @@ class StatusFile(SpareTime):
             idled=counters.idled,
             host_silent=counters.host_silent,
             outages=counters.outages,
-            outage_causes=getattr(counters, "outage_causes", {}),
+            outage_causes=counters.outage_causes,
             skipped=counters.skipped.emissions,
             waiting=self._waiting(),
             log_lines_lost=LOG.lost,

@@ -31,14 +31,17 @@ class Layout:
     Attributes
     ----------
     root : Path
+    trusted_root : Path
+        First root.json of the repository's owner, by which all others are judged.
     """
 
     root: Path = ROOT
+    trusted_root: Path = TRUSTED_ROOT
 
     @classmethod
     def from_environment(cls) -> Layout:
-        """That of $HAPTIC_PANEL_ROOT, for tests and images that are prepared elsewhere; else `ROOT`."""
-        return cls(Path(os.environ.get("HAPTIC_PANEL_ROOT", ROOT)))
+        """That of $HAPTIC_PANEL_ROOT and $HAPTIC_PANEL_TRUSTED_ROOT, for tests and images prepared elsewhere; else the device's."""
+        return cls(Path(os.environ.get("HAPTIC_PANEL_ROOT", ROOT)), Path(os.environ.get("HAPTIC_PANEL_TRUSTED_ROOT", TRUSTED_ROOT)))
 
     @property
     def current(self) -> Path:

@@ -70,6 +70,8 @@ class Manifest(Record, frozen=True):
         Digest of each board it brings, by its name.
     minimum_counter : int
         Counter of the oldest release from which it may be installed.
+    built_s : int
+        When its sources were committed (SOURCE_DATE_EPOCH), in s since 1970: a device's clock that says less is wrong.
     fall_back : int
         Interface of fall-back script and units that it needs (`FALL_BACK_INTERFACE`).
     files : list of ReleaseFile
@@ -86,6 +88,7 @@ class Manifest(Record, frozen=True):
     files: list[ReleaseFile]
     boards: dict[str, Digest] = msgspec.field(default_factory=dict)
     minimum_counter: Count = 0
+    built_s: Count = 0
     fall_back: Count = FALL_BACK_INTERFACE
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 

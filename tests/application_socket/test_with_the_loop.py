@@ -9,14 +9,18 @@ import socket
 from collections import Counter
 
 import pytest
+from prometheus_client import generate_latest
+from prometheus_client.parser import text_string_to_metric_families
 
 from controller.application_socket.command_socket import CommandSocket
 from controller.bank.reader import Bank
 from controller.board.devices import ApplicationSocket
 from controller.clocks import VirtualClock
+from controller.errors import LinkError
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
 from controller.service.drivers import open_session, open_simulated, tracked
+from controller.service.prometheus import PanelCollector, registry
 from controller.touch.recording import Recording
 from controller.touch.replay import RecordingSource
 
@@ -247,3 +251,32 @@ def test_figures_tell_what_the_loop_and_the_socket_counted(serve):
     assert figures["application_socket"]["played"] == 1
     assert figures["outputs"] == "on"
     assert set(by_id(answers["a"])) == {1, 2, 3}
+
+
+def test_prometheus_is_told_what_the_panel_counted(serve):
+    """Read by Prometheus' own parser; the panel stalls once, and is disarmed at the end."""
+    script = [(0.2 + 0.01 * number, "a", click(number, PLACES[number])) for number in range(20)]
+    script += [(1.0, "o", {"kind": "disarm", "id": "d"}), (1.1, "o", {"kind": "figures", "id": "f"})]
+    answers, _, counters, _ = serve(script, until_s=1.2, stalls_s=[0.5])
+    figures = by_id(answers["o"])["f"]["figures"] | {"state": "disarmed"}  # which housekeeping tells
+    text = generate_latest(registry(PanelCollector(lambda: ("0.1.0", "simulated", figures)))).decode()
+    samples = [sample for metric in text_string_to_metric_families(text) for sample in metric.samples]
+    told = {(sample.name, *sample.labels.values()): sample.value for sample in samples}
+    assert told["haptic_panel_up",] == 1
+    assert (told["haptic_panel_state", "disarmed"], told["haptic_panel_state", "armed"]) == (1, 0)
+    assert told["haptic_panel_outputs_on",] == 0
+    assert told["haptic_panel_emissions_total",] == counters.emissions > 0
+    assert told["haptic_panel_host_stalls_total",] == counters.host_silent == 1
+    assert told["haptic_panel_faults_total", "OVER_TEMPERATURE"] == 0
+    assert told["haptic_panel_skipped_total", "merged"] == counters.skipped.merged
+    for play, stages in (("upload", counters.upload_latency), ("resident", counters.resident_latency)):
+        assert told["haptic_panel_emission_latency_seconds_count", play] == stages.total.count
+        assert told["haptic_panel_emission_latency_seconds_bucket", "+Inf", play] == stages.total.count
+    assert told["haptic_panel_emission_latency_seconds_sum", "upload"] > 0
+
+
+def test_prometheus_is_told_that_no_panel_answers():
+    def nobody():
+        raise LinkError("no panel")
+
+    assert generate_latest(registry(PanelCollector(nobody))).decode().splitlines()[-1] == "haptic_panel_up 0.0"

@@ -11,22 +11,18 @@ import os
 import re
 import shutil
 import signal
-import struct
 import subprocess
-import threading
 from pathlib import Path
 
 import panel_board
+from serial_finger import LARGEST, SerialPanel
 from the_service import CHECKOUT, UNIT, fresh_start, journal, main_pid, run, shown, wait_for
 
 from controller.application_socket.client import PanelClient
 
 LENGTH_MM, WIDTH_MM = 165.0, 100.0
 DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88), (13, 52))  # no two are mirror images
-FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
-LARGEST = 4095
-HOST, PANEL = os.openpty()
-DEVICE = os.ttyname(PANEL)
+PANEL = SerialPanel()
 BANK = Path("/var/lib/haptic-panel/banks/panel.bank")
 TOOLS = Path("/run/tools")
 SOCKET = "/tmp/panel.sock"
@@ -93,34 +89,9 @@ def ctrl_c(process):
     return out
 
 
-def touch(x_mm, y_mm, status):
-    """A packet of SmartSet from a panel whose x axis lies along the plate's width, backwards, and its y axis along the length."""
-    raw = (round(LARGEST * (1 - y_mm / WIDTH_MM)), round(LARGEST * x_mm / LENGTH_MM))
-    body = struct.pack("<2sBHHH", b"UT", status, *raw, 255)
-    os.write(HOST, body + bytes([(0xAA + sum(body)) & 0xFF]))
-
-
-@contextlib.contextmanager
-def finger(places):
-    """A finger that goes from place to place, 50 times a second."""
-    lifted = threading.Event()
-
-    def move():
-        status = FIRST
-        for place in places:
-            touch(*place, status)
-            status = STREAM
-            if lifted.wait(0.02):
-                break
-        touch(*place, LAST)
-
-    thread = threading.Thread(target=move)
-    thread.start()
-    try:
-        yield
-    finally:
-        lifted.set()
-        thread.join()
+def finger(places_mm):
+    """A finger on a panel whose x axis lies along the plate's width, backwards, and its y axis along the length."""
+    return PANEL.finger((round(LARGEST * (1 - y_mm / WIDTH_MM)), round(LARGEST * x_mm / LENGTH_MM)) for x_mm, y_mm in places_mm)
 
 
 def to_and_fro():
@@ -140,7 +111,8 @@ def seven_inches(text):
     text = panel_board.table(
         text,
         "touch",
-        f'kind = "serial_panel"\ndevice = "{DEVICE}"\nx_mm_from_axes = [210.0, 0.0, 0.0]\ny_mm_from_axes = [0.0, 148.0, 0.0]\n',
+        f'kind = "serial_panel"\ndevice = "{PANEL.device}"\n'
+        "x_mm_from_axes = [210.0, 0.0, 0.0]\ny_mm_from_axes = [0.0, 148.0, 0.0]\n",
     )
     for key, value in {
         "length_mm": LENGTH_MM,
@@ -171,8 +143,7 @@ def test_the_package_the_user_and_the_unit_are_installed_as_written():
     for line in SYSTEM:
         if "udevadm" not in line:  # a container has no devices of its own
             done(line, folder=CHECKOUT)
-    shutil.chown(DEVICE, group="dialout")
-    Path(DEVICE).chmod(0o660)
+    PANEL.belongs_to("dialout")
 
 
 def test_a_copied_board_is_made_ones_own_and_the_shell_finds_the_command():

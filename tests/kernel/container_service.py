@@ -5,14 +5,12 @@ import itertools
 import json
 import os
 import re
-import shutil
 import signal
-import struct
 import subprocess
-import threading
 from pathlib import Path
 
 import panel_board
+from serial_finger import SerialPanel
 from the_service import (
     CHECKOUT,
     UNIT,
@@ -31,16 +29,14 @@ from the_service import (
 from controller.application_socket.client import PanelClient
 from controller.errors import LinkError
 
-FIRST, STREAM, LAST = 1, 2, 4  # status of a touch packet
 SYSTEMD_README = CHECKOUT / "systemd" / "README.md"
-HOST, PANEL = os.openpty()  # a touch panel at a serial port
+PANEL = SerialPanel()
 
 
 def test_it_is_installed_as_the_readme_says():
     install("udevadm")  # a container has no devices of its own
-    panel_board.write(f'kind = "serial_panel"\ndevice = "{os.ttyname(PANEL)}"')
-    shutil.chown(os.ttyname(PANEL), group="dialout")
-    Path(os.ttyname(PANEL)).chmod(0o660)
+    panel_board.write(f'kind = "serial_panel"\ndevice = "{PANEL.device}"')
+    PANEL.belongs_to("dialout")
     assert run("systemd-analyze", "verify", "--man=no", f"/etc/systemd/system/{UNIT}.service") == ""
     groups = set(run("id", "-nG", UNIT).split())
     assert groups == {UNIT, "spi", "i2c", "gpio", "input", "dialout", "haptic-play"}
@@ -74,32 +70,9 @@ def test_it_is_a_user_without_rights_but_those_of_the_loop():
     assert said().count("not in real time") == (0 if permitted else 1)
 
 
-def touch(x, y, status):
-    """A packet of SmartSet: 'U', 'T', status, x, y, z, checksum."""
-    body = struct.pack("<2sBHHH", b"UT", status, x, y, 255)
-    os.write(HOST, body + bytes([(0xAA + sum(body)) & 0xFF]))
-
-
-@contextlib.contextmanager
-def moving_finger():
-    """A finger to and fro on the plate."""
-    lifted = threading.Event()
-
-    def move():
-        touch(1000, 2000, FIRST)
-        for x in itertools.cycle([*range(1000, 3000, 100), *range(3000, 1000, -100)]):
-            if lifted.wait(0.02):
-                break
-            touch(x, 2000, STREAM)
-        touch(1000, 2000, LAST)
-
-    thread = threading.Thread(target=move)
-    thread.start()
-    try:
-        yield
-    finally:
-        lifted.set()
-        thread.join()
+def to_and_fro():
+    """Places of a finger, on the panel's axes."""
+    return ((x, 2000) for x in itertools.cycle([*range(1000, 3000, 100), *range(3000, 1000, -100)]))
 
 
 def figure(name):
@@ -113,7 +86,7 @@ def test_a_finger_on_its_panel_is_felt_and_a_user_interface_is_told():
     path = Path("/run/haptic-panel/panel.sock")
     assert (path.group(), path.stat().st_mode & 0o777) == (UNIT, 0o660)
     before = figure("emissions")
-    with moving_finger():
+    with PANEL.finger(to_and_fro()):
         wait_for("emissions", lambda: figure("emissions") >= before + 5)
         with PanelClient() as panel:
             assert "click" in panel.hello().effects
@@ -197,13 +170,13 @@ def test_of_two_groups_one_may_play_and_the_other_switch_the_panel_off_for_good(
 def test_a_panel_that_is_pulled_out_before_the_start_is_waited_for():
     run("systemctl", "stop", UNIT)
     good = panel_board.BOARD.read_text()
-    panel_board.BOARD.write_text(good.replace(os.ttyname(PANEL), "/run/touch"))
+    panel_board.BOARD.write_text(good.replace(PANEL.device, "/run/touch"))
     try:
         pid = fresh_start()
         assert shown("ActiveState") == "active"
         assert shown("StatusText").startswith("waiting for panel: there is no serial port /run/touch")
         assert figure("outputs") == "on"
-        Path("/run/touch").symlink_to(os.ttyname(PANEL))
+        Path("/run/touch").symlink_to(PANEL.device)
         wait_for("the panel", lambda: shown("StatusText") == "playing on board 'simulated'")
         assert main_pid() == pid
     finally:

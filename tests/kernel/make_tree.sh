@@ -47,24 +47,4 @@ sed -i 's/^pitch_mm = .*/pitch_mm = 15.0\ncoarse = true/; s/^snap_mm = .*/snap_m
 PYTHONPATH=$checkout STATE_DIRECTORY=$tree/var/lib/haptic-panel OPENBLAS_NUM_THREADS=1 "$python" -c \
   'import sys; from controller.cli import main; sys.exit(main(sys.argv[1:]))' bank build --board "$board" --scene scene --json >/dev/null
 
-files=()
-for file in "$@"; do files+=("/checkout/$(realpath --relative-to="$checkout" "$file")"); done
-cat >"$tree/etc/systemd/system/tests.service" <<U
-[Unit]
-Requires=basic.target
-After=basic.target
-[Service]
-Type=oneshot
-TimeoutStartSec=infinity
-Environment=PATH=/usr/sbin:/usr/bin PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1
-ExecStartPre=/sbin/ldconfig
-# a container copies the mode of this machine's, where a program run as root may have spoilt it
-ExecStartPre=/bin/chmod 666 /dev/null
-ExecStart=/bin/sh -c 'exec >/dev/console 2>&1; "\$@"; echo "ENDS WITH \$\$?"; sync; systemctl poweroff -ff' sh \\
-  /opt/haptic-panel/bin/python /checkout/tests/kernel/run_tests.py ${files[*]}
-U
-printf '[Unit]\nRequires=tests.service\nAllowIsolate=yes\n' >"$tree/etc/systemd/system/tests.target"
-ln -s tests.target "$tree/etc/systemd/system/default.target"
-for unit in systemd-hwdb-update.service ldconfig.service console-getty.service getty.target; do
-  ln -s /dev/null "$tree/etc/systemd/system/$unit"
-done
+"$here/boot_into_tests.sh" "$tree" /opt/haptic-panel/bin/python "$@"

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Boots systemd in a container (as root, or by sudo) on the tree of make_tree.sh and runs the tests of files in it as root.
+# Boots systemd in a container (as root, or by sudo) on a tree of make_tree.sh and runs the tests of files in it as root; files that
+# import the_package get a tree of make_debian_tree.sh: a Debian, on which dpkg installs the package.
 # usage: run_container.sh PYTHON container_FILE.py...     exit code: of run_tests.py, or 99 where the container came to no end
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -11,7 +12,9 @@ name=haptic-panel-$$
 machine=
 trap 'test -z "$machine" || "${as_root[@]}" kill $machine 2>/dev/null && wait $machine || true; "${as_root[@]}" rm -rf --one-file-system "$tree" "/run/systemd/nspawn/propagate/$name"' EXIT
 trap 'exit 99' HUP INT TERM
-"$here/make_tree.sh" "$1" "$tree" "${@:2}"
+make=make_tree.sh
+! grep -qE '^(import|from) the_package' "${@:2}" || make=make_debian_tree.sh
+"$here/$make" "$1" "$tree" "${@:2}"
 binds=()
 while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
 exec 3> >(exec sed -u 's/\r//g' | tee "$tree/log")

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from controller.log import Event
 from controller.loop import host_timing
 from controller.loop.host_timing import (
     BEAT_LEAD_S,
@@ -115,11 +116,11 @@ def test_the_lead_covers_waking_deciding_composing_the_kernel_and_the_wire(p50_s
 
 def test_what_the_host_cannot_do_is_logged_once(monkeypatch):
     said = []
-    monkeypatch.setattr(host_timing, "log", said.append)
+    monkeypatch.setattr(host_timing, "log", lambda message, about: said.append((message, about)))
     slow, fast = HostTiming(BITS_S, COMMAND_S, PLATE_S), HostTiming(BITS_S, COMMAND_S, PLATE_S)
     for _ in range(3 * SAID_AFTER):
         slow.decided_s = 0.2e-3
         slow.uploaded(BITS_S + 1.2e-3)
         fast.uploaded(BITS_S + 0.2e-3)
-    assert said == ["this host reaches 363 emissions/s with a moving finger; the plate allows 500"]
+    assert said == [("this host reaches 363 emissions/s with a moving finger; the plate allows 500", Event.SLOW_HOST)]
     assert slow.figures()["uploads_hz"] == pytest.approx(362, abs=1)

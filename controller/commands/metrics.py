@@ -1,0 +1,72 @@
+"""`haptic-panel metrics`: figures of a running panel for Prometheus."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from controller.application_socket.client import DEFAULT_PATH
+from controller.errors import ControllerError, UsageError
+
+if TYPE_CHECKING:
+    from controller.commands.output import Declare
+
+LISTEN = "127.0.0.1:9750"
+
+
+def add(declare: Declare, _: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser = declare(
+        description="Show the figures of a running panel in the text format of Prometheus: states, faults by cause, latency "
+        "histograms, skips, queue, temperature, release and update. Asks the panel's application socket, as often as it is asked "
+        "itself; a panel that does not answer is haptic_panel_up 0. Without options: once, on stdout.",
+    )
+    parser.add_argument("--socket", default=DEFAULT_PATH, metavar="PATH", help=f"the panel's application socket ({DEFAULT_PATH})")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument(
+        "--listen", metavar="HOST:PORT", nargs="?", const=LISTEN, help=f"serve http until SIGTERM or Ctrl-C (default: {LISTEN})"
+    )
+    how.add_argument("--textfile", metavar="FILE.prom", help="write a file for the textfile collector of node_exporter, once")
+    parser.set_defaults(command=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Export the figures."""
+    from functools import partial
+
+    from prometheus_client import generate_latest, start_http_server, write_to_textfile
+
+    from controller.service.prometheus import PanelCollector, ask_panel, registry
+
+    alone = registry(PanelCollector(partial(ask_panel, options.socket)))
+    if options.listen:
+        host, port = _address(options.listen)
+        try:
+            server, thread = start_http_server(port, host, alone)
+        except OSError as error:
+            raise ControllerError(f"--listen {options.listen}: cannot listen there ({error.strerror})") from error
+        try:
+            thread.join()
+        except KeyboardInterrupt:
+            server.shutdown()
+        return 0
+    if options.textfile:
+        file = Path(options.textfile)
+        if file.suffix != ".prom":
+            raise UsageError(f"--textfile {file}: node_exporter reads only files whose names end with .prom")
+        try:
+            write_to_textfile(os.fspath(file), alone)
+        except OSError as error:
+            raise ControllerError(f"--textfile {file}: cannot be written ({error.strerror})") from error
+        return 0
+    print(generate_latest(alone).decode(), end="")
+    return 0
+
+
+def _address(listen: str) -> tuple[str, int]:
+    host, colon, port = listen.rpartition(":")
+    if not colon or not port.isdecimal() or int(port) > 65535:
+        raise UsageError(f"--listen {listen}: give HOST:PORT, such as {LISTEN}")
+    return host.strip("[]"), int(port)

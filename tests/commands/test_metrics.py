@@ -1,0 +1,68 @@
+"""`haptic-panel metrics`: what Prometheus, or its textfile collector, gets."""
+
+import signal
+import socket
+import subprocess
+import sys
+import urllib.request
+
+import pytest
+from patience import wait_for
+
+from controller.cli import main
+
+
+def test_a_panel_that_does_not_answer_is_down(tmp_path, capsys):
+    assert main(["metrics", "--socket", str(tmp_path / "nobody.sock")]) == 0
+    assert "haptic_panel_up 0.0" in capsys.readouterr().out.splitlines()
+    file = tmp_path / "panel.prom"
+    assert main(["metrics", "--socket", str(tmp_path / "nobody.sock"), "--textfile", str(file)]) == 0
+    assert "haptic_panel_up 0.0" in file.read_text().splitlines()
+    assert [path.name for path in tmp_path.iterdir()] == ["panel.prom"]
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "said"),
+    [
+        (["--textfile", "{}/panel.txt"], 2, "node_exporter reads only files whose names end with .prom"),
+        (["--textfile", "{}/absent/panel.prom"], 1, "cannot be written (No such file or directory)"),
+        (["--listen", "9750"], 2, "give HOST:PORT, such as 127.0.0.1:9750"),
+        (["--listen", "127.0.0.1:99999"], 2, "give HOST:PORT, such as 127.0.0.1:9750"),
+        (["--listen", "127.0.0.1:{port}"], 1, "cannot listen there (Address already in use)"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_one_line(tmp_path, capsys, options, code, said):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        given = [option.format(tmp_path, port=taken.getsockname()[1]) for option in options]
+        assert main(["metrics", *given]) == code
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+
+
+def test_it_is_served_until_it_is_told_to_end(tmp_path):
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    command = [
+        sys.executable,
+        "-m",
+        "controller",
+        "metrics",
+        "--socket",
+        str(tmp_path / "nobody.sock"),
+        "--listen",
+        f"127.0.0.1:{port}",
+    ]
+
+    def text():
+        try:
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics") as answer:
+                return answer.read().decode()
+        except OSError:
+            return ""
+
+    with subprocess.Popen(command) as server:
+        try:
+            assert "haptic_panel_up 0.0" in wait_for("an answer", text)
+        finally:
+            server.send_signal(signal.SIGTERM)
+        assert server.wait() == 0

@@ -1,0 +1,288 @@
+"""Where a repository is read from: each way to fail is one line that says what, where and what to do."""
+
+import os
+import re
+import socket
+import threading
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tuf.api.exceptions import DownloadError, DownloadHTTPError, DownloadLengthMismatchError, SlowRetrievalError
+
+from controller.errors import UpdateError
+from controller.update.source import FolderSource, HttpSource, NoRanges, answers_range, source_of
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name in ("metadata", "targets"):
+        (tmp_path / "repository" / name).mkdir(parents=True)
+    (tmp_path / "repository" / "targets" / "file").write_bytes(bytes(range(256)) * 1000)
+    return tmp_path / "repository"
+
+
+@pytest.fixture(params=["http", "folder"])
+def source(request, folder, serve):
+    if request.param == "folder":
+        return FolderSource(str(folder))
+    return HttpSource(serve(folder).address, 60, retries=0)
+
+
+DATA = bytes(range(256)) * 1000
+
+
+def read(source, name="targets/file", **what):
+    return b"".join(source.open(f"{source.address}/{name}", **what))
+
+
+def test_files_and_ranges_come_whole_and_are_counted(source):
+    assert read(source) == DATA
+    assert read(source, start=100_000) == DATA[100_000:]
+    assert read(source, start=7, length=70_000) == DATA[7:70_007]
+    assert read(source, length=len(DATA)) == DATA
+    assert source.fetched_bytes == 2 * len(DATA) + len(DATA) - 100_000 + 70_000
+
+
+def test_what_is_not_there_is_told(source):
+    with pytest.raises(DownloadHTTPError) as told:
+        read(source, "targets/other")
+    assert told.value.status_code == 404
+    with pytest.raises(DownloadError):
+        read(source, start=255_990, length=100)
+
+
+def test_connections_are_kept(folder, serve):
+    server = serve(folder)
+    connections = set()
+    server.instead = lambda handler: connections.add(handler.client_address) or False
+    source = HttpSource(server.address, 60, retries=0)
+    for start in range(0, 200_000, 50_000):
+        read(source, start=start, length=1000)
+    assert len(connections) == 1
+
+
+def refused(server, instead, error=DownloadError, **what):
+    server.instead = instead
+    source = HttpSource(server.address, 60, gap_s=0.2, retries=0)
+    with pytest.raises(error) as told:
+        read(source, **what)
+    assert "\n" not in str(told.value)
+    assert server.address in str(told.value)
+    return str(told.value)
+
+
+def test_a_login_page_is_named(folder, serve):
+    said = refused(serve(folder), lambda h: h.answer(200, b"<html>", Content_Type="text/html; charset=utf-8") or True)
+    assert "does this network ask for a login" in said
+
+
+def test_redirects_are_refused(folder, serve):
+    server = serve(folder)
+    said = refused(server, lambda h: h.answer(302, Location="http://127.0.0.1:1/x") or True)
+    assert "redirects are not followed" in said
+    assert len(server.requests) == 1
+
+
+@pytest.mark.parametrize("status", [500, 503, 403])
+def test_the_servers_errors_are_told(folder, serve, status):
+    assert f"answers {status}" in refused(serve(folder), lambda h: h.answer(status) or True, DownloadHTTPError)
+
+
+def test_silence_is_told(folder, serve):
+    server = serve(folder)
+    said = refused(server, lambda _: server.ended.wait(20) and True, SlowRetrievalError)
+    assert "said nothing for 0.2 s" in said
+
+
+def test_a_connection_that_breaks_in_the_middle_is_told(folder, serve):
+    def broken(handler):
+        handler.answer(200, DATA[:1000], Content_Length=len(DATA))
+        handler.close_connection = True
+        return True
+
+    assert "connection broke" in refused(serve(folder), broken)
+
+
+def test_refused_is_not_called_slow():
+    with socket.create_server(("127.0.0.1", 0)) as listens:
+        port = listens.getsockname()[1]
+    with pytest.raises(DownloadError, match="connection was refused") as told:
+        read(HttpSource(f"http://127.0.0.1:{port}", 60, retries=0))
+    assert not isinstance(told.value, SlowRetrievalError)
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {},
+        {"Content_Range": "bytes 0-9/256000"},
+        {"Content_Range": "bytes 10-20/256000"},
+        {"Content_Range": "bytes 10-19/15"},
+        {"Content_Range": "bytes */256000"},
+    ],
+)
+def test_another_range_than_asked_for_is_refused(folder, serve, headers):
+    refused(serve(folder), lambda h: h.answer(206, DATA[10:20], **headers) or True, NoRanges, start=10, length=10)
+
+
+def test_a_server_without_ranges_is_noticed(folder, serve):
+    server = serve(folder)
+    server.ranges = False
+    refused(server, lambda _: False, NoRanges, start=10)
+    assert read(HttpSource(server.address, 60, retries=0), length=len(DATA)) == DATA
+
+
+def test_a_file_of_another_length_than_signed_is_refused_at_once(folder, serve):
+    server = serve(folder)
+    server.ranges = False
+    refused(server, lambda _: False, DownloadLengthMismatchError, length=10)
+
+
+def test_an_answer_that_ends_early_is_told(folder, serve):
+    cut = {"Content_Range": "bytes 0-9/10", "Content_Length": None, "Connection": "close"}
+    assert "ended after 5 of 10 bytes" in refused(serve(folder), lambda h: h.answer(206, b"01234", **cut) or True, length=10)
+
+
+class Time:
+    """A clock that only waiting moves."""
+
+    now_s = 0.0
+
+    def now(self):
+        return self.now_s
+
+    def wait(self, seconds):
+        self.now_s += seconds
+
+
+def test_bandwidth_is_limited(folder, serve):
+    time = Time()
+    source = HttpSource(serve(folder).address, 1e6, 1000.0, retries=0, now_s=time.now, wait_s=time.wait)
+    read(source)
+    read(source, length=44_000)
+    assert time.now_s == pytest.approx(300.0)
+
+
+def test_all_files_together_have_a_time_limit(folder, serve):
+    """A byte now and then is never silent for long; and the limit is not that of one file."""
+    time = Time()
+    source = HttpSource(serve(folder).address, 100.0, retries=0, now_s=time.now, wait_s=time.wait)
+    for _ in range(3):
+        time.wait(30)
+        read(source)
+    time.wait(11)
+    with pytest.raises(SlowRetrievalError, match=re.escape("not done within 100 s (total_s)")):
+        read(source)
+    source = HttpSource(serve(folder).address, 100.0, 1000.0, retries=0, now_s=time.now, wait_s=time.wait)
+    with pytest.raises(SlowRetrievalError):
+        read(source)
+
+
+def test_a_trickle_ends_at_the_limit(folder, serve):
+    """Byte by byte: each is handed on as it comes, so that the limit is seen."""
+    server, time, more = serve(folder), Time(), threading.Event()
+
+    def trickle(handler):
+        handler.answer(200, b"x", Content_Length=1000)
+        more.wait(20)
+        handler.wfile.write(b"x")
+        server.ended.wait(20)
+        return True
+
+    server.instead = trickle
+    chunks = HttpSource(server.address, 60, retries=0, now_s=time.now).open(f"{server.address}/targets/file")
+    assert next(chunks) == b"x"
+    time.wait(61)
+    more.set()
+    with pytest.raises(SlowRetrievalError):
+        next(chunks)
+
+
+NUMBERS = st.integers(0, 20) | st.integers(0, 10**16)
+
+
+@given(NUMBERS, NUMBERS, st.none() | NUMBERS, st.integers(0, 9), st.none() | st.integers(1, 9))
+def test_only_the_very_range_is_taken(first, last, total, start, length):
+    header = f"bytes {first}-{last}/{'*' if total is None else total}"
+    if answers_range(header, start, length):
+        assert first == start
+        assert last >= start
+        assert length is None or last - first + 1 == length
+        assert total is None or last < total
+        assert length is not None or total in (None, last + 1)
+
+
+@given(st.integers(0, 10**14), st.integers(1, 10**14), st.integers(0, 10**14))
+def test_the_range_asked_for_is_taken(start, length, more):
+    assert answers_range(f"bytes {start}-{start + length - 1}/{start + length + more}", start, length)
+    assert answers_range(f"bytes {start}-{start + length - 1}/{start + length}", start, None)
+
+
+@given(st.text(max_size=40), st.integers(0, 9), st.none() | st.integers(1, 9))
+def test_no_other_header_is_a_range(text, start, length):
+    assert not answers_range(text, start, length) or text.startswith("bytes ")
+
+
+def test_nothing_outside_of_the_folder_is_read(folder, tmp_path):
+    (tmp_path / "secret").write_bytes(b"secret")
+    (folder / "targets" / "link").symlink_to(tmp_path / "secret")
+    (folder / "targets" / "loop").symlink_to("loop")
+    (folder / "targets" / "inside").symlink_to("file")
+    os.mkfifo(folder / "targets" / "pipe")
+    source = FolderSource(str(folder))
+    for name in (
+        "../secret",
+        "targets/%2e%2e/%2e%2e/secret",
+        "targets/link",
+        "targets/loop",
+        "targets/pipe",
+        "targets",
+        "targets/a%00b",
+    ):
+        with pytest.raises(DownloadHTTPError):
+            read(source, name)
+    assert read(source, "targets/inside") == DATA
+
+
+def test_a_stick_that_is_pulled_is_told_as_that(folder):
+    source = FolderSource(str(folder))
+    chunks = source.open(f"{source.address}/targets/file")
+    next(chunks)
+    folder.rename(folder.with_name("elsewhere"))
+    with pytest.raises(DownloadError, match="was the stick pulled") as told:
+        read(source)
+    assert not isinstance(told.value, DownloadHTTPError)
+
+
+def test_a_stick_that_gives_read_errors_is_told(folder, monkeypatch):
+    source = FolderSource(str(folder))
+
+    class Bad:
+        def __getattr__(self, name):
+            raise AssertionError(name)
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def seek(self, _):
+            raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(source, "_opened", lambda _: Bad())
+    with pytest.raises(DownloadError, match="cannot be read"):
+        read(source)
+
+
+def test_what_is_no_repository_is_told_before_anything_is_read(tmp_path):
+    for text, said in (
+        ("", "no repository is set"),
+        ("ftp://a/b", "address: set"),
+        ("http://", "address: set"),
+        (str(tmp_path / "absent"), "is the stick plugged in"),
+        (str(tmp_path), "is no repository"),
+    ):
+        with pytest.raises(UpdateError, match=said):
+            source_of(text, 1.0, 0.0)
