@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from controller.board import panel_status
 from controller.board.panel_state import Condition, PanelState
 from controller.board.panel_status import BYTES_MAX, STALE_S, PanelStatus, boot_id, read_now, read_status
 from controller.cli import main
@@ -122,6 +123,12 @@ def test_at_the_end_it_says_so(written):
     status, old = read_now(path)
     assert (status.ended, status.state, status.cause, status.outputs_on) == (True, PanelState.FAULTED, "too many edges", False)
     assert old == "the service has ended"
+
+
+def test_in_a_sandbox_without_proc_the_unit_tells_the_boot(monkeypatch, tmp_path):
+    monkeypatch.setattr(panel_status, "BOOT_ID", tmp_path / "none")
+    assert boot_id({"HAPTIC_PANEL_BOOT": "0123456789abcdef0123456789abcdef"}) == "0123456789abcdef0123456789abcdef"
+    assert boot_id({}) == ""
 
 
 def statuses(**fields):
