@@ -158,7 +158,7 @@ class _Fetching:
 
     def _fetch_file(self, file: ReleaseFile) -> None:
         target = self._repository.target(file.target)
-        if target.length != file.size_bytes or target.hashes["sha256"] != file.sha256:
+        if target.length != file.size_bytes or target.hashes.get("sha256") != file.sha256:
             raise RepositoryError(f"{file.path} is signed with two different lengths or hashes")
         part = self._parts / file.sha256
         done_bytes = self._done_bytes
