@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from controller.commands.output import Declare
 
 STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; each is a module `update_NAME` of `commands`
+    "judge": "judge the release on trial by how its service fares (haptic-panel-trial.service runs it)",
 }
 
 

@@ -54,6 +54,7 @@ complete haptic-panel \
         'n/bank/(build choices info verify)/' \
         'n/benchmark/(skipping paper)/' \
         'n/calibrate/(plan measure check bank simulate)/' \
+        'n/update/(judge)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
