@@ -19,6 +19,7 @@ from controller.log import Priority, line
 
 COMMANDS = {  # in the order of --help, which prints these texts; each is a module of `commands`
     "run": "run a panel; without devices: replay a touch recording on the simulated panel",
+    "status": "how the running panel fares, and whether it serves",
     "doctor": "check every device, file and permission of a panel, and say what to do",
     "board": "check a board and its scene; describe the keys of both files",
     "gateware": "bring up an FPGA",

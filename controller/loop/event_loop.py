@@ -23,7 +23,7 @@ from controller.loop.dispatcher import Dispatcher
 from controller.loop.outputs import Outputs
 from controller.loop.playback import Playback
 from controller.loop.records import Turn
-from controller.loop.runtime import Wakeup, handled_signals, no_garbage_collection
+from controller.loop.runtime import SpareTime, Wakeup, handled_signals, no_garbage_collection
 from controller.loop.scene_source import PreparedScene, SceneChange
 from controller.loop.scheduler import Scheduler
 from controller.loop.spots import ROUNDING_S
@@ -54,6 +54,8 @@ class EventLoop:
         Called whenever an emission starts, or a repetition by the FPGA.
     scene_changed : callable, optional
         Called with each scene that was prepared, taken over or refused.
+    spare : SpareTime, optional
+        What is done between turns.
 
     Attributes
     ----------
@@ -79,6 +81,7 @@ class EventLoop:
         progress: Callable[[float], None] = lambda _: None,
         emission_started: Callable[[], None] = lambda: None,
         scene_changed: Callable[[PreparedScene], None] = lambda _: None,
+        spare: SpareTime | None = None,
     ) -> None:
         self._clock = clock
         self._session = session
@@ -96,6 +99,7 @@ class EventLoop:
         self._progress = progress
         self._emission_started = emission_started
         self._scene_changed = scene_changed
+        self._spare = spare or SpareTime()
         self._outputs = Outputs(session, board, clock, clock_estimate, counters)
         self.control = LoopControl(self._outputs, scheduler, clock_estimate, counters, change, playback.timing)
         self._wakeup: Wakeup | None = None
@@ -242,7 +246,10 @@ class EventLoop:
         if self._dispatcher.turn(Turn(started_ns, now_s, fpga_s, report_ns, finger), self._outputs.on):
             self._outputs.emission_started()
             self._emission_started()
-        return self._next_s(now_s)
+        then_s = self._next_s(now_s)
+        if self._spare.due_s <= now_s and then_s is not None:
+            self._spare.use(self._clock.now_s(), then_s)
+        return then_s
 
     def _idle(self, now_s: float, *, touched: bool) -> None:
         """Switch the outputs off when nothing has been touched for long."""

@@ -9,7 +9,31 @@ import signal
 import socket
 from collections.abc import Callable, Iterator, Mapping
 
+from controller.clocks import NEVER
+
 FREE_TUPLES, TUPLE_LENGTHS = 2000, 20  # CPython keeps so many freed tuples of each length below, 5 MB in all
+
+
+class SpareTime:
+    """What is done between two turns of the loop; this one does nothing.
+
+    Attributes
+    ----------
+    due_s : float
+        Host time from which `use` is called after each turn.
+    """
+
+    def __init__(self) -> None:
+        self.due_s = NEVER
+
+    def use(self, now_s: float, next_s: float) -> None:
+        """Do it, or not yet.
+
+        Parameters
+        ----------
+        now_s, next_s : float
+            Host time, and that of the next turn; a touch or a command may begin it before.
+        """
 
 
 class Wakeup:

@@ -41,6 +41,7 @@ class Assembly:
     counters: Counters
     selection: Selection
     timing: HostTiming
+    waiting: Callable[[], int]  # emissions that are due now
 
 
 def assemble(
@@ -107,7 +108,7 @@ def assemble(
     parts = (clock, session, source, scheduler, playback, dispatcher, clock_estimate, counters)
     never_idle = msgspec.structs.replace(board, idle_disarm_s=None)
     running = EventLoop(board if skips.idle else never_idle, *parts, commands=commands, change=change, **loop)
-    return Assembly(running, counters, selection, timing)
+    return Assembly(running, counters, selection, timing, lambda: len(scheduler.due))
 
 
 def _nobody(ticket: int, outcome: Outcome, age_s: float) -> None:

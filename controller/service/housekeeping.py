@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from controller.board.board import Board
 from controller.board.panel_state import Condition, PanelState
@@ -67,7 +67,7 @@ class Housekeeping:
             self._bit_clock = BitClock(session, thermometer, board.temperature.period_s)
         self._loop: Watched | None = None
         self._panel: Panel | None = None
-        self._told: Callable[[Condition], None] = _nobody
+        self._told: Sequence[Callable[[Condition], None]] = ()
         self._board_name = board.name
         self._reloading = False
         self._ready = False  # was reported
@@ -83,7 +83,7 @@ class Housekeeping:
         """Factor of the bit clock that the FPGA uses now."""
         return 1.0 if self._bit_clock is None else self._bit_clock.scale
 
-    def watch(self, loop: Watched, panel: Panel | None, told: Callable[[Condition], None] | None = None) -> None:
+    def watch(self, loop: Watched, panel: Panel | None, told: Sequence[Callable[[Condition], None]] = ()) -> None:
         """Set what is reported.
 
         Parameters
@@ -91,13 +91,12 @@ class Housekeeping:
         loop : Watched
         panel : Panel or None
             None: a recording is replayed.
-        told : callable, optional
-            Called with each new condition, the first included.
+        told : sequence of callable
+            Each is called with each new condition, the first included.
         """
         self._loop = loop
         self._panel = panel
-        if told is not None:
-            self._told = told
+        self._told = told
 
     def emission_started(self) -> None:
         """Note that an emission was started."""
@@ -181,7 +180,8 @@ class Housekeeping:
             self._notifier.ready(self._status)
         elif (state, cause) != (before.state, before.cause):
             self._notifier.status(self._status)
-        self._told(self.condition)
+        for told in self._told:
+            told(self.condition)
 
     def _log(self, before: Condition) -> None:
         """Log what changed, except whether something is being played."""
@@ -202,7 +202,3 @@ class Housekeeping:
         now = self.condition
         said = f"{now.state.value} on board {self._board_name!r}" if now.state in WORKING else f"{now.state.value}: {now.cause}"
         return f"{said}; {self._scene_stays}" if self._scene_stays else said
-
-
-def _nobody(_: Condition) -> None:
-    """Ignore the condition: the board has no application socket."""

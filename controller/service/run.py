@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from controller.application_socket.command_socket import CommandSocket
 from controller.bank.reader import Bank
 from controller.board.board import Board
+from controller.board.panel_state import Condition
 from controller.clocks import MonotonicClock
 from controller.errors import ControllerError
 from controller.log import LOG, Event, log
@@ -20,6 +21,7 @@ from controller.service.prepare_scene import cells_of
 from controller.service.realtime import enter_realtime
 from controller.service.reloading import ReloadFile
 from controller.service.scene_reload import SceneChanger
+from controller.service.status_file import StatusFile
 from controller.service.systemd import Notifier, Watchdog
 from controller.touch.live_source import LiveSource
 from controller.touch.reports import describe_warnings
@@ -62,6 +64,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     clock = MonotonicClock()
     with ExitStack() as stack:
         notifier = stack.enter_context(Notifier.from_environment())
+        status = StatusFile.from_environment(board.name)
+        stack.callback(status.close)
         change = SceneChanger(board, scene_name, bank)
         stack.callback(change.close)
         cells = cells_of(bank, scene, scene_name)
@@ -100,11 +104,13 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             progress=housekeeping.progress,
             emission_started=housekeeping.emission_started,
             scene_changed=housekeeping.scene_changed,
+            spare=status,
         )
         if commands is not None and commands.disarmed:
             assembly.loop.control.switch(on=False)
         assembly.selection.prepare()
-        housekeeping.watch(assembly.loop, panel, commands.changed if commands is not None else None)
+        status.watch(assembly.counters, assembly.waiting)
+        housekeeping.watch(assembly.loop, panel, (status.changed,) if commands is None else (status.changed, commands.changed))
         for warning in enter_realtime(board.realtime):
             log(warning, Event.NOT_REALTIME)
         log(f"board {board.name!r}, scene {scene_name!r}, {len(cells)} cells of {bank.path}", Event.STARTED)
@@ -112,6 +118,7 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
             assembly.loop.run()
         except ControllerError as error:
             notifier.stopping(f"{assembly.loop.outputs.state.value}: {error}")
+            status.changed(Condition(assembly.loop.outputs.state, str(error)))
             raise
         notifier.stopping("outputs are off")
         return _figures(board, assembly, housekeeping, source)

@@ -106,7 +106,7 @@ def serve(board: Board, settings: ApplicationSocket, bank: Bank, touched_s: floa
             emission_started=housekeeping.emission_started,
             scene_changed=housekeeping.scene_changed,
         )
-        housekeeping.watch(assembly.loop, None, commands.changed)
+        housekeeping.watch(assembly.loop, None, [commands.changed])
         assembly.loop.run(ready)
     finally:
         change.close()
