@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The device's own classes behind the command line of the TUF conformance suite (CLIENT-CLI.md of theupdateframework/tuf-conformance).
+"""The device's own classes behind the command line of the conformance suite of The Update Framework (its CLIENT-CLI.md).
 
 The test that runs the suite calls this through the interpreter of the tests.
 """

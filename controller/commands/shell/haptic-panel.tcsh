@@ -54,7 +54,7 @@ complete haptic-panel \
         'n/bank/(build choices info verify)/' \
         'n/benchmark/(skipping paper)/' \
         'n/calibrate/(plan measure check bank simulate)/' \
-        'n/update/(check download)/' \
+        'n/update/(check download judge)/' \
         'n/completion/(bash zsh tcsh)/' \
         'n/info/f/' \
         'n/verify/f/' \
