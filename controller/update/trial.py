@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from datetime import UTC, datetime
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Final
-
-from tuf.api.metadata import Metadata
+from tempfile import TemporaryDirectory
+from typing import Final
 
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, boot_id, read_status
 from controller.errors import ControllerError, UpdateError
@@ -21,7 +21,7 @@ from controller.update.requests import ask
 STATUS: Final = FOLDER / NAME
 BEFORE: Final = "before.json"  # in `Layout.download`
 LOOK_S: Final = 1.0
-NEEDED: Final = ("source", "durable", "manifest")  # what fetches and installs the next release
+NEEDED: Final = ("fetch",)  # beside trust and source: what fetches and installs the next release
 
 
 def keep_before(layout: Layout, status_file: Path = STATUS) -> None:
@@ -44,14 +44,14 @@ def keep_before(layout: Layout, status_file: Path = STATUS) -> None:
 
 
 def why_no_updater(layout: Layout) -> str:
-    """Why this release could not fetch and install the next one; empty if it could."""
+    """Why this release could not fetch and install the next one; empty if it could: its modules load, and know the owner's root."""
     try:
-        for name in NEEDED:
-            import_module(f"controller.update.{name}")
-        root: Metadata[Any] = Metadata.from_bytes(layout.trusted_root.read_bytes())
-        if root.signed.type != "root":
-            raise UpdateError(f"{layout.trusted_root}: is no root of a repository")
-    except Exception as error:  # whatever an import or a parser raises
+        trust, source, *_ = (import_module(f"controller.update.{name}") for name in ("trust", "source", *NEEDED))
+        with TemporaryDirectory() as folder:
+            trust.DeviceUpdater(
+                Path(folder), source.FolderSource(folder), layout.trusted_root.read_bytes(), datetime(1970, 1, 1, tzinfo=UTC)
+            )
+    except Exception as error:  # whatever an import or python-tuf raises
         return f"it could not update again: {type(error).__name__}: {' '.join(str(error).split())}"
     return ""
 

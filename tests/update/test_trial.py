@@ -6,7 +6,7 @@ import time
 import msgspec
 import pytest
 from msgspec.structs import replace
-from tuf.api.metadata import Metadata, Root, Targets
+from repository_fixture import Publisher
 
 from controller.board.panel_state import PanelState
 from controller.board.panel_status import LatencyStatus, PanelStatus
@@ -29,7 +29,7 @@ def layout(tmp_path):
     for folder in (layout.state, layout.requests, layout.download):
         folder.mkdir(parents=True)
     (layout.state / "trial").write_text(f"{VERSION}\n")
-    layout.trusted_root.write_bytes(Metadata(Root()).to_bytes())
+    layout.trusted_root.write_bytes(Publisher(tmp_path / "owner").root)
     return layout
 
 
@@ -128,7 +128,8 @@ def test_a_release_that_could_not_update_again_goes_at_once(layout, monkeypatch,
     elif broken == "root absent":
         layout.trusted_root.unlink()
     else:
-        layout.trusted_root.write_bytes(b"{}" if broken == "root damaged" else Metadata(Targets()).to_bytes())
+        owner = layout.trusted_root
+        owner.write_bytes(b"{}" if broken == "no root" else owner.read_bytes().replace(b'"version":1', b'"version":2'))
     device = Device(layout, *["armed"] * 100)
     assert device.judged() is Verdict.BAD
     assert (layout.requests / "bad").read_text() == f"{VERSION}\n"
