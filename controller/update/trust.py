@@ -88,10 +88,10 @@ class DeviceUpdater(Updater):
         Raises
         ------
         UpdateError
-            If it has none of that name, or it has no SHA-256.
+            If it has none of that name.
         """
         target = self.get_targetinfo(path)
-        if target is None or "sha256" not in target.hashes:
+        if target is None:
             raise UpdateError(f"{self._source.name}: has no {path}: was the release added to it whole?")
         return target
 
@@ -120,7 +120,7 @@ class DeviceUpdater(Updater):
         """
         folder, slash, name = target.path.rpartition("/")
         if self._trusted_set.root.consistent_snapshot:
-            name = f"{target.hashes['sha256']}.{name}"
+            name = f"{next(iter(target.hashes.values()))}.{name}"
         return self._source.open(f"{self._source.address}/targets/{folder}{slash}{name}", start, length)
 
 
