@@ -24,8 +24,8 @@ Progress = Callable[[int, int], None]
 def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _done, _all: None) -> None:
     """Build a release; where it is complete already, nothing is done.
 
-    Its environment is built where it stays: its files have paths of it. `.complete` is written last, after everything else is on the
-    disk. What an interrupted installation left is removed first.
+    Its environment is built where it stays: its files have paths of it. `.complete` is written last, after all else is on the disk.
+    What an interrupted installation left is removed first.
 
     Parameters
     ----------
