@@ -4,29 +4,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Final
 
-from tuf.api.exceptions import DownloadHTTPError, DownloadLengthMismatchError, LengthOrHashMismatchError, RepositoryError
-from tuf.api.metadata import TargetFile
+from tuf.api.exceptions import RepositoryError
 
 from controller.errors import UpdateError
-from controller.update.bank_index import INDEX_BYTES_MAX, BankIndex, read_index
 from controller.update.durable import sync_folder, write_durably
 from controller.update.layout import MANIFEST, Layout
-from controller.update.manifest import Manifest, ReleaseFile, read_manifest
+from controller.update.manifest import Manifest, ReleaseFile
 from controller.update.offer import COUNTER, Offer, installed_release, largest_counter, offered
-from controller.update.rebuild import rebuild
+from controller.update.old_banks import OldBanks
+from controller.update.part_file import complete
 from controller.update.settings import UpdateSettings
-from controller.update.source import NoRanges, source_of
+from controller.update.source import source_of
 from controller.update.trust import DeviceUpdater, sha256_of, trusted
 
 UNPACKED: Final = 5  # times the bytes of its wheels that an environment takes, compiled
 RESERVE_BYTES: Final = 32_000_000  # left free for what else the device writes
-OLDS: Final = 3  # banks that are searched for pieces of a new one
 
 
 @dataclass(slots=True)
@@ -140,13 +137,14 @@ class _Fetching:
     ) -> None:
         self._layout, self._repository, self._manifest, self._progress = layout, repository, manifest, progress
         self.figures = figures
-        self._parts, self._indexes = layout.download / "parts", layout.download / "indexes"
+        self._parts = layout.download / "parts"
+        self._old_banks = OldBanks(layout, repository)
         self._files = _distinct(manifest)
         self._done_bytes, self._all_bytes = 0, sum(file.size_bytes for file in self._files)
 
     def fetch(self) -> None:
         """Fetch what is missing."""
-        for folder in (self._layout.store, self._parts, self._indexes):
+        for folder in (self._layout.store, self._parts):
             folder.mkdir(parents=True, exist_ok=True)
         missing = [file for file in self._files if not _is_stored(self._layout, file)]
         self._prune()
@@ -160,99 +158,18 @@ class _Fetching:
 
     def _fetch_file(self, file: ReleaseFile) -> None:
         target = self._repository.target(file.target)
-        if target.length != file.size_bytes or target.hashes["sha256"] != file.sha256:
+        if target.length != file.size_bytes or target.hashes.get("sha256") != file.sha256:
             raise RepositoryError(f"{file.path} is signed with two different lengths or hashes")
         part = self._parts / file.sha256
         done_bytes = self._done_bytes
-        if not (file.path.startswith("banks/") and self._rebuilt(file, target, part)):
-            self._tell(done_bytes - self._done_bytes)
-            self._whole(target, part)
+        reused_bytes = self._old_banks.rebuilt(file, target, part) if file.path.startswith("banks/") else None
+        if reused_bytes is None:
+            complete(part, self._repository, target, self._tell)
+        else:
+            self.figures.reused_bytes += reused_bytes
         part.chmod(0o444)
         part.replace(self._layout.store / file.sha256)
         self._tell(done_bytes + file.size_bytes - self._done_bytes)
-
-    def _whole(self, target: TargetFile, part: Path) -> None:
-        """Fetch a file; one that was begun is gone on with, and fetched again if it is then not the signed one."""
-        while True:
-            start = part.stat().st_size if part.exists() else 0
-            if start > target.length:
-                part.unlink()
-                start = 0
-            try:
-                with part.open("ab") as file:
-                    for chunk in self._repository.chunks(target, start, target.length - start):
-                        file.write(chunk)
-                        self._tell(len(chunk))
-                    file.flush()
-                    os.fsync(file.fileno())
-                with part.open("rb") as file:
-                    target.verify_length_and_hashes(file)
-                return
-            except NoRanges:
-                if not start:
-                    raise
-                part.unlink()
-            except LengthOrHashMismatchError:
-                part.unlink()
-                if not start:
-                    raise
-            except OSError:  # a full disk is not left full
-                with suppress(OSError):
-                    part.unlink()
-                raise
-
-    def _rebuilt(self, file: ReleaseFile, target: TargetFile, whole: Path) -> bool:
-        """Whether a bank could be made from older ones; its file is then `whole`."""
-        index = self._index(file, keep=True)
-        olds = [(path, self._index(old, keep=False) or index) for path, old in self._old_banks(file)] if index else []
-        if index is None or index.size_bytes != file.size_bytes or not (olds or self._begun(file).exists()):
-            return False
-        part = self._begun(file)
-        try:
-            reused = rebuild(part, index, olds, lambda start, length: self._repository.chunks(target, start, length))
-            if reused is None:
-                part.unlink()
-                return False
-            with part.open("rb") as made:
-                target.verify_length_and_hashes(made)
-        except (NoRanges, DownloadLengthMismatchError, LengthOrHashMismatchError):
-            part.unlink()
-            return False
-        except OSError:
-            with suppress(OSError):
-                part.unlink()
-            raise
-        part.replace(whole)
-        self.figures.reused_bytes += reused
-        return True
-
-    def _begun(self, file: ReleaseFile) -> Path:
-        return self._parts / f"{file.sha256}.rebuilt"
-
-    def _index(self, file: ReleaseFile, keep: bool) -> BankIndex | None:
-        """Index of a bank: the one that was kept, else that of the repository; None if there is none that can be read."""
-        kept = self._indexes / file.sha256
-        with suppress(OSError, UpdateError):
-            return read_index(kept.read_bytes(), str(kept))
-        with suppress(UpdateError, RepositoryError, DownloadHTTPError):
-            data = self._repository.read(file.index_target, INDEX_BYTES_MAX)
-            index = read_index(data, file.index_target)
-            if keep:
-                write_durably(kept, data)
-            return index
-        return None
-
-    def _old_banks(self, file: ReleaseFile) -> list[tuple[Path, ReleaseFile]]:
-        """Banks of other releases that are there: those of the same board first, the newest of them first."""
-        found = {
-            old.sha256: (old.path != file.path, -manifest.counter, path, old)
-            for manifest in _manifests(self._layout)
-            for old in manifest.files
-            for path in (self._layout.store / old.sha256, self._layout.release(manifest.version) / old.path)
-            if old.path.startswith("banks/") and old.sha256 != file.sha256 and path.is_file()
-        }
-        ranked = sorted(found.values(), key=lambda one: one[:2])
-        return [(path, old) for _, _, path, old in ranked[:OLDS]]
 
     def _require_room(self, missing: list[ReleaseFile]) -> None:
         """Refuse what will not fit: what is to be fetched, and what installing it takes."""
@@ -268,15 +185,12 @@ class _Fetching:
             )
 
     def _prune(self) -> None:
-        """Remove what was begun of other releases, and indexes of banks that are gone."""
+        """Remove what was begun of other releases."""
         digests = {file.sha256 for file in self._manifest.files}
         for part in self._parts.iterdir():
             if part.name.partition(".")[0] not in digests:
                 part.unlink()
-        digests |= {file.sha256 for manifest in _manifests(self._layout) for file in manifest.files}
-        for index in self._indexes.iterdir():
-            if index.name not in digests:
-                index.unlink()
+        self._old_banks.prune(digests)
 
     def _tell(self, more_bytes: int) -> None:
         self._done_bytes += more_bytes
@@ -298,15 +212,6 @@ def _is_stored(layout: Layout, file: ReleaseFile) -> bool:
     except FileNotFoundError:
         pass
     return False
-
-
-def _manifests(layout: Layout) -> list[Manifest]:
-    """Manifests of releases that are installed or fetched."""
-    found = []
-    for file in [*layout.releases.glob(f"*/{MANIFEST}"), layout.download / MANIFEST]:
-        with suppress(OSError, UpdateError):
-            found.append(read_manifest(file.read_bytes(), str(file)))
-    return found
 
 
 def _built_s(layout: Layout) -> int:
