@@ -7,7 +7,6 @@ at once. That an old repository is offered after all metadata was lost is refuse
 from __future__ import annotations
 
 import errno
-import fcntl
 import hashlib
 import os
 from collections.abc import Iterator
@@ -33,6 +32,7 @@ from controller.errors import UpdateError
 from controller.update import clock
 from controller.update.durable import sync_folder
 from controller.update.layout import Layout
+from controller.update.lock import alone
 from controller.update.source import Source
 
 LIMITS: Final = UpdaterConfig(
@@ -152,7 +152,7 @@ def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None =
     try:
         metadata = layout.download / "metadata"
         metadata.mkdir(parents=True, exist_ok=True)
-        with _alone(layout.download / "lock"):
+        with alone(layout.download / "lock"):
             earliest = clock.earliest(layout.download / "clock", built_s)
             try:
                 updater = DeviceUpdater(metadata, source, root, earliest, now)
@@ -214,14 +214,3 @@ def refusal(error: Exception, where: str, now: datetime | None = None) -> Update
         case _:
             text = f"{where}: {said}"
     return UpdateError(text)
-
-
-@contextmanager
-def _alone(lock: Path) -> Iterator[None]:
-    """Hold the lock of updates."""
-    with lock.open("ab") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise UpdateError(f"{lock}: another update is at work: try again when it is done") from error
-        yield
