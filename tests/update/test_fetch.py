@@ -4,6 +4,7 @@ import hashlib
 import os
 import random
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -260,7 +261,7 @@ def test_a_damaged_file_in_the_store_is_fetched_again(tmp_path, serve):
     assert case.is_whole()
 
 
-@pytest.mark.parametrize("installed", [True, False])
+@pytest.mark.parametrize("installed", [True, pytest.param(False, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("how", ["flipped", "short", "long", "gone"])
 def test_files_that_are_not_the_signed_ones_are_refused(tmp_path, serve, how, installed):
     case = Case(tmp_path, serve, installed=installed, new=bank(3))
@@ -408,3 +409,55 @@ def test_a_folder_that_may_not_be_written(tmp_path, serve):
     (case.device.layout.download / "metadata").rename(tmp_path / "metadata")
     (case.device.layout.download / "metadata").write_bytes(b"")
     case.refused("metadata: cannot be read or written")
+
+
+MOUNTED = "mount -t tmpfs -o size={size} none {root} && cp -a {kept}/. {root} && {then} exec {python} -c '{code}' {folder}"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not shutil.which("unshare") or subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode != 0,
+    reason="no file system may be mounted here",
+)
+@pytest.mark.parametrize(
+    ("size", "then", "said"),
+    [
+        ("700k", "", "No space left on device): make room on the disk"),
+        ("64m", "mount -o remount,ro {root} &&", "Read-only file system): see to it that the user haptic-update may write there"),
+    ],
+)
+def test_a_real_disk_that_is_full_or_read_only(tmp_path, serve, size, then, said):
+    case = Case(tmp_path, serve)
+    root = case.device.layout.root
+    kept = root.rename(tmp_path / "kept")
+    root.mkdir()
+    code = FULL.replace("resource.setrlimit(resource.RLIMIT_FSIZE, (250_000, 250_000))", "fetch_module.RESERVE_BYTES = -10**9")
+    code = code.replace("import resource, signal, sys", "import signal, sys, controller.update.fetch as fetch_module")
+    code += 'print(len(list((folder / "haptic-panel" / "download" / "parts").iterdir())))\n'
+    code = code.replace("'", '"')
+    then = then.format(root=root)
+    script = MOUNTED.format(size=size, root=root, kept=kept, then=then, python=sys.executable, code=code, folder=tmp_path)
+    environment = os.environ | {"PYTHONPATH": f"{Path(__file__).parents[2]}:{Path(__file__).parent}"}
+    done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, check=False, env=environment)
+    assert done.returncode == 0, done.stderr
+    line, parts = done.stdout.splitlines()
+    assert line.endswith(said)
+    assert parts == "0"
+
+
+@pytest.mark.slow
+def test_what_is_fetched_of_a_bank_of_which_a_hundredth_has_changed(tmp_path, serve, monkeypatch):
+    """36 MB, 9,000 entries of 4,000 bytes; 90 of them are new."""
+    old = random.Random(1).randbytes(36_000_000)
+    new = changed(old, *random.Random(2).sample(range(9000), 90))
+    case = Case(tmp_path, serve, old, new)
+    case.server.requests.clear()
+    case.server.sent_bytes = 0
+    case.fetch()
+    assert case.is_whole()
+    figures = case.figures
+    print(
+        f"\n{figures.fetched_bytes:,} bytes fetched ({case.server.sent_bytes:,} sent) for a release of {figures.release_bytes:,}"
+        f" ({figures.fetched_bytes / figures.release_bytes:.2%}) in {len(case.server.requests)} requests; {90 * PIECE:,} had changed"
+    )
+    assert figures.fetched_bytes < 0.015 * figures.release_bytes

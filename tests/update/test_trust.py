@@ -2,6 +2,7 @@
 
 import fcntl
 import json
+import os
 import shutil
 from datetime import UTC, datetime, timedelta
 
@@ -49,7 +50,8 @@ class Case:
 
 
 @pytest.fixture
-def case(tmp_path):
+def case(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "fsync", lambda _: None)  # its tests are those of power cuts
     return Case(tmp_path)
 
 
