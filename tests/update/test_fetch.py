@@ -458,6 +458,6 @@ def test_what_is_fetched_of_a_bank_of_which_a_hundredth_has_changed(tmp_path, se
     figures = case.figures
     print(
         f"\n{figures.fetched_bytes:,} bytes fetched ({case.server.sent_bytes:,} sent) for a release of {figures.release_bytes:,}"
-        f" ({figures.fetched_bytes / figures.release_bytes:.2%}) in {len(case.server.requests)} requests; {90 * PIECE:,} had changed"
+        f" ({figures.fetched_bytes / figures.release_bytes:.2%}) in {len(case.server.requests)} requests; {90 * PIECE:,} are new"
     )
     assert figures.fetched_bytes < 0.015 * figures.release_bytes
