@@ -108,7 +108,7 @@ def test_the_command_line_begins_without_any_driver_or_offline_tool():
 def test_no_code_of_the_device_reads_the_clock_of_the_day():
     """It may be set at any time: panels stamp their events, and the loop reads its time, by CLOCK_MONOTONIC."""
     for path in (ROOT / "controller").rglob("*.py"):
-        if OFFLINE & set(path.parts):
+        if OFFLINE & set(path.parts) or path.parent.name == "update":  # what is signed expires on a date
             continue
         for node in ast.walk(ast.parse(path.read_text())):
             name = ast.unparse(node) if isinstance(node, ast.Attribute) else ""

@@ -10,6 +10,12 @@ if TYPE_CHECKING:
     from controller.commands.output import Declare
 
 STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; each is a module `update_NAME` of `commands`
+    "check": "what the repository offers this device, and why it is not taken if it is not",
+    "download": "fetch the release that is offered, without installing it",
+    "install": "fetch the release that is offered, build it beside the one in use, and try it",
+    "status": "which releases this device has, and how a trial stands",
+    "rollback": "go back to the release before",
+    "judge": "judge the release on trial by how its service fares (haptic-panel-trial.service runs it)",
 }
 
 

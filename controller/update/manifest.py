@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import platform
 import re
 import sys
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Annotated, Any, Final
 
 import msgspec
@@ -38,6 +39,19 @@ class ReleaseFile(Record, frozen=True):
     path: Annotated[str, Meta(max_length=240)]
     sha256: Digest
     size_bytes: Count
+
+    def is_whole(self, path: Path) -> bool:
+        """Whether a path leads to this file, unchanged.
+
+        Raises
+        ------
+        OSError
+            If it is absent, or cannot be read.
+        """
+        if path.stat().st_size != self.size_bytes:
+            return False
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest() == self.sha256
 
     @property
     def target(self) -> str:

@@ -40,12 +40,15 @@ class Source(FetcherInterface):
     ----------
     address : str
         Of the repository: `metadata/` and `targets/` are below it. Without a slash at its end.
+    name : str
+        What it is called in errors.
     fetched_bytes : int
         Bytes read so far.
     """
 
     def __init__(self, address: str) -> None:
         self.address = address.rstrip("/")
+        self.name = self.address.removeprefix("file://")
         self.fetched_bytes = 0
 
     @abstractmethod
@@ -125,6 +128,8 @@ class HttpSource(Source):
 
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
         """Ask for a file, or a range of it; a part of it is refused unless it is exactly what was asked for."""
+        if length == 0:
+            return
         headers = {**self._http.headers}
         if start or length is not None:
             headers["Range"] = f"bytes={start}-" + ("" if length is None else f"{start + length - 1}")
@@ -283,3 +288,5 @@ def _told(url: str, gap_s: float) -> Iterator[None]:
         if isinstance(cause, urllib3.exceptions.TimeoutError) and not isinstance(cause, urllib3.exceptions.NewConnectionError):
             raise SlowRetrievalError(f"{url}: the server said nothing for {gap_s:g} s: try again; what came is kept") from error
         raise DownloadError(f"{url}: the connection broke ({cause}): try again; what came is kept") from error
+    except (ValueError, OSError) as error:
+        raise DownloadError(f"{url}: cannot be asked for ({error}): is the address right?") from error

@@ -42,7 +42,7 @@ if [ ! -e "$done" ]; then
   /sbin/depmod -b "$root" "$version"
   mkdir "$work/ready"
   "$here/make_initrd.sh" "$root" "$version" "$root/bin/busybox" "$work/ready/initrd" \
-    virtio_pci 9pnet_virtio 9p virtio_console evdev uinput i2c-dev softdog configfs "$work/gpio-sim/gpio-sim.ko" "$work/labdev/labdev.ko" >>"$log" 2>&1
+    virtio_pci 9pnet_virtio 9p overlay virtio_console evdev uinput i2c-dev softdog configfs "$work/gpio-sim/gpio-sim.ko" "$work/labdev/labdev.ko" >>"$log" 2>&1
   cp "$root/boot/vmlinuz-$version" "$work/ready/vmlinuz"
   cp "$root/bin/busybox" "$work/ready/busybox"
   sync

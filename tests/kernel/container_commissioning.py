@@ -45,7 +45,7 @@ def blocks(document, heading):
     return [block.splitlines() for block in found]
 
 
-PACKAGE, SYSTEM, SERVICE = blocks("systemd/README.md", "Install")
+PACKAGE, SYSTEM, ADOPT, SERVICE = blocks("systemd/README.md", "Install")
 STEPS = blocks("boards/README.md", "A panel of your own")[0]
 HOME = Path("/root")
 
@@ -135,20 +135,21 @@ def step(wanted):
 
 
 def test_the_package_the_user_and_the_unit_are_installed_as_written():
-    shutil.move("/opt/haptic-panel", "/opt/running-the-tests")
+    Path("/opt/haptic-panel/current").unlink()
+    shutil.rmtree("/opt/haptic-panel/state")
     shutil.rmtree("/etc/haptic-panel")
     shutil.rmtree("/var/lib/haptic-panel")
     for line in PACKAGE:
         done(line, folder=CHECKOUT)
     for line in SYSTEM:
-        if "udevadm" not in line:  # a container has no devices of its own
+        if "udevadm" not in line and " /usr/" not in line:  # a container has no devices of its own, and its /usr is this machine's
             done(line, folder=CHECKOUT)
+    for line in ADOPT:
+        done(line)
     PANEL.belongs_to("dialout")
 
 
-def test_a_copied_board_is_made_ones_own_and_the_shell_finds_the_command():
-    assert STEPS[0].startswith("PATH=")
-    ENVIRONMENT["PATH"] = done(f"{STEPS[0]}; echo $PATH").strip()
+def test_a_copied_board_is_made_ones_own():
     done(step("cp -r"))
     board = Path("/etc/haptic-panel/boards/panel/board.toml")
     TOOLS.mkdir()

@@ -125,7 +125,7 @@ def test_a_changed_scene_is_taken_over_and_a_wrong_one_is_not():
 
 def as_user(name, *command):
     """The client of the package, as somebody who has just logged in."""
-    client = ["/opt/haptic-panel/bin/python", "-m", "controller.application_socket.client", *command]
+    client = ["/opt/haptic-panel/current/venv/bin/python", "-m", "controller.application_socket.client", *command]
     become = ["setpriv", f"--reuid={name}", f"--regid={name}", "--init-groups", "--"]
     return subprocess.run([*become, *client], cwd="/", check=False, capture_output=True, text=True)
 
@@ -197,6 +197,7 @@ def test_hanging_it_is_ended_by_the_watchdog_and_started_again():
     wait_for("the restart", lambda: restarted(pid))
     assert "Watchdog timeout (limit 3s)!" in journal()
     assert "code=killed, status=6/ABRT" in journal()
+    assert "Fatal Python error: Aborted" in journal()
 
 
 def test_stopped_it_ends_as_a_success():
@@ -223,7 +224,7 @@ def test_a_bank_cut_short_under_it_ends_it_and_is_refused():
     (bank,) = Path("/var/lib/haptic-panel/banks").glob("*.bank")
     settings = Path(f"/run/systemd/system/{UNIT}.service.d/bank.conf")
     settings.parent.mkdir(parents=True)
-    settings.write_text(f"[Service]\nExecStart=\nExecStart=/opt/haptic-panel/bin/haptic-panel run --board panel --bank {bank}\n")
+    settings.write_text(f"[Service]\nExecStart=\nExecStart=/usr/bin/haptic-panel run --board panel --bank {bank}\n")
     run("systemctl", "daemon-reload")
     pid = fresh_start()
     whole = bank.read_bytes()

@@ -16,7 +16,9 @@ make=make_tree.sh
 ! grep -qE '^(import|from) the_package' "${@:2}" || make=make_debian_tree.sh
 "$here/$make" "$1" "$tree" "${@:2}"
 binds=()
-while read -r from to; do binds+=("--bind-ro=$from:$to"); done <"$tree/binds"
+while read -r from to; do
+  if [ "$to" = /usr ]; then binds+=("--overlay-ro=$from:$tree/over:$to"); else binds+=("--bind-ro=$from:$to"); fi
+done <"$tree/binds"
 exec 3> >(exec sed -u 's/\r//g' | tee "$tree/log")
 printer=$!
 "${as_root[@]}" setpriv --pdeathsig TERM env SYSTEMD_NSPAWN_UNIFIED_HIERARCHY=1 \

@@ -31,7 +31,13 @@ if [ "$systemd" ]; then
   "$here/make_tree.sh" "$python" "$run/tree" "$@"
   {
     printf 'mount -t tmpfs -o mode=755 tmpfs /mnt; cp -a %q/. /mnt\n' "$run/tree"
-    while read -r from to; do printf 'mount --bind %q /mnt%q\n' "$from" "$to"; done <"$run/tree/binds"
+    while read -r from to; do
+      if [ "$to" = /usr ]; then
+        printf 'mount -t overlay -o ro,lowerdir=/mnt/over:%q overlay /mnt/usr\n' "$from"
+      else
+        printf 'mount --bind %q /mnt%q\n' "$from" "$to"
+      fi
+    done <"$run/tree/binds"
     echo 'for folder in /dev /proc /sys; do mount --move $folder /mnt$folder; done'
     printf 'cd /mnt; mkdir host; %q pivot_root . host\n' "$guest/busybox"
     echo 'exec chroot . /usr/lib/systemd/systemd </dev/console >/dev/console 2>&1'

@@ -158,7 +158,7 @@ def test_it_may_open_its_own_devices_and_no_others():
     devices = ["/dev/spidev0.0", "/dev/i2c-0", f"/dev/{bench().lines.chip}", bench().panel.path, "/dev/labi2c", "/dev/uinput"]
     (settings / "probe.conf").write_text(
         "[Service]\nType=oneshot\nWatchdogSec=0\nRestart=no\nExecStart=\n"
-        f"ExecStart=/opt/haptic-panel/bin/python {probe} {' '.join(devices)}\n"
+        f"ExecStart=/opt/haptic-panel/current/venv/bin/python {probe} {' '.join(devices)}\n"
     )
     run("systemctl", "daemon-reload")
     try:

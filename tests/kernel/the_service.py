@@ -24,11 +24,11 @@ def run(*command, cwd=CHECKOUT):
 
 
 def install(*skipped):
-    """The steps of systemd/README.md that follow the package, but for those that name what is not here."""
+    """The steps of systemd/README.md that follow the package, but for those that name what is not here, or is there already."""
     blocks = re.findall(r"^```sh\n(.*?)^```", (CHECKOUT / "systemd/README.md").read_text(), re.MULTILINE | re.DOTALL)
     (steps,) = [block for block in blocks if "systemd-sysusers" in block]
     for step in steps.splitlines():
-        if not any(name in step for name in skipped):
+        if not any(name in step for name in (" /usr/", *skipped)):
             run("sh", "-c", step)
 
 

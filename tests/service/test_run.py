@@ -17,11 +17,13 @@ import tty
 from pathlib import Path
 
 import pytest
-from patience import communicate
+from patience import communicate, wait_for
 
 from controller.application_socket.client import PanelClient
 from controller.bank_builder.build import build_bank
 from controller.board.board import load_board
+from controller.board.panel_state import PanelState
+from controller.board.panel_status import read_now, read_status
 from controller.errors import ControllerError
 from controller.fpga.build_parameters import BuildParameters
 from controller.gateware_model.model import GatewareModel
@@ -571,24 +573,39 @@ def test_a_panel_that_is_absent_at_the_start_is_waited_for_while_commands_play(f
     assert figures["emissions"] >= 2
 
 
-def test_an_fpga_that_is_absent_at_the_start_is_waited_for_lost_and_taken_again(folder, panel, bank, manager):
+def test_an_fpga_that_is_absent_at_the_start_is_waited_for_lost_and_taken_again(folder, panel, bank, manager, tmp_path):
     board = at_a_serial_port(folder)
-    service = Service(folder, bank, environment=manager.environment, before=PATIENT_LINK)
+    service = Service(folder, bank, environment=manager.environment | {"RUNTIME_DIRECTORY": str(tmp_path)}, before=PATIENT_LINK)
+
+    def written(like):
+        """The status file, once it is like this."""
+        file = tmp_path / "status.json"
+        wait_for("the status", lambda: (status := read_status(file)) is not None and like(status))
+        return read_status(file)
+
     assert "there is no serial port" in service.says("outputs off: waiting for FPGA")
     assert manager.hears("READY", "1")["STATUS"].startswith("waiting for FPGA")
+    assert "there is no serial port" in written(lambda status: status.state is PanelState.WAITING_FOR_FPGA).cause
     with service.client() as client:
         assert client.figures()["state"] == "waiting for FPGA"
         assert client.play("click", at_mm=(50, 50)).outcome == "refused"
-    for _ in range(2):  # the second time the port has gone under the running service
+    for number in (1, 2):  # the second time the port has gone under the running service
         with an_fpga(board, folder / "fpga"):
             service.says("the outputs are on")
             with service.client() as client:
                 until_played(client)
+            playing = written(lambda status, number=number: status.emissions >= number)
+            assert (playing.pid, playing.outputs_on) == (service.process.pid, True)
+            assert playing.upload.count + playing.resident.count == playing.emissions
         with service.client() as client:
             until_state(client, "waiting for FPGA")
+        lost = written(lambda status: status.state is PanelState.WAITING_FOR_FPGA)
+        assert (lost.outages, lost.outage_causes, lost.outputs_on) == (number, {"LINK": number}, False)
     figures, code = service.end()
     assert (code, figures["state"]) == (0, "waiting for FPGA")
     assert figures["emissions"] >= 2
+    status, old = read_now(tmp_path / "status.json")
+    assert (status.ended, status.outages, old) == (True, 2, "the service has ended")
 
 
 def test_without_a_permit_it_says_so_and_serves(folder, panel, bank, manager):

@@ -1,0 +1,53 @@
+"""`haptic-panel update install`: fetch the release that is offered, build it beside the one in use, and ask for its trial."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from controller.commands.output import progress_bar, show
+from controller.commands.update_check import at_work, check, declare_source
+from controller.commands.update_download import download
+from controller.errors import UpdateError
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    declare_source(step)
+    step.add_argument("--automatic", action="store_true", help="do what `automatic` of update.toml says (for the timer)")
+    step.set_defaults(command=install)
+
+
+def install(options: argparse.Namespace) -> int:
+    """Install the release; raises if it is refused."""
+    from controller.update.fetch import Figures, fetch
+    from controller.update.install import install, prune
+    from controller.update.requests import ask
+    from controller.update.trial import keep_before
+
+    figures = Figures()
+    with at_work() as (layout, settings):
+        if options.automatic and not settings.source:
+            show(options, {"version": None, "why": "no source is set"}, lambda _: "update.toml names no source: nothing to do")
+            return 0
+        if options.automatic and settings.automatic != "install":
+            return {"check": check, "download": download}[settings.automatic](options)
+        if trial := layout.word("trial"):
+            raise UpdateError(f"{layout.state / 'trial'}: release {trial} is on trial: wait until it is decided (update status)")
+        manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
+    told: dict[str, Any] = {"version": manifest.version, "new": True, "fetched_bytes": figures.fetched_bytes}
+    told["release_bytes"] = manifest.total_bytes
+    if layout.current.is_symlink() and layout.current.readlink().name == manifest.version:
+        show(options, told | {"new": False}, lambda _: f"{manifest.version} is in use: nothing to do")
+        return 0
+    prune(layout, manifest)
+    install(layout, manifest, progress_bar("steps of the installation"))
+    keep_before(layout)
+    ask(layout, "trial", manifest.version)
+    show(options, told, _table)
+    return 0
+
+
+def _table(figures: dict[str, Any]) -> str:
+    fetched = f"{figures['fetched_bytes']:,} bytes fetched for {figures['release_bytes']:,}"
+    return f"{figures['version']} is installed ({fetched}), and is tried now: haptic-panel update status"

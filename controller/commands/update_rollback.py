@@ -1,0 +1,30 @@
+"""`haptic-panel update rollback`: back to the release before, by hand."""
+
+from __future__ import annotations
+
+import argparse
+
+from controller.commands.output import show
+from controller.errors import UpdateError
+from controller.update.identity import become_update_user
+from controller.update.installed import update_state
+from controller.update.layout import Layout
+from controller.update.requests import ask
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    step.set_defaults(command=rollback)
+
+
+def rollback(options: argparse.Namespace) -> int:
+    """Ask for it; raises if there is nothing to go back to."""
+    layout = Layout.from_environment()
+    become_update_user(layout)
+    state = update_state(layout)
+    target = state.stays if state.trial else state.previous
+    if not layout.is_complete(target):
+        raise UpdateError(f"{layout.releases}: there is no release before {state.in_use or 'this one'} to go back to")
+    ask(layout, "rollback", state.in_use or state.stays)
+    show(options, {"from": state.in_use, "to": target}, lambda told: f"back to {told['to']}; {told['from']} is not tried again")
+    return 0

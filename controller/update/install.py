@@ -1,0 +1,156 @@
+"""A release from the store, built beside those that are there: at its final path, whole before it may be started."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+from controller.errors import UpdateError
+from controller.update.durable import write_durably
+from controller.update.installed import manifest_of
+from controller.update.layout import COMPLETE, MANIFEST, Layout
+from controller.update.lock import alone
+from controller.update.manifest import FALL_BACK_INTERFACE, Manifest, ReleaseFile, this_platform
+
+WHEELS: Final = "wheels/"
+STEPS: Final = 5  # that `install` tells of
+Progress = Callable[[int, int], None]
+
+
+def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _done, _all: None) -> None:
+    """Build a release; where it is complete already, nothing is done.
+
+    Its environment is built where it stays: its files have paths of it. `.complete` is written last, after all else is on the disk.
+    What an interrupted installation left is removed first.
+
+    Parameters
+    ----------
+    layout : Layout
+    manifest : Manifest
+        Its files are in the store.
+    progress : callable, optional
+        Called with steps done, and all.
+
+    Raises
+    ------
+    UpdateError
+        If the release is for another Python, computer or package, a file in the store is damaged or absent, it does not start,
+        or the disk is full. Nothing of it is left then.
+    """
+    folder, name = layout.release(manifest.version), f"release {manifest.version}"
+    if manifest.platform != this_platform():
+        raise UpdateError(f"{name} is for {manifest.platform}, and this is {this_platform()}: fetch the one for this platform")
+    if manifest.fall_back > FALL_BACK_INTERFACE:
+        raise UpdateError(f"{name} needs a newer Debian package haptic-panel (fall-back {manifest.fall_back}): install that first")
+    with alone(layout.download / "install.lock"):
+        if layout.is_complete(manifest.version):
+            if (folder / MANIFEST).read_bytes() != manifest.to_json():
+                raise UpdateError(f"{folder}: another {name} is installed: what differs needs another version")
+            return
+        remove(folder)
+        try:
+            _build(layout, manifest, folder, progress)
+        except BaseException as error:
+            remove(folder)
+            if isinstance(error, OSError):
+                raise UpdateError(f"{folder}: cannot be built ({error.strerror or error}); nothing of it is left") from error
+            raise
+
+
+def prune(layout: Layout, coming: Manifest) -> list[str]:
+    """Remove releases that nothing leads to any more, and files of the store that no release has; versions of those removed.
+
+    Parameters
+    ----------
+    layout : Layout
+    coming : Manifest
+        The release that is about to be installed; its files are kept.
+    """
+    wanted = {layout.word("current"), layout.word("previous"), layout.word("trial"), coming.version}
+    if layout.current.is_symlink():
+        wanted.add(layout.current.readlink().name)
+    removed = [folder for folder in layout.releases.iterdir() if folder.name not in wanted]
+    with alone(layout.download / "install.lock"):
+        for folder in removed:
+            remove(folder)
+        manifests = [coming, *(found for folder in layout.releases.iterdir() if (found := manifest_of(folder)))]
+        kept = {file.sha256 for manifest in manifests for file in manifest.files}
+        for file in layout.store.iterdir():
+            if file.name not in kept:
+                file.unlink()
+    return sorted(folder.name for folder in removed)
+
+
+def remove(folder: Path) -> None:
+    """Remove a release, its mark first: at no time is there one that is called complete and is not."""
+    (folder / COMPLETE).unlink(missing_ok=True)
+    if folder.exists():
+        _sync(folder.parent)
+        shutil.rmtree(folder)
+
+
+def _build(layout: Layout, manifest: Manifest, folder: Path, progress: Progress) -> None:
+    wheels = folder / "wheels"
+    wheels.mkdir(parents=True)
+    for file in manifest.files:
+        _link(layout, file, folder / file.path)
+    progress(1, STEPS)
+    base = Path(sys.base_prefix) / "bin" / f"python{manifest.python}"
+    _run([base, "-I", "-m", "venv", "--without-pip", folder / "venv"], folder)
+    python = folder / "venv/bin/python"
+    progress(2, STEPS)
+    pips = sorted(wheels.glob("pip-*.whl"))
+    if len(pips) != 1:
+        raise UpdateError(f"release {manifest.version} has {len(pips)} wheels of pip, and needs one to be installed with")
+    requirements = wheels / "requirements.txt"
+    listed = {Path(file.path).name: file.sha256 for file in manifest.files if file.path.startswith(WHEELS)}
+    lines = [f"./{name} --hash=sha256:{digest}\n" for name, digest in sorted(listed.items()) if name != pips[0].name]
+    requirements.write_text("".join(lines), encoding="utf-8")
+    options = ["--quiet", "--no-index", "--no-deps", "--no-compile", "--no-cache-dir", "--disable-pip-version-check", "--no-input"]
+    if lines:
+        _run([python, "-I", pips[0] / "pip", "install", *options, "--require-hashes", "-r", requirements.name], wheels)
+    shutil.rmtree(wheels)
+    progress(3, STEPS)
+    # without times of files: they are not those of the wheels, and nobody may write into a release
+    _run([python, "-I", "-m", "compileall", "-q", "--invalidation-mode", "unchecked-hash", folder / "venv/lib"], folder)
+    (folder / MANIFEST).write_bytes(manifest.to_json())
+    _run([python, "-I", "-m", "controller", "--version"], folder)
+    progress(4, STEPS)
+    _sync(folder)
+    write_durably(folder / COMPLETE, b"")
+    _sync(folder)
+    progress(STEPS, STEPS)
+
+
+def _link(layout: Layout, file: ReleaseFile, path: Path) -> None:
+    """A file of a release: the one in the store, found to be whole."""
+    stored = layout.store / file.sha256
+    try:
+        whole = file.is_whole(stored)
+    except FileNotFoundError:
+        raise UpdateError(f"{stored}: {file.path} is not there: haptic-panel update download") from None
+    if not whole:
+        raise UpdateError(f"{stored}: {file.path} is damaged: haptic-panel update download fetches it again")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.hardlink_to(stored)
+
+
+def _run(command: list[str | Path], folder: Path) -> None:
+    done = subprocess.run(
+        list(map(str, command)), cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        said = (done.stderr.strip() or done.stdout.strip() or f"exit code {done.returncode}").splitlines()[-1]
+        what = next((str(word) for word in command[2:] if str(word) in ("venv", "install", "compileall", "controller")), "")
+        raise UpdateError(f"{folder}: {what} failed: {said}; nothing of it is left")
+
+
+def _sync(folder: Path) -> None:
+    """Have everything that was written to this file system on the disk (syncfs): one call, not one a file."""
+    done = subprocess.run(["sync", "-f", str(folder)], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise UpdateError(f"{folder}: cannot be written: {done.stderr.strip()}")

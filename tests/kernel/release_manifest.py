@@ -1,0 +1,18 @@
+"""Prints the manifest of this checkout as a release, for trees of make_tree.sh.
+
+usage: release_manifest.py VERSION
+"""
+
+import platform
+import sys
+
+from controller.bank.file_format import VERSION as BANK_FORMAT
+from controller.fpga.registers import PROTOCOL_VERSION
+from controller.service.drivers import gateware_hash
+from controller.update.manifest import Manifest
+
+manifest = Manifest(
+    version=sys.argv[1], counter=1, python=f"3.{sys.version_info[1]}", architecture=platform.machine(), protocol=PROTOCOL_VERSION,
+    gateware_hash=f"{gateware_hash():08x}", bank_format=BANK_FORMAT, settings_format=1, files=[],
+)  # fmt: skip
+sys.stdout.write(manifest.to_json().decode())

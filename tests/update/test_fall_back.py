@@ -1,0 +1,354 @@
+"""The fall-back script, cut at every step and given every kind of state: there is always a whole release to start."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from controller.update.layout import Layout
+
+SCRIPT = Path(__file__).parents[2] / "systemd/fall-back"
+CUT_AT = ("mv", "sync", "ln", "rm")  # commands of the script that change something
+
+
+class Device:
+    """Releases in a folder, and a systemctl that says what the controller does."""
+
+    def __init__(self, root):
+        self.layout = Layout(root)
+        for folder in (self.layout.state, self.layout.requests, self.layout.releases):
+            folder.mkdir(parents=True)
+        self.tools = root / "tools"
+        self.tools.mkdir()
+        self.unit_state("active")
+        self.run("boot")
+
+    def unit_state(self, state):
+        systemctl = self.tools / "systemctl"
+        systemctl.write_text(f'#!/bin/sh\necho "$*" >>{self.tools}/asked\ncase $1 in show) echo {state} ;; esac\n')
+        systemctl.chmod(0o755)
+
+    def asked(self):
+        """What was asked of systemctl since the last time, without questions."""
+        file = self.tools / "asked"
+        lines = file.read_text().splitlines() if file.exists() else []
+        file.unlink(missing_ok=True)
+        return [line for line in lines if not line.startswith("show")]
+
+    def add(self, version, *, complete=True):
+        python = self.layout.release(version) / "venv/bin/python"
+        python.parent.mkdir(parents=True)
+        python.symlink_to("/bin/sh")
+        if complete:
+            (self.layout.release(version) / ".complete").touch()
+
+    def run(self, *command, path=""):
+        environment = {
+            "HAPTIC_PANEL_ROOT": str(self.layout.root),
+            "SYSTEMCTL": str(self.tools / "systemctl"),
+            "PATH": f"{path}/usr/bin:/bin",
+        }
+        return subprocess.run([SCRIPT, *command], env=environment, capture_output=True, text=True, check=False)
+
+    def ask(self, name, version, **options):
+        (self.layout.requests / name).write_text(f"{version}\n")
+        return self.run("requests", **options)
+
+    @property
+    def current(self):
+        return self.layout.current.readlink().name if self.layout.current.is_symlink() else ""
+
+    @property
+    def failed(self):
+        file = self.layout.state / "failed"
+        return file.read_text().split() if file.exists() else []
+
+
+@pytest.fixture
+def device(tmp_path):
+    """One that uses release 1.0, and has 2.0 installed."""
+    made = Device(tmp_path / "root")
+    made.add("1.0")
+    assert made.run("adopt", "1.0").returncode == 0
+    made.add("2.0")
+    made.add("3.0", complete=False)
+    return made
+
+
+def test_a_trial_that_is_called_good_stays(device):
+    device.ask("trial", "2.0")
+    assert device.current == "1.0", "nothing is switched while the controller runs"
+    assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
+    assert "release 2.0 is on trial, start 1 of 3" in device.run("boot").stderr
+    assert device.current == "2.0"
+    device.ask("good", "2.0")
+    assert not device.asked(), "it plays on"
+    assert [device.layout.word(name) for name in ("current", "previous", "trial")] == ["2.0", "1.0", ""]
+    device.run("boot")
+    assert device.current == "2.0"
+
+
+def test_a_trial_that_never_serves_is_given_up_after_three_starts_and_not_tried_again(device):
+    device.ask("trial", "2.0")
+    for _ in range(3):
+        device.run("boot")
+        assert device.current == "2.0"
+    assert "release 2.0 was started 3 times and did not serve" in device.run("boot").stderr
+    assert (device.current, device.failed) == ("1.0", ["2.0"])
+    device.asked()
+    assert "it has failed before" in device.ask("trial", "2.0").stderr
+    assert not device.asked()
+    device.run("boot")
+    assert device.current == "1.0"
+
+
+def test_a_trial_that_stands_and_is_not_judged_yet_survives_any_number_of_starts(device):
+    device.ask("trial", "2.0")
+    for _ in range(10):
+        device.run("boot")
+        device.ask("stands", "2.0")
+    assert (device.current, device.failed) == ("2.0", [])
+
+
+@pytest.mark.parametrize("how", ["bad", "failed", "late"])
+def test_a_trial_that_fails_is_given_up_at_once(device, how):
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.asked()
+    device.unit_state("activating")
+    if how == "bad":
+        device.ask("bad", "2.0")
+    else:
+        device.run(how)
+    assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
+    device.run("boot")
+    assert (device.current, device.failed) == ("1.0", ["2.0"])
+
+
+@pytest.mark.parametrize("how", ["failed", "late"])
+def test_what_is_no_trial_is_not_given_up(device, how):
+    device.unit_state("activating")
+    device.run(how)
+    device.unit_state("active")
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.asked()
+    if how == "late":  # ready in time
+        device.run(how)
+        assert device.layout.word("trial") == "2.0"
+    assert (device.asked(), device.failed) == ([], [])
+
+
+def test_back_by_hand(device):
+    assert "there is no release before" in device.ask("rollback", "1.0").stderr
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.ask("good", "2.0")
+    device.ask("rollback", "2.0")
+    device.run("boot")
+    assert (device.current, device.failed) == ("1.0", ["2.0"])
+
+
+@pytest.mark.parametrize("version", ["3.0", "4.0", "../1.0", "-rf", "", ".hidden", "x" * 65, "2.0/../2.0"])
+def test_what_is_no_complete_release_is_not_tried(device, version):
+    assert "haptic-panel: " in device.ask("trial", version).stderr
+    assert not list(device.layout.requests.iterdir())
+    assert device.layout.word("trial") == ""
+    device.run("boot")
+    assert device.current == "1.0"
+
+
+def test_a_controller_that_an_operator_has_stopped_stays_so(device):
+    device.unit_state("inactive")
+    device.ask("trial", "2.0")
+    assert not device.asked()
+    device.run("boot")
+    assert device.current == "2.0"
+
+
+def test_requests_that_mean_nothing_are_dropped(device):
+    (device.layout.requests / "format-disk").write_text("1.0\n")
+    (device.layout.requests / "trial").mkdir()
+    (device.layout.requests / "good").symlink_to("/etc/passwd")
+    device.run("requests")
+    assert not list(device.layout.requests.iterdir())
+    assert device.current == "1.0"
+
+
+@pytest.mark.parametrize("name", ["current", "previous", "trial", "tries", "failed"])
+@pytest.mark.parametrize("damage", [b"", b"\0" * 100, b"../../etc\n", b"-rf\n", b"9.9\n", bytes(range(256)) * 20])
+def test_a_damaged_state_still_starts_a_whole_release(device, name, damage):
+    device.ask("trial", "2.0")
+    device.run("boot")
+    (device.layout.state / name).write_bytes(damage)
+    for _ in range(2):
+        assert device.run("boot").returncode == 0
+        assert device.layout.is_complete(device.current)
+
+
+def test_where_a_start_cannot_be_counted_the_trial_is_not_started(device):
+    device.ask("trial", "2.0")
+    full = device.tools / "full"
+    full.mkdir()
+    (full / "sync").write_text("#!/bin/sh\nexit 1\n")
+    (full / "sync").chmod(0o755)
+    assert "its start cannot be counted" in device.run("boot", path=f"{full}:").stderr
+    assert (device.current, device.failed) == ("1.0", [])
+
+
+def test_without_any_release_it_says_so(tmp_path):
+    device = Device(tmp_path / "root")
+    done = device.run("boot")
+    assert done.returncode == 1
+    assert "no release is complete: install the package again" in done.stderr
+
+
+def test_where_all_have_failed_the_newest_is_used(device):
+    (device.layout.state / "failed").write_text("1.0\n2.0\n")
+    (device.layout.state / "current").unlink()
+    device.layout.current.unlink()
+    device.run("boot")
+    assert device.current == "2.0"
+
+
+def cutting(device, number, before):
+    """A folder of commands of which the one with this number kills the script, before it does its work or after."""
+    folder = device.tools / "cutting"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for name in CUT_AT:
+        do = f'/bin/{name} "$@"; code=$?'
+        kill = f"n=$(cat {folder}/count); if [ $n = {number} ]; then {'' if before else do + ';'} kill -9 $PPID; exit; fi"
+        (folder / name).write_text(f"#!/bin/sh\necho $(($(cat {folder}/count) + 1)) >{folder}/count\n{kill}\n{do}\nexit $code\n")
+        (folder / name).chmod(0o755)
+    (folder / "count").write_text("0\n")
+    return f"{folder}:"
+
+
+WANTED = {"trial": "2.0", "boot": "2.0", "last boot": "1.0", "good": "2.0", "bad": "1.0", "rollback": "1.0", "stands": "2.0"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["trial", "boot", "last boot", "good", "bad", "failed", "stands", "rollback", "adopt", "damaged"])
+def test_cut_at_any_command_the_next_start_ends_on_a_whole_release(tmp_path, what):
+    """Killed before and after each command that changes something; the wanted end is reached by doing it again."""
+    points = 0
+    for number in range(1, 100):
+        counts = set()
+        for before in (True, False):
+            device = Device(tmp_path / f"{number}-{before}")
+            device.add("1.0")
+            device.add("2.0")
+            device.run("adopt", "1.0")
+            if what != "trial":
+                device.ask("trial", "2.0")
+            for _ in range({"last boot": 3, "boot": 0, "trial": 0}.get(what, 1)):
+                device.run("boot")
+            if what == "rollback":
+                device.ask("good", "2.0")
+            if what == "damaged":
+                (device.layout.state / "current").write_bytes(b"\0\0")
+            path = cutting(device, number, before)
+            if what in ("trial", "good", "bad", "stands", "rollback"):
+                device.ask(what, "2.0", path=path)
+            elif what == "adopt":
+                device.run("adopt", "2.0", path=path)
+            else:
+                device.run("failed" if what == "failed" else "boot", path=path)
+            counts.add(int((device.tools / "cutting/count").read_text()))
+            for command in (("boot",), ("requests",), ("boot",)):
+                device.run(*command)
+                assert not device.current or device.layout.is_complete(device.current), (number, before, command)
+            assert device.current
+            allowed = {
+                "trial": "2.0",
+                "boot": "2.0",
+                "last boot": "1.0",
+                "good": "2.0",
+                "bad": "1.0",
+                "rollback": "1.0",
+                "stands": "2.0",
+            }
+            if what in allowed:
+                assert device.current == allowed[what], (number, before)
+            shutil.rmtree(device.layout.root)
+        if max(counts) < number:
+            break
+        points += 2
+    print(f"{what}: {points} points")
+    assert points >= 4
+
+
+class Life(RuleBasedStateMachine):
+    """Whatever is asked, started and lost in whatever order."""
+
+    versions = st.sampled_from(["1.0", "2.0", "3.0", "4.0"])
+
+    @initialize()
+    def begin(self):
+        import tempfile
+
+        self.folder = tempfile.TemporaryDirectory()
+        self.device = Device(Path(self.folder.name) / "root")
+        for version in ("1.0", "2.0", "3.0"):
+            self.device.add(version)
+        self.device.run("adopt", "1.0")
+        self.starts = 0  # of the trial in a row, without a word for it
+        self.on_trial = ""
+        self.ever_failed = set()
+
+    @rule(version=versions)
+    def try_it(self, version):
+        self.device.ask("trial", version)
+        if self.device.layout.word("trial") == version:
+            self.starts = 0
+            assert version not in self.ever_failed
+
+    @rule()
+    def start(self):
+        self.device.run("boot")
+        trial = self.device.layout.word("trial")
+        assert not trial or trial == self.device.current
+        self.starts = self.starts + 1 if trial else 0
+        assert self.starts <= 3
+
+    @rule(name=st.sampled_from(["good", "bad", "stands", "rollback"]), version=versions)
+    def judge(self, name, version):
+        before = self.device.layout.word("current")
+        trial = self.device.layout.word("trial")
+        self.device.ask(name, version)
+        if name == "stands" and version == trial:
+            self.starts = 0
+        if name == "good" and version != trial:
+            assert self.device.layout.word("current") == before
+
+    @rule(how=st.sampled_from(["failed", "late"]))
+    def fail(self, how):
+        self.device.unit_state("activating")
+        self.device.run(how)
+        self.device.unit_state("active")
+
+    @precondition(lambda self: self.device.layout.word("current") != "1.0")
+    @rule()
+    def lose_a_release(self):
+        (self.device.layout.release("1.0") / ".complete").unlink(missing_ok=True)
+
+    @invariant()
+    def there_is_a_release_and_what_has_failed_is_remembered(self):
+        if hasattr(self, "device"):
+            self.ever_failed |= set(self.device.failed)
+            assert self.ever_failed == set(self.device.failed)
+
+    def teardown(self):
+        if hasattr(self, "device"):
+            self.device.run("boot")
+            assert self.device.layout.is_complete(self.device.current)
+            self.folder.cleanup()
+
+
+TestLife = Life.TestCase
+TestLife.settings = settings(max_examples=4, stateful_step_count=12, deadline=None, suppress_health_check=list(HealthCheck))
