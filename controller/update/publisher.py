@@ -26,6 +26,7 @@ from tuf.api.metadata import Key, Metadata, Root, Signed, Targets
 from tuf.api.serialization.json import JSONSerializer
 
 from controller.errors import UpdateError
+from controller.update.clock import ISSUED, as_text
 from controller.update.durable import sync_folder, write_durably
 from controller.update.keys import owner
 
@@ -287,7 +288,7 @@ class Repository:
 
 def issue(timestamp: Signed, now: datetime) -> None:
     """Say in a timestamp when it was made: devices without a clock take it for the least that the time can be."""
-    timestamp.unrecognized_fields["x-issued"] = now.strftime("%Y-%m-%dT%H:%M:%SZ")
+    timestamp.unrecognized_fields[ISSUED] = as_text(now)
 
 
 def _read(file: Path) -> Metadata[Any]:

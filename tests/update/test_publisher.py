@@ -78,3 +78,31 @@ def test_nothing_is_published_by_one_signature_of_two(tmp_path, repository):
     assert client(repository.folder, tmp_path / "client", repository.root_json.read_bytes()).get_targetinfo("channels/stable.json") is None
     assert repository.sign("bob")
     assert client(repository.folder, tmp_path / "client", repository.root_json.read_bytes()).get_targetinfo("channels/stable.json")
+
+
+def command(*words):
+    from controller.cli import main
+
+    return main(["update", "repository", *map(str, words)])
+
+
+def test_the_private_part_of_a_key_needs_its_passphrase(keys):
+    public = new_key(keys / "alice.pem", PASSPHRASE)
+    assert (keys / "alice.pem").stat().st_mode & 0o777 == 0o600
+    assert open_key(keys / "alice.pem", PASSPHRASE).public_key.keyid == read_public(public).keyid
+    before = (keys / "alice.pem").read_bytes()
+    refused(lambda: open_key(keys / "alice.pem", "wrong"), "alice.pem: the passphrase does not open it")
+    refused(lambda: open_key(keys / "bob.pem", PASSPHRASE), "bob.pem: the key cannot be read")
+    refused(lambda: open_key(public, PASSPHRASE), "alice.pub: is no key that a passphrase protects")
+    refused(lambda: new_key(keys / "alice.pem", PASSPHRASE), "never overwritten")
+    refused(lambda: new_key(keys / "carol.pem", "short"), "too short")
+    assert (keys / "alice.pem").read_bytes() == before
+    assert not (keys / "carol.pem").exists()
+
+
+def test_one_key_cannot_count_as_two(keys):
+    public = new_key(keys / "alice.pem", PASSPHRASE)
+    text = public.read_text()
+    key_id = read_public(public).keyid
+    public.write_text(text.replace(key_id, key_id[::-1]))
+    refused(lambda: read_public(public), "alice.pub: is no public part of a key")
