@@ -6,7 +6,6 @@ import argparse
 import getpass
 import os
 import sys
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -94,23 +93,23 @@ def make_repository(options: argparse.Namespace) -> int:
     """Draft a repository."""
     from controller.update.keys import read_public
     from controller.update.publications import draft_first
-    from controller.update.publisher import Repository
+    from controller.update.publisher import Repository, now
 
     root, publisher = [read_public(file) for file in options.root], [read_public(file) for file in options.publisher]
     targets = [read_public(file) for file in options.targets or options.root]
     keys = {"root": root, "targets": targets, "snapshot": publisher, "timestamp": publisher}
     with Repository.opened(options.repository, new=True) as repository:
-        draft_first(repository, keys, options.threshold, _now())
+        draft_first(repository, keys, options.threshold, now())
         return _tell(options, repository, published=False)
 
 
 def add_releases(options: argparse.Namespace) -> int:
     """Draft releases into a channel."""
     from controller.update.publications import draft_releases
-    from controller.update.publisher import Repository
+    from controller.update.publisher import Repository, now
 
     with Repository.opened(options.repository) as repository:
-        draft_releases(repository, options.release, options.channel, _now())
+        draft_releases(repository, options.release, options.channel, now())
         return _tell(options, repository, published=False)
 
 
@@ -134,7 +133,7 @@ def change_keys(options: argparse.Namespace) -> int:
     """Draft a root with other keys."""
     from controller.update.keys import read_public
     from controller.update.publications import draft_keys
-    from controller.update.publisher import Repository
+    from controller.update.publisher import Repository, now
 
     if not (options.drop or options.add or options.threshold):
         raise UsageError("nothing to change: give --drop, --add or --threshold")
@@ -146,37 +145,33 @@ def change_keys(options: argparse.Namespace) -> int:
         if new and not roles:
             raise UsageError("what shall the added keys count for? give --role, or --drop the keys whose place they take")
         dropped = {role: [key for key in drop if options.role or key.keyid in root.roles[role].keyids] for role in roles}
-        draft_keys(repository, dict.fromkeys(roles, new), dropped, options.threshold, _now())
+        draft_keys(repository, dict.fromkeys(roles, new), dropped, options.threshold, now())
         return _tell(options, repository, published=False)
 
 
 def renew(options: argparse.Namespace) -> int:
     """Draft a longer life."""
     from controller.update.publications import draft_renewal
-    from controller.update.publisher import Repository
+    from controller.update.publisher import Repository, now
 
     with Repository.opened(options.repository) as repository:
-        draft_renewal(repository, _now())
+        draft_renewal(repository, now())
         return _tell(options, repository, published=False)
 
 
 def export_stick(options: argparse.Namespace) -> int:
     """Copy a repository onto a stick."""
-    from controller.update.publisher import Repository
+    from controller.update.publisher import Repository, now
     from controller.update.stick import export
 
     with Repository.opened(options.repository) as repository:
-        copied_bytes = export(repository, options.folder, _signer(options, options.repository, options.folder), _now())
+        copied_bytes = export(repository, options.folder, _signer(options, options.repository, options.folder), now())
     show(
         options,
         {"folder": str(options.folder), "bytes": copied_bytes},
         lambda said: f"{said['folder']}: {said['bytes']:,} bytes, for a year",
     )
     return 0
-
-
-def _now() -> datetime:
-    return datetime.now(UTC).replace(microsecond=0)
 
 
 def _tell(options: argparse.Namespace, repository: Repository, published: bool) -> int:

@@ -13,9 +13,10 @@ from tuf.api.exceptions import RepositoryError
 
 from controller.errors import UpdateError
 from controller.update.durable import sync_folder, write_durably
+from controller.update.installed import manifest_of
 from controller.update.layout import MANIFEST, Layout
 from controller.update.manifest import Manifest, ReleaseFile
-from controller.update.offer import COUNTER, Offer, installed_release, largest_counter, offered
+from controller.update.offer import COUNTER, Offer, largest_counter, offered
 from controller.update.old_banks import OldBanks
 from controller.update.part_file import complete
 from controller.update.settings import UpdateSettings
@@ -215,7 +216,7 @@ def _is_stored(layout: Layout, file: ReleaseFile) -> bool:
 
 
 def _built_s(layout: Layout) -> int:
-    installed = installed_release(layout)
+    installed = manifest_of(layout.current)
     return installed.built_s if installed else 0
 
 

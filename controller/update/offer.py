@@ -9,7 +9,8 @@ import msgspec
 
 from controller.board.records import as_record
 from controller.errors import ConfigError, UpdateError
-from controller.update.layout import MANIFEST, Layout
+from controller.update.installed import manifest_of
+from controller.update.layout import Layout
 from controller.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Channel, Manifest, read_manifest, this_platform
 from controller.update.trust import DeviceUpdater
 
@@ -64,7 +65,7 @@ def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str)
         If the repository is wrong, not merely of no use to this device.
     DownloadError, RepositoryError
     """
-    platform, installed = this_platform(), installed_release(layout)
+    platform, installed = this_platform(), manifest_of(layout.current)
     releases = _channel(repository.read(Channel.target(channel), CHANNEL_BYTES_MAX), f"{where}: {Channel.target(channel)}").releases
     path = releases.get(platform)
     if path is None:
@@ -94,15 +95,6 @@ def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, wher
     if manifest.fall_back > FALL_BACK_INTERFACE:
         return f"{release} needs a newer Debian package haptic-panel (fall-back {manifest.fall_back}): install that first"
     return ""
-
-
-def installed_release(layout: Layout) -> Manifest | None:
-    """Manifest of the release that `current` leads to; None if there is none, or its manifest is damaged."""
-    file = layout.current / MANIFEST
-    try:
-        return read_manifest(file.read_bytes(), str(file))
-    except (OSError, UpdateError):
-        return None
 
 
 def failed_releases(layout: Layout) -> frozenset[str]:

@@ -16,7 +16,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, Final
 
@@ -284,6 +284,11 @@ class Repository:
                     target.verify_length_and_hashes(opened)
             except (OSError, RepositoryError) as error:
                 raise UpdateError(f"{file}: is missing or altered: add the release again") from error
+
+
+def now() -> datetime:
+    """The time, in whole seconds as metadata has it."""
+    return datetime.now(UTC).replace(microsecond=0)
 
 
 def issue(timestamp: Signed, now: datetime) -> None:

@@ -1,8 +1,7 @@
 """A repository signed by two people: what is published when, and what is refused."""
 
 import pytest
-from tiny_release import NOW, PASSPHRASE, TinyRepository, release_folder, wheel
-from tuf.api.metadata import Metadata
+from tiny_release import NOW, PASSPHRASE, TinyRepository, release_folder
 from tuf.ngclient import Updater
 from tuf.ngclient.fetcher import FetcherInterface
 
@@ -75,7 +74,10 @@ def test_nothing_is_published_by_one_signature_of_two(tmp_path, repository):
     assert not repository.sign("alice", "publisher")
     with Repository.opened(repository.folder) as opened:
         assert opened.lacking() == "targets lacks 1 of bob"
-    assert client(repository.folder, tmp_path / "client", repository.root_json.read_bytes()).get_targetinfo("channels/stable.json") is None
+    assert (
+        client(repository.folder, tmp_path / "client", repository.root_json.read_bytes()).get_targetinfo("channels/stable.json")
+        is None
+    )
     assert repository.sign("bob")
     assert client(repository.folder, tmp_path / "client", repository.root_json.read_bytes()).get_targetinfo("channels/stable.json")
 

@@ -40,7 +40,7 @@ def wheel(name="tiny", version="1.0", code="WHO = 'tiny'\n"):
 
 
 def release_folder(out, version="1.0.0", counter=1, files=None, pieces=None, **fields):
-    """A release's folder; `files` (path: bytes or Path) are added to a wheel, a board, its bank and its gateware, or replace them."""
+    """A release's folder; `files` (path: bytes or Path) join a wheel, a board, its bank and gateware; None: without."""
     name, data = wheel()
     contents = {
         f"wheels/{name}": data,
@@ -55,7 +55,9 @@ def release_folder(out, version="1.0.0", counter=1, files=None, pieces=None, **f
         "protocol": 1, "gateware_hash": "0123abcd", "bank_format": 4, "settings_format": 1, "built_s": BUILT_S, "files": [],
     }  # fmt: skip
     pieces = {"banks/tiny.bank": [(at, 256) for at in range(0, 16_384, 256)]} if pieces is None else pieces
-    return write_release(out, Manifest(**(about | fields)), {path: data for path, data in contents.items() if data is not None}, pieces)
+    return write_release(
+        out, Manifest(**(about | fields)), {path: data for path, data in contents.items() if data is not None}, pieces
+    )
 
 
 class TinyRepository:
