@@ -122,8 +122,12 @@ class HttpSource(Source):
 
     def look(self) -> None:
         """Check that the address is one."""
-        parts = urlsplit(self.address)
-        if parts.scheme not in {"http", "https"} or not parts.hostname:
+        try:
+            parts = urlsplit(self.address)
+            is_one = parts.scheme in {"http", "https"} and bool(parts.hostname) and parts.port != 0
+        except ValueError:
+            is_one = False
+        if not is_one:
             raise UpdateError(f"{self.address}: is no http(s) address: set `source` in update.toml, or give --from URL or FOLDER")
 
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:

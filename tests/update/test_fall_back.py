@@ -84,6 +84,7 @@ def test_a_trial_that_is_called_good_stays(device):
     assert device.current == "1.0", "nothing is switched while the controller runs"
     assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
     assert "release 2.0 is on trial, start 1 of 3" in device.run("boot").stderr
+    assert device.asked() == ["--no-block restart haptic-panel-deadline.timer"]
     assert device.current == "2.0"
     device.ask("good", "2.0")
     assert not device.asked(), "it plays on"
