@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 from tuf.api.exceptions import DownloadError, DownloadHTTPError, DownloadLengthMismatchError, SlowRetrievalError
 
 from controller.errors import UpdateError
-from controller.update.source import FolderSource, HttpSource, NoRanges, answers_range, source_of
+from controller.update.fetch import source_of
+from controller.update.http_source import HttpSource, answers_range
+from controller.update.source import FolderSource, NoRanges
 
 
 @pytest.fixture
