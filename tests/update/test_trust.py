@@ -3,6 +3,7 @@
 import fcntl
 import json
 import os
+import random
 import shutil
 from datetime import UTC, datetime, timedelta
 
@@ -336,3 +337,40 @@ def test_the_signed_document_itself_may_be_of_any_kind(case):
             case.refused("refused|has no signed metadata")
         (metadata / name).write_bytes(right)
     assert case.fetch() == case.two
+
+
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 400))])
+def test_whatever_is_damaged_is_refused_or_of_no_use(case, seed):
+    """Any file of the repository: bytes flipped, cut off, doubled, or those of another file."""
+    rng = random.Random(seed)
+    files = sorted(file for file in case.publisher.folder.rglob("*") if file.is_file())
+    for _ in range(10):
+        file = rng.choice(files)
+        right = file.read_bytes()
+        wrong = bytearray(right)
+        match rng.randrange(5):
+            case 0:
+                for _ in range(rng.randint(1, 4)):
+                    wrong[rng.randrange(len(wrong))] ^= 1 << rng.randrange(8)
+            case 1:
+                del wrong[rng.randrange(len(wrong)) :]
+            case 2:
+                wrong *= 2
+            case 3:
+                wrong[:] = rng.choice(files).read_bytes()
+            case 4:
+                start = rng.randrange(len(wrong))
+                wrong[start : start + rng.randint(1, 9)] = rng.choice([b"null", b"[]", b"{}", b"1e999", b"-1", b'"', b"\xff", b""])
+        file.write_bytes(wrong)
+        before = case.device.kept()
+        try:
+            assert case.fetch() == case.two
+        except UpdateError as error:
+            assert "\n" not in str(error)  # noqa: PT017
+            release, kept = case.device.kept()
+            assert release == before[0]
+            assert {name: kept[name] for name in before[1]} == before[1]
+        file.write_bytes(right)
+    assert case.fetch() == case.two
+    for signed in case.two.files:
+        assert (case.device.layout.store / signed.sha256).read_bytes() == TWO[signed.path]
