@@ -14,7 +14,7 @@ import pytest
 from repository_fixture import NOW, Device, Publisher
 
 from controller.errors import UpdateError
-from controller.update import source as sources
+from controller.update import http_source as sources
 from controller.update.fetch import Figures, fetch
 from controller.update.settings import UpdateSettings
 
