@@ -42,7 +42,7 @@ class Case:
     def moved(self, folder):
         """A copy elsewhere."""
         for name in ("repository", "haptic-panel"):
-            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copyfile)
+            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copy)
         shutil.copyfile(self.folder / "root.json", folder / "root.json")
         other = copy.copy(self)
         other.publisher, other.device = self.publisher.moved(folder / "repository"), Device(folder)
