@@ -234,6 +234,11 @@ def test_a_release_that_failed_here_is_not_taken_again(case):
     assert case.fetch() == three
 
 
+def test_where_the_failed_cannot_be_read_nothing_is_taken(case):
+    (case.device.layout.state / "failed").mkdir()
+    case.refused("state/failed: cannot be read .Is a directory., so that no release is taken")
+
+
 def test_a_manifest_under_another_releases_name_is_refused(case):
     target = case.two.target.replace("1.1", "7.0")
     case.publisher.targets[target] = case.two.to_json()
