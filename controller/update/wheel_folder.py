@@ -168,9 +168,7 @@ def _written(text: str) -> Iterator[Path]:
         yield Path(file.name)
 
 
-def _run(
-    command: Sequence[object], what: str, environment: Mapping[str, str] | None = None, folder: Path | None = None
-) -> None:
+def _run(command: Sequence[object], what: str, environment: Mapping[str, str] | None = None, folder: Path | None = None) -> None:
     done = subprocess.run(
         list(map(str, command)),
         cwd=folder, env=os.environ | (environment or {}), umask=0o022,

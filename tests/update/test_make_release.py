@@ -1,17 +1,13 @@
 """Releases: the same bytes for the same inputs, from what is locked, and nothing that does not fit."""
 
-import os
 import tomllib
 from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
-from tiny_release import wheel
 
-from controller.cli import main
-from controller.errors import UpdateError
-from controller.update.lock_file import BUILT, Target, choose, read_lock, wanted
+from controller.update.lock_file import BUILT, Target, read_lock, wanted
 
 ROOT = Path(__file__).parents[2]
 LOCK = ROOT / "systemd" / "requirements.lock"
