@@ -66,7 +66,7 @@ class Layout:
 
     @property
     def requests(self) -> Path:
-        """Files of one word each, for the fall-back script: `trial`, `good`, `bad` (a version), `rollback` (anything)."""
+        """Files of one word each, a version, for the fall-back script: `requests.Request` names them."""
         return self.root / "requests"
 
     @property

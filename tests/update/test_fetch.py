@@ -14,12 +14,16 @@ import pytest
 from repository_fixture import NOW, Device, Publisher
 
 from controller.errors import UpdateError
-from controller.update import source as sources
+from controller.update import http_source as sources
 from controller.update.fetch import Figures, fetch
 from controller.update.settings import UpdateSettings
 
 BANK, PIECE = 400_000, 4_000
 SMALL = {"wheels/a.whl": b"wheel", "sbom.cdx.json": b"{}"}
+
+
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
 
 
 def bank(seed=1):
@@ -143,7 +147,9 @@ def test_a_bank_that_the_repository_does_not_know_serves_where_it_is_the_same(tm
     assert case.figures.reused_bytes == BANK - 3 * PIECE
 
 
-@pytest.mark.parametrize("why", ["all new", "no index", "damaged index", "wrong index", "index of another", "first bank"])
+@pytest.mark.parametrize(
+    "why", ["wrong index", "all new", *(slow(why) for why in ("no index", "damaged index", "index of another", "first bank"))]
+)
 def test_else_the_whole_bank_is_fetched(tmp_path, serve, why):
     case = Case(tmp_path, serve, new=bank(2) if why == "all new" else None, installed=why != "first bank")
     index = case.file.index_target
@@ -238,7 +244,7 @@ def test_pieces_that_came_are_not_fetched_again(tmp_path, serve):
     assert case.asked() == ["bytes=320000-323999"]
 
 
-@pytest.mark.parametrize("begun", [b"wrong", bytes(BANK), bytes(BANK + 1)])
+@pytest.mark.parametrize("begun", [bytes(BANK), slow(b"wrong"), slow(bytes(BANK + 1))])
 def test_a_part_that_is_wrong_is_fetched_again(tmp_path, serve, begun):
     """Such as after a power cut, or of a longer file."""
     case = Case(tmp_path, serve, installed=False)
@@ -261,8 +267,8 @@ def test_a_damaged_file_in_the_store_is_fetched_again(tmp_path, serve):
     assert case.is_whole()
 
 
-@pytest.mark.parametrize("installed", [True, pytest.param(False, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("how", ["flipped", "short", "long", "gone"])
+@pytest.mark.parametrize("installed", [True, slow(False)])
+@pytest.mark.parametrize("how", ["flipped", slow("short"), "long", slow("gone")])
 def test_files_that_are_not_the_signed_ones_are_refused(tmp_path, serve, how, installed):
     case = Case(tmp_path, serve, installed=installed, new=bank(3))
     file = case.publisher.folder / case.bank_path
@@ -331,9 +337,9 @@ def test_files_that_are_taken_away_meanwhile(tmp_path, serve):
     [
         ({"status": 200, "body": b"<html>login</html>", "Content_Type": "text/html"}, "does this network ask for a login"),
         ({"status": 200, "body": b"<html>login</html>"}, "does this network ask for a login"),
-        ({"status": 302, "Location": "http://127.0.0.1:1/"}, "redirects are not followed"),
-        ({"status": 500}, "answers 500"),
-        ({"status": 404}, "answers 404"),
+        slow({"status": 302, "Location": "http://127.0.0.1:1/"}, "redirects are not followed"),
+        slow({"status": 500}, "answers 500"),
+        slow({"status": 404}, "answers 404"),
     ],
 )
 def test_a_network_that_is_none(tmp_path, serve, answer, said):
@@ -386,7 +392,7 @@ except UpdateError as error:
 """
 
 
-@pytest.mark.parametrize("installed", [pytest.param(True, marks=pytest.mark.slow), False])
+@pytest.mark.parametrize("installed", [slow(True), False])
 def test_a_disk_that_takes_no_more(tmp_path, serve, installed):
     """Files end at 250 kB: writing fails in the middle of the bank."""
     case = Case(tmp_path, serve, installed=installed)

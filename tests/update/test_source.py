@@ -3,15 +3,24 @@
 import os
 import re
 import socket
+import ssl
 import threading
+from datetime import UTC, datetime
+from ipaddress import ip_address
 
 import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from hypothesis import given
 from hypothesis import strategies as st
 from tuf.api.exceptions import DownloadError, DownloadHTTPError, DownloadLengthMismatchError, SlowRetrievalError
 
 from controller.errors import UpdateError
-from controller.update.source import FolderSource, HttpSource, NoRanges, answers_range, source_of
+from controller.update.fetch import source_of
+from controller.update.http_source import HttpSource, answers_range
+from controller.update.source import FolderSource, NoRanges
 
 
 @pytest.fixture
@@ -142,6 +151,36 @@ def test_a_file_of_another_length_than_signed_is_refused_at_once(folder, serve):
 def test_an_answer_that_ends_early_is_told(folder, serve):
     cut = {"Content_Range": "bytes 0-9/10", "Content_Length": None, "Connection": "close"}
     assert "ended after 5 of 10 bytes" in refused(serve(folder), lambda h: h.answer(206, b"01234", **cut) or True, length=10)
+
+
+def certificate(folder, begins, ends):
+    """A key and a certificate that it has signed itself, for 127.0.0.1."""
+    private = ec.generate_private_key(ec.SECP256R1())
+    name = x509.Name([x509.NameAttribute(x509.NameOID.COMMON_NAME, "test")])
+    made = (
+        x509.CertificateBuilder(name, name, private.public_key(), 1, begins, ends)
+        .add_extension(x509.SubjectAlternativeName([x509.IPAddress(ip_address("127.0.0.1"))]), critical=False)
+        .add_extension(x509.BasicConstraints(ca=True, path_length=None), critical=True)
+        .sign(private, hashes.SHA256())
+    )
+    plain = private.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
+    (folder / "pem").write_bytes(plain + made.public_bytes(Encoding.PEM))
+    return folder / "pem"
+
+
+def test_a_certificate_is_checked(folder, serve, tmp_path, monkeypatch):
+    """By the system's authorities, and its dates by the clock, of which the line reminds."""
+    for begins, ends, known, good in ((2020, 2120, True, True), (2020, 2120, False, False), (2119, 2120, True, False)):
+        pem = certificate(tmp_path, datetime(begins, 1, 1, tzinfo=UTC), datetime(ends, 1, 1, tzinfo=UTC))
+        context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
+        context.load_cert_chain(pem)
+        monkeypatch.setenv("SSL_CERT_FILE", str(pem) if known else os.devnull)
+        source = HttpSource(serve(folder, context).address, 60, retries=0)
+        if good:
+            assert read(source, length=len(DATA)) == DATA
+        else:
+            with pytest.raises(DownloadError, match=r"its certificate is not accepted .*: is the clock right"):
+                read(source)
 
 
 RAW = [

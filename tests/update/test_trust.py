@@ -1,5 +1,6 @@
 """What the owner did not sign is refused, with one line; releases, store and manifest stay as they were."""
 
+import copy
 import fcntl
 import json
 import os
@@ -38,6 +39,15 @@ class Case:
         self.two = self.publisher.release("1.1", 2, TWO)
         self.folder = folder
 
+    def moved(self, folder):
+        """A copy elsewhere."""
+        for name in ("repository", "haptic-panel"):
+            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copy)
+        shutil.copyfile(self.folder / "root.json", folder / "root.json")
+        other = copy.copy(self)
+        other.publisher, other.device = self.publisher.moved(folder / "repository"), Device(folder)
+        return other
+
     def fetch(self, source=None, now=NOW):
         return fetch(self.device.layout, UpdateSettings(), str(source or self.publisher.folder), quiet, now)
 
@@ -50,10 +60,15 @@ class Case:
         return str(told.value)
 
 
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return Case(tmp_path_factory.mktemp("made"))
+
+
 @pytest.fixture
-def case(tmp_path, monkeypatch):
+def case(made, tmp_path, monkeypatch):
     monkeypatch.setattr(os, "fsync", lambda _: None)  # its tests are those of power cuts
-    return Case(tmp_path)
+    return made.moved(tmp_path)
 
 
 def test_what_the_owner_signed_is_fetched(case):
@@ -217,6 +232,11 @@ def test_a_release_that_failed_here_is_not_taken_again(case):
     case.refused("release 1.1 has failed on this device: a later one is needed")
     three = case.publisher.release("1.2", 3, TWO)
     assert case.fetch() == three
+
+
+def test_where_the_failed_cannot_be_read_nothing_is_taken(case):
+    (case.device.layout.state / "failed").mkdir()
+    case.refused("state/failed: cannot be read .Is a directory., so that no release is taken")
 
 
 def test_a_manifest_under_another_releases_name_is_refused(case):

@@ -2,6 +2,7 @@
 
 import json
 import signal
+import socket
 
 import pytest
 from repository_fixture import Device, Publisher
@@ -21,7 +22,14 @@ def repository(tmp_path, monkeypatch):
     return publisher
 
 
-def test_from_check_to_download(repository, capsys):
+def test_from_check_to_download(repository, capsys, monkeypatch):
+    """From a folder: without a network, which nothing may ask for."""
+
+    def no_network(*_):
+        raise AssertionError("a socket was asked for")
+
+    monkeypatch.setattr(socket, "socket", no_network)
+    monkeypatch.setattr(socket, "getaddrinfo", no_network)
     repository.release("1.0", 1, {"wheels/a.whl": b"wheel"})
     source = ["--from", str(repository.folder)]
     assert main(["update", "check", *source]) == 0
