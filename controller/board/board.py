@@ -17,7 +17,7 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Meta
 
-from controller.board.devices import ApplicationSocket, LinkSettings, Realtime, Temperature
+from controller.board.devices import ApplicationSocket, GatewareLoading, LinkSettings, Realtime, Temperature
 from controller.board.lookup import board_places, find_board, in_system_folder
 from controller.board.panel import CHANNELS, Actuator, Bank, Compose, Driver, Limits, Plate, Waveform
 from controller.board.patches import TOUCHING_MM, Patches
@@ -62,6 +62,8 @@ class Board(Record, frozen=True):
         Left out: the patches neither weigh anything nor stiffen the plate.
     temperature
         Left out: the plate is taken to be as warm as the bank assumes.
+    gateware
+        Left out: an FPGA with another gateware is refused.
     realtime
         Left out: the defaults.
     application_socket
@@ -84,6 +86,7 @@ class Board(Record, frozen=True):
     link: LinkSettings
     limits: Limits
     temperature: Temperature | None = None
+    gateware: GatewareLoading | None = None
     realtime: Realtime = Realtime()
     application_socket: ApplicationSocket | None = None
     idle_disarm_s: Annotated[float, Meta(ge=1, le=86400)] | None = None

@@ -118,6 +118,29 @@ class Temperature(Record, frozen=True, kw_only=True):
         return 1 + self.coefficient_per_k * (temperature_c - self.reference_c)
 
 
+class GatewareLoading(Record, frozen=True, kw_only=True):
+    """How an FPGA is loaded that answers with another gateware than this software's, before its outputs may be on.
+
+    Attributes
+    ----------
+    load
+        Program and arguments, without a shell; `{bitstream}` in one of them stands for the path of the file. It is to load the
+        FPGA's memory, not its flash: what the flash holds is what a lost supply goes back to.
+    bitstream
+        The file: in the folder `gateware` of the release that runs, else beside board.toml.
+    limit_s
+        Longest time that it may take; then it is ended, and the FPGA refused.
+    """
+
+    load: Annotated[tuple[Annotated[str, Meta(min_length=1)], ...], Meta(min_length=1)]
+    bitstream: Annotated[str, Meta(min_length=1)]
+    limit_s: Annotated[float, Meta(gt=0, le=60)] = 20.0
+
+    def __post_init__(self) -> None:
+        if not any("{bitstream}" in word for word in self.load):
+            raise ValueError("load names no {bitstream}: one of its arguments stands for the file")
+
+
 class Realtime(Record, frozen=True, kw_only=True):
     """Scheduling of the event loop's thread; one warning where it is not permitted.
 

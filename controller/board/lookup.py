@@ -1,4 +1,4 @@
-"""Where boards, gateware and unit files lie: in /etc, in the source tree, or in the installed data."""
+"""Where boards, gateware and unit files lie: in /etc, in the running release, in the source tree, or in the installed data."""
 
 from __future__ import annotations
 
@@ -9,6 +9,13 @@ from pathlib import Path
 from controller.errors import ConfigError
 
 SYSTEM_BOARDS = Path("/etc/haptic-panel/boards")
+MANIFEST = "release.json"  # in the folder of a release
+
+
+def running_release() -> Path | None:
+    """Folder of the release that this program belongs to; None outside of a release, such as in a checkout."""
+    folder = Path(sys.prefix).parent
+    return folder if (folder / MANIFEST).is_file() else None
 
 
 def find_board(name_or_path: str) -> Path:
@@ -17,7 +24,8 @@ def find_board(name_or_path: str) -> Path:
     Parameters
     ----------
     name_or_path : str
-        Path of a folder or of its board.toml; else a name, looked up in /etc, the source tree and the installed data.
+        Path of a folder or of its board.toml; else a name, looked up in /etc, the running release, the source tree and the
+        installed data.
 
     Raises
     ------
@@ -38,13 +46,18 @@ def find_board(name_or_path: str) -> Path:
 
 
 def in_system_folder(folder: Path) -> bool:
-    """Whether a board's folder is in /etc, where the service looks for its board."""
-    return folder.parent.resolve() == SYSTEM_BOARDS.resolve()
+    """Whether a board's folder is in /etc or in the running release, where the service looks for its board."""
+    return folder.parent.resolve() in [place.resolve() for place in _system_places()]
 
 
 def board_places() -> list[Path]:
     """Folders in which boards are looked up by name."""
-    return [SYSTEM_BOARDS, data_folder("boards")]
+    return [*_system_places(), data_folder("boards")]
+
+
+def _system_places() -> list[Path]:
+    release = running_release()
+    return [SYSTEM_BOARDS, release / "boards"] if release else [SYSTEM_BOARDS]
 
 
 def data_folder(room: str) -> Path:

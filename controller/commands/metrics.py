@@ -38,9 +38,10 @@ def run(options: argparse.Namespace) -> int:
 
     from prometheus_client import generate_latest, start_http_server, write_to_textfile
 
-    from controller.service.prometheus import PanelCollector, ask_panel, registry
+    from controller.service.prometheus import PanelCollector, ask_panel, registry, update_metrics
+    from controller.update.layout import Layout
 
-    alone = registry(PanelCollector(partial(ask_panel, options.socket)))
+    alone = registry(PanelCollector(partial(ask_panel, options.socket), partial(update_metrics, Layout.from_environment())))
     if options.listen:
         host, port = _address(options.listen)
         try:

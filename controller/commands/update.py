@@ -16,11 +16,15 @@ STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; e
     "status": "which releases this device has, and how a trial stands",
     "rollback": "go back to the release before",
     "judge": "judge the release on trial by how its service fares (haptic-panel-trial.service runs it)",
+    "make-release": "make a release: wheels, boards, banks, gateware, and a manifest of them all",
+    "repository": "keep the repository of releases: keys, drafts, signatures, publication, sticks",
 }
 
 
-def add(declare: Declare, common: argparse.ArgumentParser) -> None:
+def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the steps."""
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
     steps = declare().add_subparsers(title="steps", metavar="STEP", required=True)
     for name, text in STEPS.items():
         step = steps.add_parser(name, parents=[common], help=text, description=f"{text[0].upper()}{text[1:]}.")

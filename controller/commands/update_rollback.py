@@ -25,6 +25,7 @@ def rollback(options: argparse.Namespace) -> int:
     target = state.stays if state.trial else state.previous
     if not layout.is_complete(target):
         raise UpdateError(f"{layout.releases}: there is no release before {state.in_use or 'this one'} to go back to")
-    ask(layout, "rollback", state.in_use or state.stays)
-    show(options, {"from": state.in_use, "to": target}, lambda told: f"back to {told['to']}; {told['from']} is not tried again")
+    leaves = state.trial or state.stays
+    ask(layout, "rollback", leaves)
+    show(options, {"from": leaves, "to": target}, lambda told: f"back to {told['to']}; {told['from']} is not tried again")
     return 0

@@ -30,6 +30,12 @@ PIPELINE_SAMPLES: Final = 5  # margin of a ramp: current word, idle word, pipeli
 class IncompatibleFpga(LinkError):
     """The FPGA is not the one that this software and this board need; waiting does not change it."""
 
+    exit_code = 78
+
+
+class OtherGateware(IncompatibleFpga):
+    """It has another gateware, or one that was built for another board: another bitstream changes that."""
+
 
 def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> None:
     """Check that the FPGA has the gateware this host was made for, built with the limits of this board.
@@ -44,7 +50,7 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
 
     Raises
     ------
-    IncompatibleFpga
+    OtherGateware
         If its identity, protocol, gateware, clock, size or a limit is another.
     LinkError
         If it does not answer.
@@ -58,13 +64,13 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     for register, value in expected.items():
         found = read(register)
         if found != value:
-            raise IncompatibleFpga(
+            raise OtherGateware(
                 f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
             )
     geometry = read(Register.GEOMETRY)
     slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
     if slots < board.link.slots or depth < board.waveform.samples or channels != CHANNELS:
-        raise IncompatibleFpga(
+        raise OtherGateware(
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
@@ -72,7 +78,7 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     built = {register: read(register) for register in wanted}
     other = [f"{of.name} is {built[of]}, not {wanted[of]} ({LIMITS[of]})" for of in wanted if built[of] != wanted[of]]
     if other:
-        raise IncompatibleFpga(
+        raise OtherGateware(
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"
             f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
         )

@@ -12,6 +12,7 @@ from typing import Final
 from controller.board.board import Board
 from controller.errors import FaultError, LinkError
 from controller.fpga import configuration, frames
+from controller.fpga.bitstream_loader import BitstreamLoader
 from controller.fpga.emission_timing import EmissionTiming
 from controller.fpga.exchange import Exchange, FpgaReset
 from controller.fpga.link import Link
@@ -49,6 +50,8 @@ class Supervision:
         Lengths of emissions and periods at the bit period in use.
     ramp_end_s : float
         When the last ramp up or down ends, on the loop's clock.
+    loader : BitstreamLoader or None
+        Loads an FPGA that has another gateware; None: it is refused.
 
     Raises
     ------
@@ -69,6 +72,7 @@ class Supervision:
         self._heartbeat_ticks = 0  # FPGA time in its status
         self.timing = EmissionTiming(board)
         self.ramp_end_s = -math.inf
+        self.loader: BitstreamLoader | None = None
         if bring_up:
             self.bring_up()
 
@@ -80,14 +84,24 @@ class Supervision:
         Raises
         ------
         IncompatibleFpga
-            If its identity, gateware or limits are others, or it refuses a setting.
+            If its identity, gateware or limits are others and cannot be loaded, or it refuses a setting.
         LinkError
-            If it does not answer, or is armed. If this host armed it, a DISARM was sent: call again after its ramp.
+            If it does not answer, is being loaded, or is armed. If this host armed it, a DISARM was sent: call again after its
+            ramp.
         """
         self._armed = False
         self._heartbeat_s = math.inf  # its clock may have restarted
+        if self.loader is not None:
+            self.loader.require_done()
         self.exchange.retry(lambda _: self._commanded(Control.CLEAR, raise_faults=False))  # with a fault every read would raise
-        configuration.verify(self.exchange.read, self._board, self._build_hash)
+        try:
+            configuration.verify(self.exchange.read, self._board, self._build_hash)
+        except configuration.OtherGateware as error:
+            if self.loader is None:
+                raise
+            self.loader.begin(error)
+        if self.loader is not None:
+            self.loader.good()
         if State.HV_ENABLE in self.heartbeat().state:
             if self._armed_by_us:
                 self.exchange.control(Control.DISARM)

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from controller.board.board import Board
-from controller.board.lookup import data_folder
+from controller.board.lookup import data_folder, running_release
 from controller.board.records import Record
 from controller.board.worker import Worker
 from controller.errors import ConfigError, TouchError
+from controller.fpga.bitstream_loader import BitstreamLoader
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.lazy_link import LazyLink
@@ -89,7 +90,17 @@ def open_link(board: Board, now_s: Callable[[], float], *, unhurried: bool = Fal
 def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Session]:
     """Link and session of an FPGA that may not be connected yet; nothing is sent before `bring_up`."""
     link = LazyLink(lambda: open_link(board, now_s), now_s)
-    return link, Session(link, board, gateware_hash(), now_s, bring_up=False)
+    session = Session(link, board, gateware_hash(), now_s, bring_up=False)
+    if board.gateware is not None:
+        session.loader = BitstreamLoader(board.gateware, _bitstream(board, board.gateware.bitstream), now_s)
+    return link, session
+
+
+def _bitstream(board: Board, name: str) -> Path:
+    """Path of a bitstream: that of the release that runs, if there is one."""
+    release = running_release()
+    ours = release / "gateware" / name if release else None
+    return ours if ours is not None and ours.is_file() else board.beside(name)
 
 
 def open_session(link: Link, board: Board, now_s: Callable[[], float]) -> Session:

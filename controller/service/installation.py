@@ -18,6 +18,8 @@ OFFLINE = frozenset(
 )  # installed by the extra `offline`
 MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
 WATCH = frozenset({"prometheus_client"})  # installed by the extra `watch`
+UPDATE = frozenset({"tuf", "urllib3"})  # installed by the extra `update`
+PUBLISH = frozenset({"securesystemslib", "cryptography", "cyclonedx", "packaging"})  # installed by the extra `publish`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 
 
@@ -37,6 +39,10 @@ def missing_package(name: str | None) -> str | None:
         return f"{package} is missing, which records from a sound card: {install_line('measure')}"
     if package in WATCH:
         return f"{package} is missing, which Prometheus is told the figures with: {install_line('watch')}"
+    if package in UPDATE:
+        return f"{package} is missing, which updates are checked with: {install_line('update')}"
+    if package in PUBLISH:
+        return f"{package} is missing, which releases are made and signed with: {install_line('publish')}"
     if package in DRIVERS:
         return f"{package} is missing, the driver that this device needs (Linux only): {install_line()}"
     return None

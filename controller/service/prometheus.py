@@ -16,6 +16,8 @@ from controller.application_socket.client import PanelClient
 from controller.board.panel_state import PanelState
 from controller.errors import ControllerError
 from controller.fpga.registers import Fault
+from controller.update.installed import update_state
+from controller.update.layout import Layout
 
 COUNTERS: Final = {  # of `figures`: name here, help
     "due": ("emissions_due", "Emissions of fingers, spots and commands that became due."),
@@ -81,6 +83,18 @@ class PanelCollector(Collector):
         if answer is not None:
             yield from _metrics(*answer)
         yield from self._more()
+
+
+def update_metrics(layout: Layout) -> Iterator[Metric]:
+    """Releases of this device, by their files: told also while no panel answers."""
+    state = update_state(layout)
+    told = {"in_use": state.in_use, "stays": state.stays, "previous": state.previous, "trial": state.trial}
+    yield InfoMetricFamily("haptic_panel_update", "Releases: in use, used without a trial, before it, on trial.", told)
+    yield GaugeMetricFamily("haptic_panel_update_trial", "Whether a release is on trial.", float(bool(state.trial)))
+    yield GaugeMetricFamily("haptic_panel_update_tries", "Starts of the trial so far.", state.tries)
+    yield GaugeMetricFamily("haptic_panel_update_failed_releases", "Releases that were tried and did not serve.", len(state.failed))
+    yield GaugeMetricFamily("haptic_panel_update_requests", "Requests not done yet.", len(state.requested))
+    yield GaugeMetricFamily("haptic_panel_update_problems", "What is damaged of releases and state.", len(state.problems))
 
 
 def registry(collector: Collector) -> CollectorRegistry:

@@ -56,8 +56,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
     Raises
     ------
     IncompatibleFpga
-        If the FPGA does not have the gateware or limits that software and board require. The service waits for an FPGA or
-        touch panel that is not connected.
+        If the FPGA does not have the gateware or limits that software and board require, also after it was loaded. The service
+        waits for an FPGA or touch panel that is not connected.
     FaultError
         If the FPGA has switched off because of a fault that the host must not clear.
     """
@@ -73,6 +73,8 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         check_responses_beside(bank, cells)
         link, session = await_session(board, clock.now_s)
         stack.callback(link.close)
+        if session.loader is not None:
+            stack.callback(session.loader.close)
         panel = None
         touch: TouchSource
         if replay is None:

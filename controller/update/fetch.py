@@ -13,13 +13,15 @@ from tuf.api.exceptions import RepositoryError
 
 from controller.errors import UpdateError
 from controller.update.durable import sync_folder, write_durably
+from controller.update.http_source import HttpSource
+from controller.update.installed import manifest_of
 from controller.update.layout import MANIFEST, Layout
 from controller.update.manifest import Manifest, ReleaseFile
-from controller.update.offer import COUNTER, Offer, installed_release, largest_counter, offered
+from controller.update.offer import COUNTER, Offer, largest_counter, offered
 from controller.update.old_banks import OldBanks
 from controller.update.part_file import complete
 from controller.update.settings import UpdateSettings
-from controller.update.source import source_of
+from controller.update.source import FolderSource, Source
 from controller.update.trust import DeviceUpdater, sha256_of, trusted
 
 UNPACKED: Final = 5  # times the bytes of its wheels that an environment takes, compiled
@@ -197,6 +199,21 @@ class _Fetching:
         self._progress(self._done_bytes, self._all_bytes)
 
 
+def source_of(text: str, total_s: float, bytes_per_s: float) -> Source:
+    """The source that a user names: an http(s) address or a folder.
+
+    Raises
+    ------
+    UpdateError
+        If nothing is named, or nothing can be there.
+    """
+    if not text:
+        raise UpdateError("no repository is set: set `source` in /etc/haptic-panel/update.toml, or give --from URL or FOLDER")
+    source = HttpSource(text, total_s, bytes_per_s) if "://" in text else FolderSource(text)
+    source.look()
+    return source
+
+
 def _distinct(manifest: Manifest) -> list[ReleaseFile]:
     """Files of a release, each content once."""
     return list({file.sha256: file for file in manifest.files}.values())
@@ -215,7 +232,7 @@ def _is_stored(layout: Layout, file: ReleaseFile) -> bool:
 
 
 def _built_s(layout: Layout) -> int:
-    installed = installed_release(layout)
+    installed = manifest_of(layout.current)
     return installed.built_s if installed else 0
 
 

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
+
+from controller.board.lookup import MANIFEST as MANIFEST  # noqa: PLC0414 - part of the layout, which boards need too
+from controller.board.lookup import running_release as running_release  # noqa: PLC0414
 
 ROOT = Path("/opt/haptic-panel")
 SYSTEM = Path("/usr/lib/haptic-panel")  # of the Debian package: fall-back script, trusted root of the repository
 TRUSTED_ROOT = Path("/usr/share/haptic-panel/root.json")
 SETTINGS = Path("/etc/haptic-panel/update.toml")
 RELEASE_NAME: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._+-]{0,63}")  # also what the fall-back script believes
-MANIFEST = "release.json"
 COMPLETE = ".complete"
 
 
@@ -65,7 +66,7 @@ class Layout:
 
     @property
     def requests(self) -> Path:
-        """Files of one word each, for the fall-back script: `trial`, `good`, `bad` (a version), `rollback` (anything)."""
+        """Files of one word each, a version, for the fall-back script: `requests.Request` names them."""
         return self.root / "requests"
 
     @property
@@ -88,9 +89,3 @@ class Layout:
         except (OSError, ValueError):
             return ""
         return word if RELEASE_NAME.fullmatch(word) else ""
-
-
-def running_release() -> Path | None:
-    """Folder of the release that this program belongs to; None outside of a release, such as in a checkout."""
-    folder = Path(sys.prefix).parent
-    return folder if (folder / MANIFEST).is_file() else None

@@ -9,7 +9,8 @@ import msgspec
 
 from controller.board.records import as_record
 from controller.errors import ConfigError, UpdateError
-from controller.update.layout import MANIFEST, Layout
+from controller.update.installed import manifest_of
+from controller.update.layout import Layout
 from controller.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Channel, Manifest, read_manifest, this_platform
 from controller.update.trust import DeviceUpdater
 
@@ -64,7 +65,7 @@ def offered(repository: DeviceUpdater, layout: Layout, channel: str, where: str)
         If the repository is wrong, not merely of no use to this device.
     DownloadError, RepositoryError
     """
-    platform, installed = this_platform(), installed_release(layout)
+    platform, installed = this_platform(), manifest_of(layout.current)
     releases = _channel(repository.read(Channel.target(channel), CHANNEL_BYTES_MAX), f"{where}: {Channel.target(channel)}").releases
     path = releases.get(platform)
     if path is None:
@@ -96,21 +97,21 @@ def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, wher
     return ""
 
 
-def installed_release(layout: Layout) -> Manifest | None:
-    """Manifest of the release that `current` leads to; None if there is none, or its manifest is damaged."""
-    file = layout.current / MANIFEST
-    try:
-        return read_manifest(file.read_bytes(), str(file))
-    except (OSError, UpdateError):
-        return None
-
-
 def failed_releases(layout: Layout) -> frozenset[str]:
-    """Versions that were tried and did not serve."""
+    """Versions that were tried and did not serve.
+
+    Raises
+    ------
+    UpdateError
+        If they cannot be read: what is not known to be untried is not fetched.
+    """
+    file = layout.state / "failed"
     try:
-        lines = (layout.state / "failed").read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError:
+        lines = file.read_text(encoding="ascii", errors="replace").splitlines()
+    except FileNotFoundError:
         return frozenset()
+    except OSError as error:
+        raise UpdateError(f"{file}: cannot be read ({error.strerror}), so that no release is taken: look at its owner") from error
     return frozenset(line.split()[0] for line in lines if line.strip())
 
 

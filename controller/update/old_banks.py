@@ -12,8 +12,9 @@ from tuf.api.metadata import TargetFile
 from controller.errors import UpdateError
 from controller.update.bank_index import INDEX_BYTES_MAX, BankIndex, read_index
 from controller.update.durable import write_durably
-from controller.update.layout import MANIFEST, Layout
-from controller.update.manifest import Manifest, ReleaseFile, read_manifest
+from controller.update.installed import manifest_of
+from controller.update.layout import Layout
+from controller.update.manifest import ReleaseFile
 from controller.update.rebuild import rebuild
 from controller.update.source import NoRanges
 from controller.update.trust import DeviceUpdater
@@ -34,7 +35,8 @@ class OldBanks:
     def __init__(self, layout: Layout, repository: DeviceUpdater) -> None:
         self._layout, self._repository = layout, repository
         self._indexes = layout.download / "indexes"
-        self._manifests = list(_manifests(layout))
+        folders = [*layout.releases.glob("*/"), layout.download]  # installed, or fetched
+        self._manifests = [found for folder in folders if (found := manifest_of(folder))]
 
     def rebuilt(self, file: ReleaseFile, target: TargetFile, whole: Path) -> int | None:
         """Make a bank of old ones where that is worth it.
@@ -114,12 +116,3 @@ class OldBanks:
         }
         ranked = sorted(found.values(), key=lambda one: one[:2])
         return [(path, old) for _, _, path, old in ranked[:SEARCHED]]
-
-
-def _manifests(layout: Layout) -> list[Manifest]:
-    """Manifests of releases that are installed or fetched."""
-    found = []
-    for file in [*layout.releases.glob(f"*/{MANIFEST}"), layout.download / MANIFEST]:
-        with suppress(OSError, UpdateError):
-            found.append(read_manifest(file.read_bytes(), str(file)))
-    return found

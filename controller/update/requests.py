@@ -20,7 +20,7 @@ def ask(layout: Layout, what: Request, version: str) -> None:
         trial: try this release; good, bad: the trial is to stay, or to go for good; stands: it starts well and is not judged yet,
         so that its starts so far do not count; rollback: back to the release before.
     version : str
-        Release that it is about.
+        Release that it is about; of a rollback the one to leave, so that a request read twice is not two steps.
 
     Raises
     ------

@@ -1,32 +1,25 @@
-"""Where a repository is read from: an http(s) address, or a folder such as a stick. What is read is not trusted here.
+"""Where a repository is read from; a folder, such as a stick. What is read is not trusted here.
 
-Both give bytes of a file from any offset, and raise python-tuf's `DownloadError` with one line that says what happened.
+A source gives bytes of a file from any offset, and raises python-tuf's `DownloadError` with one line that says what happened.
 """
 
 from __future__ import annotations
 
 import errno
 import os
-import re
 import stat
-import time
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
-from urllib.parse import unquote, urlsplit
+from urllib.parse import unquote
 
-import urllib3
-from tuf.api.exceptions import DownloadError, DownloadHTTPError, DownloadLengthMismatchError, SlowRetrievalError
+from tuf.api.exceptions import DownloadError, DownloadHTTPError
 from tuf.ngclient.fetcher import FetcherInterface
 
 from controller.errors import UpdateError
 
 CHUNK_BYTES: Final = 1 << 16
-GAP_S: Final = 20.0  # longest silence of a server
-RETRIES: Final = 2
-CONTENT_RANGE: Final = re.compile(r"bytes (\d{1,15})-(\d{1,15})/(\d{1,15}|\*)")
 
 
 class NoRanges(DownloadError):
@@ -85,111 +78,6 @@ class Source(FetcherInterface):
         return self.open(url)
 
 
-class HttpSource(Source):
-    """A repository at an http(s) address; whatever is not this address's own answer is refused.
-
-    Parameters
-    ----------
-    address : str
-    total_s : float
-        Longest time of everything that is read by this object, in s.
-    bytes_per_s : float
-        Most that is read in a second; 0: no limit.
-    gap_s : float
-        Longest silence of the server, in s.
-    now_s, wait_s : callable
-        Monotonic time in s; waits for some seconds.
-    """
-
-    def __init__(
-        self,
-        address: str,
-        total_s: float,
-        bytes_per_s: float = 0.0,
-        *,
-        gap_s: float = GAP_S,
-        retries: int = RETRIES,
-        now_s: Callable[[], float] = time.monotonic,
-        wait_s: Callable[[float], None] = time.sleep,
-    ) -> None:
-        super().__init__(address)
-        self._total_s, self._bytes_per_s, self._gap_s = total_s, bytes_per_s, gap_s
-        self._now_s, self._wait_s = now_s, wait_s
-        self._begun_s = self._free_s = now_s()
-        retry = urllib3.Retry(retries, redirect=0, status=0, backoff_factor=0.5, raise_on_redirect=False, raise_on_status=False)
-        headers = {"User-Agent": "haptic-panel", "Accept-Encoding": "identity"}
-        self._http = urllib3.PoolManager(num_pools=1, timeout=urllib3.Timeout(gap_s), retries=retry, headers=headers)
-
-    def look(self) -> None:
-        """Check that the address is one."""
-        parts = urlsplit(self.address)
-        if parts.scheme not in {"http", "https"} or not parts.hostname:
-            raise UpdateError(f"{self.address}: is no http(s) address: set `source` in update.toml, or give --from URL or FOLDER")
-
-    def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
-        """Ask for a file, or a range of it; a part of it is refused unless it is exactly what was asked for."""
-        if length == 0:
-            return
-        headers = {**self._http.headers}
-        if start or length is not None:
-            headers["Range"] = f"bytes={start}-" + ("" if length is None else f"{start + length - 1}")
-        self._within_time(url)
-        with _told(url, self._gap_s):
-            answer = self._http.request("GET", url, headers=headers, preload_content=False, redirect=False)
-        try:
-            self._check(answer, url, start, length)
-            yield from self._body(answer, url, length)
-            if not answer.length_remaining:
-                answer.release_conn()
-        finally:
-            answer.close()
-
-    def _check(self, answer: urllib3.BaseHTTPResponse, url: str, start: int, length: int | None) -> None:
-        status = answer.status
-        if 300 <= status < 400:
-            where = answer.headers.get("Location", "elsewhere")
-            raise DownloadError(f"{url}: leads to {where[:200]}: redirects are not followed; give the repository's own address")
-        if status >= 400:
-            raise DownloadHTTPError(f"{url}: the server answers {status}", status)
-        if answer.headers.get("Content-Type", "").startswith("text/html"):
-            raise DownloadError(f"{url}: a web page came instead of it: does this network ask for a login?")
-        if status == 200:
-            if start:
-                raise NoRanges(f"{url}: the server sends no ranges")
-            told = answer.headers.get("Content-Length", "")
-            if length is not None and told.isdecimal() and len(told) < 16 and int(told) != length:
-                raise DownloadLengthMismatchError(f"{url}: {int(told):,} bytes, not the {length:,} that were signed")
-        elif status != 206 or not answers_range(answer.headers.get("Content-Range", ""), start, length):
-            raise NoRanges(f"{url}: the server answers {status} with another range than was asked for")
-
-    def _body(self, answer: urllib3.BaseHTTPResponse, url: str, length: int | None) -> Iterator[bytes]:
-        read = 0
-        while length is None or read < length:
-            wanted = CHUNK_BYTES if length is None else min(CHUNK_BYTES, length - read)
-            with _told(url, self._gap_s):  # what has come, without waiting for more: a trickle is seen
-                chunk = answer.read1(wanted, decode_content=False)
-            if not chunk:
-                break
-            read += len(chunk)
-            self._pace(len(chunk))
-            self._within_time(url)
-            yield chunk
-        if length is not None and read < length:
-            raise DownloadError(f"{url}: ended after {read:,} of {length:,} bytes")
-
-    def _pace(self, count: int) -> None:
-        """Wait until the bytes that were read are due."""
-        self.fetched_bytes += count
-        if self._bytes_per_s:
-            now_s = self._now_s()
-            self._free_s = max(self._free_s, now_s) + count / self._bytes_per_s
-            self._wait_s(max(0.0, self._free_s - now_s))
-
-    def _within_time(self, url: str) -> None:
-        if self._now_s() - self._begun_s > self._total_s:
-            raise SlowRetrievalError(f"{url}: not done within {self._total_s:g} s (total_s): what came is kept for the next try")
-
-
 class FolderSource(Source):
     """A repository in a folder: regular files inside it, read without any network."""
 
@@ -243,50 +131,3 @@ class FolderSource(Source):
         if isinstance(error, OSError) and error.errno not in {errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EISDIR}:
             return DownloadError(f"{self._folder / name}: cannot be read ({error.strerror}): is the stick whole, and still there?")
         return DownloadHTTPError(f"{self._folder / name}: is not there", 404)
-
-
-def source_of(text: str, total_s: float, bytes_per_s: float) -> Source:
-    """The source that a user names: an http(s) address or a folder.
-
-    Raises
-    ------
-    UpdateError
-        If nothing is named, or nothing can be there.
-    """
-    if not text:
-        raise UpdateError("no repository is set: set `source` in /etc/haptic-panel/update.toml, or give --from URL or FOLDER")
-    source = HttpSource(text, total_s, bytes_per_s) if "://" in text else FolderSource(text)
-    source.look()
-    return source
-
-
-def answers_range(header: str, start: int, length: int | None) -> bool:
-    """Whether a Content-Range is that of bytes from `start` on, `length` of them or all to the file's end."""
-    found = CONTENT_RANGE.fullmatch(header)
-    if not found:
-        return False
-    first, last = int(found[1]), int(found[2])
-    if length is None:
-        return first == start <= last and (found[3] == "*" or last + 1 == int(found[3]))
-    return first == start and last == start + length - 1 and (found[3] == "*" or last < int(found[3]))
-
-
-@contextmanager
-def _told(url: str, gap_s: float) -> Iterator[None]:
-    """Errors of urllib3 as one line each; it counts a refused connection among those that are too slow."""
-    try:
-        yield
-    except urllib3.exceptions.HTTPError as error:
-        cause: object = getattr(error, "reason", None) or error
-        causes = [cause, getattr(cause, "__cause__", None), getattr(cause, "__context__", None)]
-        if any(isinstance(one, ConnectionRefusedError) for one in causes):
-            raise DownloadError(f"{url}: the connection was refused: is the server running, and the address right?") from error
-        if isinstance(cause, urllib3.exceptions.NameResolutionError):
-            raise DownloadError(f"{url}: this server is not known: is there a network, and the address right?") from error
-        if isinstance(cause, urllib3.exceptions.SSLError):
-            raise DownloadError(f"{url}: its certificate is not accepted ({cause}): is the clock right?") from error
-        if isinstance(cause, urllib3.exceptions.TimeoutError) and not isinstance(cause, urllib3.exceptions.NewConnectionError):
-            raise SlowRetrievalError(f"{url}: the server said nothing for {gap_s:g} s: try again; what came is kept") from error
-        raise DownloadError(f"{url}: the connection broke ({cause}): try again; what came is kept") from error
-    except (ValueError, OSError) as error:
-        raise DownloadError(f"{url}: cannot be asked for ({error}): is the address right?") from error

@@ -21,6 +21,18 @@ def test_a_panel_that_does_not_answer_is_down(tmp_path, capsys):
     assert [path.name for path in tmp_path.iterdir()] == ["panel.prom"]
 
 
+def test_releases_are_told_whether_or_not_a_panel_answers(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("HAPTIC_PANEL_ROOT", str(tmp_path))
+    (tmp_path / "state").mkdir()
+    for name, words in (("current", "1.0"), ("trial", "2.0"), ("tries", "2"), ("failed", "0.8\n0.9")):
+        (tmp_path / "state" / name).write_text(f"{words}\n")
+    assert main(["metrics", "--socket", str(tmp_path / "nobody.sock")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert 'haptic_panel_update_info{in_use="",previous="",stays="1.0",trial="2.0"} 1.0' in lines
+    told = {"trial": 1.0, "tries": 2.0, "failed_releases": 2.0, "requests": 0.0, "problems": 1.0}
+    assert {f"haptic_panel_update_{name} {value}" for name, value in told.items()} <= set(lines)
+
+
 @pytest.mark.parametrize(
     ("options", "code", "said"),
     [

@@ -180,8 +180,14 @@ def an_fpga(board, path, build=None):
     levels = []
 
     def answer(data):
+        nonlocal model, panel
         while levels:
             model.permit(model.now + 1, levels.pop(0))
+        with contextlib.suppress(FileNotFoundError):  # which a loader leaves
+            loaded = path.with_name("loaded")
+            model = GatewareModel(BuildParameters.of(board, int(loaded.read_text())))
+            panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
+            loaded.unlink()
         return panel.receive(data)
 
     with PseudoTerminal(answer) as terminal:
@@ -480,8 +486,8 @@ def test_who_asked_for_a_reload_is_told_what_became_of_it(folder, panel, bank, t
     service = Service(folder, bank, environment=environment)
     service.says("the outputs are on")
 
-    def reload():
-        program = "import sys; from controller.cli import main; sys.exit(main(['reload']))"
+    def reload(before=""):
+        program = f"import sys; {before}from controller.cli import main; sys.exit(main(['reload']))"
         environ = os.environ | environment | {"MAINPID": str(service.process.pid)}
         asked = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True, env=environ)
         return communicate(asked)[1], asked.returncode
@@ -494,6 +500,9 @@ def test_who_asked_for_a_reload_is_told_what_became_of_it(folder, panel, bank, t
     assert "scene.toml" in said
     (folder / "scene.toml").write_text(CLICK)
     assert reload() == ("", 0)
+    said, code = reload("sys.prefix = '/opt/haptic-panel/releases/2.0/venv'; ")
+    assert (code, said.count("\n")) == (78, 1)
+    assert f"the service runs from {sys.prefix}, and this is /opt/haptic-panel/releases/2.0/venv: restart" in said
     figures, code = service.end()
     assert (code, figures["scenes_loaded"], figures["scenes_refused"]) == (0, 2, 1)
     said, code = reload()
@@ -626,11 +635,25 @@ def test_another_gateware_is_refused_at_once(folder, panel, bank, manager):
     with an_fpga(board, folder / "fpga", build=7):
         service = Service(folder, bank, environment=manager.environment, before=PATIENT_LINK)
         _, err = communicate(service.process)
-    assert service.process.returncode == 69
+    assert service.process.returncode == 78
     assert "BUILD_HASH is 0x00000007" in err
     assert err.splitlines()[-1].startswith("haptic-panel: ")
     assert "Traceback" not in err
     assert "READY=1" not in manager.heard()
+
+
+def test_another_gateware_is_loaded_beside_the_loop_and_it_serves(folder, panel, bank, manager):
+    (folder / "panel.bit").write_text(str(gateware_hash()))
+    with (folder / "board.toml").open("a") as file:
+        load = f"cp $0 {folder}/new && mv {folder}/new {folder}/loaded"
+        file.write(f'\n[gateware]\nload = ["sh", "-c", "{load}", "{{bitstream}}"]\nbitstream = "panel.bit"\n')
+    board = at_a_serial_port(folder)
+    with an_fpga(board, folder / "fpga", build=7):
+        service = Service(folder, bank, environment=manager.environment, before=PATIENT_LINK)
+        assert "waiting for FPGA: the FPGA's BUILD_HASH is 0x00000007" in service.says("is being loaded")
+        service.says("the outputs are on")
+        _, code = service.end()
+    assert code == 0
 
 
 def test_a_temperature_sensor_that_hangs_for_ever_holds_up_nobody(folder, panel, bank):

@@ -15,8 +15,8 @@ from tuf.api.exceptions import DownloadError, RepositoryError
 from tuf.ngclient import UpdaterConfig
 
 from controller.errors import UpdateError
+from controller.update.http_source import HttpSource
 from controller.update.part_file import complete
-from controller.update.source import HttpSource
 from controller.update.trust import DeviceUpdater, refusal, sync_tree
 
 

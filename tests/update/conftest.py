@@ -15,8 +15,8 @@ def serve():
     """Serves a folder; what it was asked for is in `requests`."""
     servers = []
 
-    def begin(folder):
-        servers.append(ScriptedServer(folder))
+    def begin(folder, tls=None):
+        servers.append(ScriptedServer(folder, tls))
         return servers[-1]
 
     yield begin

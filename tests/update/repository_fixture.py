@@ -1,5 +1,6 @@
 """A signed repository for tests, made with python-tuf alone: every field of its metadata may be made wrong."""
 
+import copy
 import hashlib
 import json
 import shutil
@@ -35,6 +36,14 @@ class Publisher:
         for name in ("metadata", "targets"):
             (folder / name).mkdir(parents=True)
         self.sign_root()
+
+    def moved(self, folder):
+        """The same publisher of a copy of its folder, independent from now on."""
+        other = copy.copy(self)
+        other.folder = folder
+        for name in ("versions", "targets", "days", "signers"):
+            setattr(other, name, dict(getattr(self, name)))
+        return other
 
     def sign(self, role, signed, signers=None):
         self.versions[role] += 1
@@ -107,15 +116,14 @@ class Publisher:
 
 
 class Device:
-    """A device's folders, with a release in use."""
+    """A device's folders; those that are there, if no root is given."""
 
-    def __init__(self, folder, root, installed=None):
+    def __init__(self, folder, root=None):
         self.layout = Layout(folder / "haptic-panel", folder / "root.json")
-        (folder / "root.json").write_bytes(root)
-        for name in ("releases", "store", "state", "requests", "download"):
-            (self.layout.root / name).mkdir(parents=True)
-        if installed:
-            self.install(installed)
+        if root is not None:
+            (folder / "root.json").write_bytes(root)
+            for name in ("releases", "store", "state", "requests", "download"):
+                (self.layout.root / name).mkdir(parents=True)
 
     def install(self, manifest):
         """As if the release had been installed from the store."""

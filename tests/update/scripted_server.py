@@ -9,14 +9,16 @@ from socketserver import TCPServer
 class ScriptedServer:
     """`requests`: path and range of each; `instead` is called with each handler first, and returns True if it has answered."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, tls=None):
         self.folder, self.requests, self.sent_bytes = folder, [], 0
         self.instead = lambda _: False
         self.ranges = True
         self.ended = threading.Event()
         self._http = _Server(("127.0.0.1", 0), _Handler)
         self._http.scripted = self
-        self.address = f"http://127.0.0.1:{self._http.server_port}"
+        if tls:
+            self._http.socket = tls.wrap_socket(self._http.socket, server_side=True)
+        self.address = f"http{'s' if tls else ''}://127.0.0.1:{self._http.server_port}"
         self._thread = threading.Thread(target=self._http.serve_forever, args=(0.01,))
         self._thread.start()
 

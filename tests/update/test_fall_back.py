@@ -1,5 +1,8 @@
 """The fall-back script, cut at every step and given every kind of state: there is always a whole release to start."""
 
+import contextlib
+import fcntl
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -46,13 +49,16 @@ class Device:
         if complete:
             (self.layout.release(version) / ".complete").touch()
 
-    def run(self, *command, path=""):
-        environment = {
+    def environment(self, path="", **more):
+        return {
             "HAPTIC_PANEL_ROOT": str(self.layout.root),
             "SYSTEMCTL": str(self.tools / "systemctl"),
             "PATH": f"{path}/usr/bin:/bin",
+            **more,
         }
-        return subprocess.run([SCRIPT, *command], env=environment, capture_output=True, text=True, check=False)
+
+    def run(self, *command, **more):
+        return subprocess.run([SCRIPT, *command], env=self.environment(**more), capture_output=True, text=True, check=False)
 
     def ask(self, name, version, **options):
         (self.layout.requests / name).write_text(f"{version}\n")
@@ -84,6 +90,7 @@ def test_a_trial_that_is_called_good_stays(device):
     assert device.current == "1.0", "nothing is switched while the controller runs"
     assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
     assert "release 2.0 is on trial, start 1 of 3" in device.run("boot").stderr
+    assert device.asked() == ["--no-block restart haptic-panel-deadline.timer"]
     assert device.current == "2.0"
     device.ask("good", "2.0")
     assert not device.asked(), "it plays on"
@@ -104,6 +111,17 @@ def test_a_trial_that_never_serves_is_given_up_after_three_starts_and_not_tried_
     assert not device.asked()
     device.run("boot")
     assert device.current == "1.0"
+
+
+def test_the_updater_can_read_what_is_written_before_a_start_of_the_controller(device):
+    device.ask("trial", "2.0")
+    before = os.umask(0o077)  # the unit's
+    try:
+        for _ in range(4):
+            device.run("boot")
+    finally:
+        os.umask(before)
+    assert {file.name: file.stat().st_mode & 0o777 for file in device.layout.state.iterdir()} == {"current": 0o644, "failed": 0o644}
 
 
 def test_a_trial_that_stands_and_is_not_judged_yet_survives_any_number_of_starts(device):
@@ -141,6 +159,94 @@ def test_what_is_no_trial_is_not_given_up(device, how):
         device.run(how)
         assert device.layout.word("trial") == "2.0"
     assert (device.asked(), device.failed) == ([], [])
+
+
+def test_a_failure_that_is_over_is_not_the_trials(device):
+    """The release before could not be stopped in time, and failed so: OnFailure= comes when the trial has been started already."""
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.unit_state("0" * 31 + "2")  # what `systemctl show` says: the invocation of now
+    device.run("failed", MONITOR_UNIT="haptic-panel.service", MONITOR_INVOCATION_ID="0" * 31 + "1")
+    assert device.layout.word("trial") == "2.0"
+    device.run("failed", MONITOR_UNIT="haptic-panel.service", MONITOR_INVOCATION_ID="0" * 31 + "2")
+    assert (device.layout.word("trial"), device.failed) == ("", ["2.0"])
+
+
+def test_a_verdict_from_before_a_power_cut_counts_at_the_next_start(device):
+    device.ask("trial", "2.0")
+    for _ in range(3):
+        device.run("boot")
+    (device.layout.requests / "good").write_text("2.0\n")
+    device.run("boot")
+    assert (device.current, device.layout.word("current"), device.failed) == ("2.0", "2.0", [])
+    assert not list(device.layout.requests.iterdir())
+
+
+def test_a_rollback_that_is_read_once_more_is_not_one_step_more(device):
+    device.add("2.5")
+    for version in ("2.0", "2.5"):
+        device.ask("trial", version)
+        device.run("boot")
+        if version == "2.0":
+            device.ask("good", version)
+    for _ in range(2):  # the power was cut before the request was removed
+        device.ask("rollback", "2.5")
+    device.run("boot")
+    assert (device.current, device.layout.word("previous"), device.failed) == ("2.0", "1.0", ["2.5"])
+
+
+def test_two_of_it_run_one_after_the_other(device):
+    device.ask("trial", "2.0")
+    state = os.open(device.layout.state, os.O_RDONLY)
+    try:
+        fcntl.flock(state, fcntl.LOCK_EX)
+        with subprocess.Popen([SCRIPT, "boot"], env=device.environment(), stderr=subprocess.PIPE) as started:
+            while f"flock -w 20 9 {started.pid}" not in waiting_for_a_lock(started.pid):
+                assert started.poll() is None
+            assert device.current == "1.0"
+            fcntl.flock(state, fcntl.LOCK_UN)
+            assert started.wait() == 0
+    finally:
+        os.close(state)
+    assert device.current == "2.0"
+
+
+def waiting_for_a_lock(parent):
+    """Commands of a process's children, each with its parent."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            if status.read_text().rpartition(")")[2].split()[1] == str(parent):
+                found.append(f"{(status.parent / 'cmdline').read_text().strip(chr(0)).replace(chr(0), ' ')} {parent}")
+    return found
+
+
+def test_where_nothing_can_be_written_what_was_begun_goes_on(device):
+    """A disk that has become read-only: a release is used, and not none."""
+    device.ask("trial", "2.0")
+    device.run("boot")
+    done = device.run("boot", path=f"{refusing(device, 'sync', 'mv', 'ln', 'rm')}:")
+    assert done.returncode == 0
+    assert "release 2.0 is used, as `current` cannot be changed" in done.stderr
+    assert device.current == "2.0"
+
+
+def refusing(device, *commands):
+    """A folder of commands that fail."""
+    folder = device.tools / "refusing"
+    folder.mkdir()
+    for name in commands:
+        (folder / name).write_text("#!/bin/sh\nexit 1\n")
+        (folder / name).chmod(0o755)
+    return folder
+
+
+def test_a_list_of_failed_releases_that_is_damaged_is_mended(device):
+    (device.layout.state / "failed").write_bytes(b"\0\xff\n0.9\n../x\n")
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.run("failed")
+    assert device.failed == ["0.9", "2.0"]
 
 
 def test_back_by_hand(device):
@@ -192,11 +298,7 @@ def test_a_damaged_state_still_starts_a_whole_release(device, name, damage):
 
 def test_where_a_start_cannot_be_counted_the_trial_is_not_started(device):
     device.ask("trial", "2.0")
-    full = device.tools / "full"
-    full.mkdir()
-    (full / "sync").write_text("#!/bin/sh\nexit 1\n")
-    (full / "sync").chmod(0o755)
-    assert "its start cannot be counted" in device.run("boot", path=f"{full}:").stderr
+    assert "its start cannot be counted" in device.run("boot", path=f"{refusing(device, 'sync')}:").stderr
     assert (device.current, device.failed) == ("1.0", [])
 
 

@@ -3,15 +3,24 @@
 import os
 import re
 import socket
+import ssl
 import threading
+from datetime import UTC, datetime
+from ipaddress import ip_address
 
 import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from hypothesis import given
 from hypothesis import strategies as st
 from tuf.api.exceptions import DownloadError, DownloadHTTPError, DownloadLengthMismatchError, SlowRetrievalError
 
 from controller.errors import UpdateError
-from controller.update.source import FolderSource, HttpSource, NoRanges, answers_range, source_of
+from controller.update.fetch import source_of
+from controller.update.http_source import HttpSource, answers_range
+from controller.update.source import FolderSource, NoRanges
 
 
 @pytest.fixture
@@ -142,6 +151,88 @@ def test_a_file_of_another_length_than_signed_is_refused_at_once(folder, serve):
 def test_an_answer_that_ends_early_is_told(folder, serve):
     cut = {"Content_Range": "bytes 0-9/10", "Content_Length": None, "Connection": "close"}
     assert "ended after 5 of 10 bytes" in refused(serve(folder), lambda h: h.answer(206, b"01234", **cut) or True, length=10)
+
+
+def certificate(folder, begins, ends):
+    """A key and a certificate that it has signed itself, for 127.0.0.1."""
+    private = ec.generate_private_key(ec.SECP256R1())
+    name = x509.Name([x509.NameAttribute(x509.NameOID.COMMON_NAME, "test")])
+    made = (
+        x509.CertificateBuilder(name, name, private.public_key(), 1, begins, ends)
+        .add_extension(x509.SubjectAlternativeName([x509.IPAddress(ip_address("127.0.0.1"))]), critical=False)
+        .add_extension(x509.BasicConstraints(ca=True, path_length=None), critical=True)
+        .sign(private, hashes.SHA256())
+    )
+    plain = private.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
+    (folder / "pem").write_bytes(plain + made.public_bytes(Encoding.PEM))
+    return folder / "pem"
+
+
+def test_a_certificate_is_checked(folder, serve, tmp_path, monkeypatch):
+    """By the system's authorities, and its dates by the clock, of which the line reminds."""
+    for begins, ends, known, good in ((2020, 2120, True, True), (2020, 2120, False, False), (2119, 2120, True, False)):
+        pem = certificate(tmp_path, datetime(begins, 1, 1, tzinfo=UTC), datetime(ends, 1, 1, tzinfo=UTC))
+        context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH)
+        context.load_cert_chain(pem)
+        monkeypatch.setenv("SSL_CERT_FILE", str(pem) if known else os.devnull)
+        source = HttpSource(serve(folder, context).address, 60, retries=0)
+        if good:
+            assert read(source, length=len(DATA)) == DATA
+        else:
+            with pytest.raises(DownloadError, match=r"its certificate is not accepted .*: is the clock right"):
+                read(source)
+
+
+RAW = [
+    b"",
+    b"garbage",
+    b"\0" * 1000,
+    b"HTTP/1.1 200",
+    b"HTTP/1.1 99999999999 X\r\n\r\n",
+    b"HTTP/9.9 200 OK\r\n\r\n",
+    b"HTTP/1.1 -1 OK\r\n\r\n",
+    b"HTTP/1.1 200 OK\r\nContent-Length: -5\r\n\r\nx",
+    b"HTTP/1.1 200 OK\r\nContent-Length: 5, 7\r\n\r\nx",
+    b"HTTP/1.1 200 OK\r\nContent-Length: " + b"9" * 5000 + b"\r\n\r\nx",
+    b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
+    b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n-5\r\nabc\r\n",
+    b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nabc",
+    b"HTTP/1.1 200 OK\r\nContent-Encoding: gzip\r\nContent-Length: 3\r\n\r\nabc",
+    b"HTTP/1.1 206 OK\r\nContent-Range: bytes 0-9/10\r\nContent-Length: 3\r\n\r\nabc",
+    b"HTTP/1.1 200 OK\r\n" + b"X: y\r\n" * 1000 + b"\r\n",
+    b"HTTP/1.1 200 OK\r\nX: " + b"y" * 100_000,
+    b"HTTP/1.1 100 Continue\r\n\r\n" * 50,
+    b"HTTP/1.1 101 Switching\r\n\r\n",
+    b"HTTP/1.1 204 None\r\n\r\n",
+    b"HTTP/1.1 304 Same\r\n\r\n",
+    b"HTTP/1.1 302 Away\r\nLocation: \xff\xfe\r\n\r\n",
+    b"HTTP/1.1 200 OK\r\nbroken header\r\n: x\r\n\r\n",
+]
+
+
+@pytest.mark.filterwarnings(
+    "ignore::pytest.PytestUnraisableExceptionWarning"
+)  # http.client drops a socket at a number of 5,000 digits
+def test_whatever_a_server_says_ends_as_one_line_or_as_bytes(folder, serve):
+    """Raw answers, then the connection ends."""
+    server = serve(folder)
+    for raw in RAW:
+
+        def answer(handler, raw=raw):
+            handler.wfile.write(raw)
+            handler.close_connection = True
+            return True
+
+        server.instead = answer
+        for what in ({}, {"length": 10}, {"start": 5, "length": 10}, {"start": 5}):
+            source = HttpSource(server.address, 60, gap_s=5, retries=0)
+            try:
+                given_bytes = read(source, **what)
+            except DownloadError as error:
+                assert "\n" not in str(error), raw  # noqa: PT017 - both ends are right
+            else:
+                assert len(given_bytes) <= 10
+                assert not what, (raw, what)
 
 
 class Time:
@@ -281,6 +372,9 @@ def test_what_is_no_repository_is_told_before_anything_is_read(tmp_path):
         ("", "no repository is set"),
         ("ftp://a/b", "address: set"),
         ("http://", "address: set"),
+        ("http://[::1/x", "address: set"),
+        ("http://host:port/", "address: set"),
+        ("http://host:99999/", "address: set"),
         (str(tmp_path / "absent"), "is the stick plugged in"),
         (str(tmp_path), "is no repository"),
     ):

@@ -1,7 +1,10 @@
 """What the owner did not sign is refused, with one line; releases, store and manifest stay as they were."""
 
+import copy
 import fcntl
 import json
+import os
+import random
 import shutil
 from datetime import UTC, datetime, timedelta
 
@@ -36,6 +39,15 @@ class Case:
         self.two = self.publisher.release("1.1", 2, TWO)
         self.folder = folder
 
+    def moved(self, folder):
+        """A copy elsewhere."""
+        for name in ("repository", "haptic-panel"):
+            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copy)
+        shutil.copyfile(self.folder / "root.json", folder / "root.json")
+        other = copy.copy(self)
+        other.publisher, other.device = self.publisher.moved(folder / "repository"), Device(folder)
+        return other
+
     def fetch(self, source=None, now=NOW):
         return fetch(self.device.layout, UpdateSettings(), str(source or self.publisher.folder), quiet, now)
 
@@ -48,9 +60,15 @@ class Case:
         return str(told.value)
 
 
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return Case(tmp_path_factory.mktemp("made"))
+
+
 @pytest.fixture
-def case(tmp_path):
-    return Case(tmp_path)
+def case(made, tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "fsync", lambda _: None)  # its tests are those of power cuts
+    return made.moved(tmp_path)
 
 
 def test_what_the_owner_signed_is_fetched(case):
@@ -91,10 +109,10 @@ def test_a_trusted_root_of_another_owner_refuses_ours(case, tmp_path):
     case.refused("is not signed by this device's owner")
 
 
-@pytest.mark.parametrize("root", [b"", b"{}", b"<html>"])
-def test_a_damaged_trusted_root_is_told(case, root):
-    case.device.layout.trusted_root.write_bytes(root)
-    case.refused("root.json: is no root.json of a repository")
+def test_a_damaged_trusted_root_is_told(case):
+    for root in (b"", b"{}", b"<html>"):
+        case.device.layout.trusted_root.write_bytes(root)
+        case.refused("root.json: is no root.json of a repository")
 
 
 def test_an_absent_trusted_root_is_told(case):
@@ -162,17 +180,17 @@ def test_an_old_snapshot_under_a_new_timestamp_is_refused(case):
     case.refused("of mixed ages")
 
 
-@pytest.mark.parametrize("data", [b"", b"{", b"<html>login</html>", b"null", b"[]", b'{"signed": 1}', b"\xff" * 100])
 @pytest.mark.parametrize("name", ["timestamp", "2.snapshot", "2.targets"])
-def test_garbage_is_no_metadata(case, data, name):
-    (case.publisher.folder / "metadata" / f"{name}.json").write_bytes(data)
-    assert "does this network ask for a login" in case.refused("has no signed metadata")
+def test_garbage_is_no_metadata(case, name):
+    for data in (b"", b"{", b"<html>login</html>", b"null", b"[]", b'{"signed": 1}', b"\xff" * 100):
+        (case.publisher.folder / "metadata" / f"{name}.json").write_bytes(data)
+        assert "does this network ask for a login" in case.refused("has no signed metadata")
 
 
-@pytest.mark.parametrize("name", ["timestamp", "2.snapshot", "2.targets", "2.root"])
-def test_metadata_without_end_is_refused(case, name):
-    (case.publisher.folder / "metadata" / f"{name}.json").write_bytes(b" " * 3_000_000)
-    case.refused("more, or less, than was signed")
+def test_metadata_without_end_is_refused(case):
+    for name in ("2.targets", "2.snapshot", "timestamp", "2.root"):
+        (case.publisher.folder / "metadata" / f"{name}.json").write_bytes(b" " * 3_000_000)
+        case.refused("more, or less, than was signed")
 
 
 def test_a_platform_without_a_release_is_told(case):
@@ -180,13 +198,11 @@ def test_a_platform_without_a_release_is_told(case):
     case.refused("has no release for .*, but for riscv64-cp311")
 
 
-@pytest.mark.parametrize(
-    "data", [b"", b"[]", b"null", b"{}", b'{"releases": {"a": 1}}', b'{"releases": {}, "x": 1}', b"[" * 60_000]
-)
-def test_a_damaged_channel_is_told(case, data):
-    case.publisher.targets["channels/stable.json"] = data
-    case.publisher.publish()
-    case.refused("channels/stable.json: ")
+def test_a_damaged_channel_is_told(case):
+    for data in (b"", b"[]", b"null", b"{}", b'{"releases": {"a": 1}}', b'{"releases": {}, "x": 1}', b"[" * 60_000):
+        case.publisher.targets["channels/stable.json"] = data
+        case.publisher.publish()
+        case.refused("channels/stable.json: ")
 
 
 def test_an_absent_channel_is_told(case):
@@ -218,6 +234,11 @@ def test_a_release_that_failed_here_is_not_taken_again(case):
     assert case.fetch() == three
 
 
+def test_where_the_failed_cannot_be_read_nothing_is_taken(case):
+    (case.device.layout.state / "failed").mkdir()
+    case.refused("state/failed: cannot be read .Is a directory., so that no release is taken")
+
+
 def test_a_manifest_under_another_releases_name_is_refused(case):
     target = case.two.target.replace("1.1", "7.0")
     case.publisher.targets[target] = case.two.to_json()
@@ -225,13 +246,13 @@ def test_a_manifest_under_another_releases_name_is_refused(case):
     case.refused("is the manifest of releases/1.1/")
 
 
-@pytest.mark.parametrize("path", ["../etc/passwd", "/etc/passwd", "boards/../../x", "a//b", "a/./b", ".complete", "a\x00b", "a\nb"])
-def test_names_that_leave_the_release_are_refused(case, path):
+def test_names_that_leave_the_release_are_refused(case):
     data = json.loads(case.two.to_json())
-    data["files"][0]["path"] = path
-    case.publisher.targets[case.two.target] = json.dumps(data).encode()
-    case.publisher.publish()
-    case.refused("is no path inside of a release")
+    for path in ("../etc/passwd", "/etc/passwd", "boards/../../x", "a//b", "a/./b", ".complete", "a\x00b", "a\nb"):
+        data["files"][0]["path"] = path
+        case.publisher.targets[case.two.target] = json.dumps(data).encode()
+        case.publisher.publish()
+        case.refused("is no path inside of a release")
 
 
 def test_a_huge_manifest_is_refused_unread(case):
@@ -316,14 +337,14 @@ def test_a_stolen_timestamp_key_cannot_move_the_time_beyond_what_is_valid(case):
     assert "its owner has to sign it again" in case.refused("is expired", now=NOW + timedelta(days=91))
 
 
-@pytest.mark.parametrize("text", ["", "tomorrow", "2026-11-22", "2026-13-22T12:00:00Z", "9" * 1000])
-def test_a_time_that_is_none_is_left_out(case, text):
+def test_a_time_that_is_none_is_left_out(case):
     file = case.device.layout.download / "clock"
-    file.write_text(text)
-    case.publisher.issued = text or "x"
-    case.publisher.stamp()
-    assert case.fetch() == case.two
-    assert file.read_text() == text
+    for text in ("tomorrow", "2026-11-22", "2026-13-22T12:00:00Z", "9" * 1000, ""):
+        file.write_text(text)
+        case.publisher.issued = text or "x"
+        case.publisher.stamp()
+        assert case.fetch() == case.two
+        assert file.read_text() == text
 
 
 def test_the_signed_document_itself_may_be_of_any_kind(case):
@@ -336,3 +357,40 @@ def test_the_signed_document_itself_may_be_of_any_kind(case):
             case.refused("refused|has no signed metadata")
         (metadata / name).write_bytes(right)
     assert case.fetch() == case.two
+
+
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 400))])
+def test_whatever_is_damaged_is_refused_or_of_no_use(case, seed):
+    """Any file of the repository: bytes flipped, cut off, doubled, or those of another file."""
+    rng = random.Random(seed)
+    files = sorted(file for file in case.publisher.folder.rglob("*") if file.is_file())
+    for _ in range(10):
+        file = rng.choice(files)
+        right = file.read_bytes()
+        wrong = bytearray(right)
+        match rng.randrange(5):
+            case 0:
+                for _ in range(rng.randint(1, 4)):
+                    wrong[rng.randrange(len(wrong))] ^= 1 << rng.randrange(8)
+            case 1:
+                del wrong[rng.randrange(len(wrong)) :]
+            case 2:
+                wrong *= 2
+            case 3:
+                wrong[:] = rng.choice(files).read_bytes()
+            case 4:
+                start = rng.randrange(len(wrong))
+                wrong[start : start + rng.randint(1, 9)] = rng.choice([b"null", b"[]", b"{}", b"1e999", b"-1", b'"', b"\xff", b""])
+        file.write_bytes(wrong)
+        before = case.device.kept()
+        try:
+            assert case.fetch() == case.two
+        except UpdateError as error:
+            assert "\n" not in str(error)  # noqa: PT017
+            release, kept = case.device.kept()
+            assert release == before[0]
+            assert {name: kept[name] for name in before[1]} == before[1]
+        file.write_bytes(right)
+    assert case.fetch() == case.two
+    for signed in case.two.files:
+        assert (case.device.layout.store / signed.sha256).read_bytes() == TWO[signed.path]

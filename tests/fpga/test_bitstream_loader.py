@@ -1,0 +1,140 @@
+"""An FPGA with another gateware is loaded by a program beside the loop, before it is armed, or it is refused."""
+
+import os
+import signal
+import sys
+
+import pytest
+
+from controller.board.board import load_board
+from controller.board.devices import GatewareLoading
+from controller.board.lookup import find_board
+from controller.clocks import VirtualClock
+from controller.errors import LinkError
+from controller.fpga.bitstream_loader import BitstreamLoader
+from controller.fpga.build_parameters import BuildParameters
+from controller.fpga.configuration import IncompatibleFpga
+from controller.fpga.session import Session
+from controller.gateware_model.model import GatewareModel
+from controller.gateware_model.simulated_link import SimulatedLink
+
+BUILD, OTHER = 0x1234ABCD, 7
+BOARD = load_board(find_board("simulated"))
+LOAD = "import sys; open(sys.argv[2], 'w').write(open(sys.argv[1]).read())"
+
+
+class Bench:
+    """An FPGA whose build hash is what a file says, and a session with it."""
+
+    def __init__(self, folder, program=LOAD, hash_of_bitstream=BUILD):
+        self.clock = VirtualClock()
+        self.configured = folder / "configured"
+        self.bitstream = folder / "gateware.bit"
+        self.bitstream.write_text(str(hash_of_bitstream))
+        self.link = None
+        command = (*([sys.executable, "-c", program] if program else ["/no/loader"]), "{bitstream}", str(self.configured))
+        settings = GatewareLoading(load=command, bitstream="gateware.bit", limit_s=5.0)
+        self.loader = BitstreamLoader(settings, self.bitstream, self.clock.now_s)
+        self.power_up(OTHER)
+
+    def power_up(self, build):
+        """The FPGA just out of reset, with this gateware."""
+        model = GatewareModel(BuildParameters.of(BOARD, build))
+        start_s = self.clock.now_s()
+        self.link = SimulatedLink(BOARD.link, lambda: self.clock.now_s() - start_s, model)
+        self.session = Session(self.link, BOARD, BUILD, lambda: self.clock.now_s() - start_s, bring_up=False)
+        self.session.loader = self.loader
+        self.gateware = model
+
+    def bring_up(self):
+        """As the loop retries it, until it is good or refused."""
+        while True:
+            try:
+                return self.session.bring_up()
+            except IncompatibleFpga:
+                raise
+            except LinkError as error:
+                self.said = str(error)
+                if self.loader._process is not None:
+                    os.waitid(os.P_PID, self.loader._process.pid, os.WEXITED | os.WNOWAIT)
+                if self.configured.exists():
+                    self.power_up(int(self.configured.read_text()))
+                    self.configured.unlink()
+
+    def refused(self):
+        """One line that says why the FPGA is refused; it was never armed, and no program is left."""
+        with pytest.raises(IncompatibleFpga) as caught:
+            self.bring_up()
+        assert caught.value.exit_code == 78
+        assert "\n" not in str(caught.value)
+        assert not self.link.take_capture().hv.any()
+        assert self.loader._process is None
+        return str(caught.value)
+
+
+def test_it_is_loaded_and_used(tmp_path):
+    bench = Bench(tmp_path)
+    bench.bring_up()
+    assert "BUILD_HASH is 0x00000007, not 0x1234ABCD: its gateware is being loaded" in bench.said
+    bench.session.heartbeat()
+    assert bench.session.arm() > 0
+
+
+def test_it_is_loaded_again_after_its_supply_was_lost_and_its_flash_has_another(tmp_path):
+    bench = Bench(tmp_path)
+    bench.bring_up()
+    bench.power_up(OTHER)
+    bench.bring_up()
+
+
+def test_it_is_not_loaded_where_its_gateware_is_right(tmp_path):
+    bench = Bench(tmp_path, program=None)
+    bench.power_up(BUILD)
+    bench.bring_up()
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        (None, "/no/loader cannot be started (No such file or directory)"),
+        ("import sys; sys.exit('busy\\nno cable found')", "ended with exit code 1: no cable found"),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "was ended by SIGSEGV"),
+    ],
+)
+def test_a_loader_that_is_missing_or_fails_is_said(tmp_path, program, said):
+    refused = Bench(tmp_path, program).refused()
+    assert said in refused
+    assert "BUILD_HASH is 0x00000007" in refused
+
+
+def test_a_bitstream_that_is_missing_is_said(tmp_path):
+    bench = Bench(tmp_path)
+    bench.bitstream.unlink()
+    assert f"{bench.bitstream}: there is no such bitstream to load" in bench.refused()
+
+
+def test_a_wrong_bitstream_is_not_loaded_twice(tmp_path):
+    bench = Bench(tmp_path, hash_of_bitstream=8)
+    refused = bench.refused()
+    assert "BUILD_HASH is 0x00000008" in refused
+    assert f"it is so after {bench.bitstream} was loaded" in refused
+
+
+def test_a_loader_that_hangs_is_ended_with_all_it_started(tmp_path):
+    bench = Bench(tmp_path, "import subprocess; subprocess.run(['sleep', 'infinity'])")
+    with pytest.raises(LinkError, match="is being loaded"):
+        bench.session.bring_up()
+    group = bench.loader._process.pid
+    bench.clock._now_s += 5.1
+    assert "did not end within 5 s" in bench.refused()
+    with pytest.raises(ProcessLookupError):
+        os.killpg(group, signal.SIGKILL)
+
+
+def test_it_ends_with_the_service(tmp_path):
+    bench = Bench(tmp_path, "import signal; signal.pause()")
+    with pytest.raises(LinkError, match="is being loaded"):
+        bench.session.bring_up()
+    process = bench.loader._process
+    bench.loader.close()
+    assert process.returncode == -signal.SIGKILL
