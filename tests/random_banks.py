@@ -9,6 +9,7 @@ import pytest
 from controller.bank.file_format import Header, creator
 from controller.bank.grid import Grid
 from controller.bank.packing import CHANNELS, drive_words, quantise
+from controller.bank.provenance import as_parameter
 from controller.bank.writer import BankWriter
 from controller.board.board import Board
 
@@ -31,6 +32,7 @@ def make_bank(board: Board) -> MakeBank:
         rests=None,
         digest=None,
         compositions=None,
+        provenance=None,
         **told,
     ):
         grid = grid or Grid(5e-3, 3, 2, 5e-3, 6e-3)
@@ -39,6 +41,8 @@ def make_bank(board: Board) -> MakeBank:
             random = np.random.default_rng(seed)
             responses = {int(c): 1e-9 * random.standard_normal((samples, CHANNELS)) for c in np.flatnonzero(cells)}
         told = {"board": "simulated", "channel_edges": samples + 1, "all_edges": CHANNELS} | told
+        if provenance is not None:
+            told["responses"] = as_parameter(provenance)
         composed = compositions or {}
         header = Header(creator(), digest or board.digest(), grid, 500e3, samples, len(responses), told, len(composed))
         with BankWriter(path, header, cells) as writer:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.bank.file_format import VERSION, Section, creator, header_length, parse
+from controller.bank.file_format import VERSION, Header, Section, creator, header_length, parse
 from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.board.board import Board
@@ -187,14 +188,25 @@ def optimised_for(path: Path) -> str:
 def measured_at(path: Path) -> bool:
     """Whether the bank at `path` has responses that were measured, at least in part, even if it is damaged behind its header."""
     try:
-        with path.open("rb") as file:
-            size = path.stat().st_size
-            length = header_length(file.read(16), size)
-            file.seek(0)
-            header, _ = parse(file.read(length), size)
+        provenance = header_of(path).provenance
     except (OSError, BankError):
         return False
-    return header.provenance is not None and header.provenance.from_measurements
+    return provenance is not None and provenance.from_measurements
+
+
+def header_of(path: Path) -> Header:
+    """Header of the bank at `path`, whatever is behind it.
+
+    Raises
+    ------
+    OSError, BankError
+        If it cannot be read, or is damaged.
+    """
+    with path.open("rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        length = header_length(file.read(16), size)
+        file.seek(0)
+        return parse(file.read(length), size)[0]
 
 
 def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:

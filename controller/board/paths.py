@@ -1,4 +1,4 @@
-"""Paths of generated files: one bank for each board, at the same path for every command.
+"""Paths of generated files: one bank for each board and format, at the same path for every command.
 
 The bank of a board in /etc is in the state folder of the service, whichever user asks; that of any other board is in the user's
 cache.
@@ -10,6 +10,7 @@ import os
 import pwd
 import shlex
 from pathlib import Path
+from typing import Final
 
 from controller.board.board import Board
 from controller.errors import BankError
@@ -17,6 +18,7 @@ from controller.errors import BankError
 SERVICE = "haptic-panel"  # name of the service's user and group
 SERVICE_STATE = Path("/var/lib/haptic-panel")  # StateDirectory= of the unit
 SERVICE_STATE_MODE = 0o750  # StateDirectoryMode=
+BANK_FORMAT: Final = 4  # of bank.file_format: part of a bank's name, so that an older release finds its own beside it
 
 
 def state_folder(board: Board | None = None) -> Path:
@@ -35,7 +37,7 @@ def state_folder(board: Board | None = None) -> Path:
 
 
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:
-    """Path of a board's bank. It serves every scene whose cells it has.
+    """Path of a board's bank on this device, of the format of this program. It serves every scene whose cells it has.
 
     Parameters
     ----------
@@ -44,7 +46,12 @@ def bank_path(board: Board, pitch_m: float | None = None) -> Path:
     """
     own_m = board.bank.pitch_mm * 1e-3
     name = board.key if pitch_m is None or pitch_m == own_m else f"{board.key}-{pitch_m * 1e3:g}mm"
-    return state_folder(board) / "banks" / f"{name}.bank"
+    return state_folder(board) / "banks" / f"{name}.v{BANK_FORMAT}.bank"
+
+
+def earlier_bank_path(board: Board) -> Path:
+    """Path of a board's bank before names told formats."""
+    return state_folder(board) / "banks" / f"{board.key}.bank"
 
 
 def is_there(path: Path) -> bool:

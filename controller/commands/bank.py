@@ -23,6 +23,7 @@ from controller.bank.inspection import (
     verify_bank,
     wrong_pitch,
 )
+from controller.bank.lookup import FoundBank, find_bank
 from controller.bank.provenance import MEASURE_AGAIN
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
@@ -111,8 +112,8 @@ def bank_build(options: argparse.Namespace) -> int:
         print(f"haptic-panel: {path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}", file=sys.stderr)
     report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
     show(options, asdict(report), _build_table)
-    if path != bank_path(board):
-        print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
+    if path != (played := find_bank(board)).path:
+        print(f"haptic-panel: run plays from {played.path} ({played.why}) unless told --bank {path}", file=sys.stderr)
     return 0
 
 
@@ -142,7 +143,7 @@ def bank_describe(options: argparse.Namespace) -> int:
         from controller.commands.tables import power_table
 
         board = load_board(find_board(options.board))
-        with Bank.open(_bank_file(options), board) as bank:
+        with Bank.open(_bank_file(options).path, board) as bank:
             show(options, power_report(board, bank, progress=progress_bar("losses")), power_table)
         return 0
     from controller.commands.tables import plain_table
@@ -152,13 +153,14 @@ def bank_describe(options: argparse.Namespace) -> int:
         parameters = {name: value for name, value in figures["parameters"].items() if name != "responses"}
         return plain_table(figures | {"parameters": parameters})
 
-    show(options, bank_info(_bank_file(options)), table)
+    found = _bank_file(options)
+    show(options, bank_info(found.path) | {"chosen": found.why}, table)
     return 0
 
 
 def bank_verify(options: argparse.Namespace) -> int:
     """Check every bit of a bank."""
-    file = _bank_file(options)
+    file = _bank_file(options).path
     try:
         found = verify_bank(file, progress_bar("bytes"))
     except BankError as error:
@@ -187,8 +189,9 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
     """
     if options.bank:
         return Bank.open(Path(options.bank), board)
-    path = bank_path(board)
-    if keep and is_there(path):
+    found_bank = find_bank(board)
+    path = found_bank.path
+    if (keep and is_there(path)) or found_bank.of_release:
         bank = Bank.open(path, board)
         if wrong := wrong_pitch(bank, board):
             bank.close()
@@ -215,19 +218,20 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
                 f"haptic-panel: its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}",
                 file=sys.stderr,
             )
+        path = bank_path(board)
         _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
     return Bank.open(path, board)
 
 
-def _bank_file(options: argparse.Namespace) -> Path:
-    """The file given, else the board's own bank."""
+def _bank_file(options: argparse.Namespace) -> FoundBank:
+    """The file given, else the bank that the board plays."""
     if options.file:
-        return Path(options.file)
+        return FoundBank(Path(options.file), "given")
     board = load_board(find_board(options.board))
-    path = bank_path(board)
-    if not is_there(path):
-        raise BankError(f"{path}: there is no such bank yet; build it: {build_line(path, board)}")
-    return path
+    found = find_bank(board)
+    if not is_there(found.path):
+        raise BankError(f"{found.path}: there is no such bank yet; build it: {build_line(found.path, board)}")
+    return found
 
 
 def _choose(board: Board, scene: Scene, scene_file: Path) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from controller.bank.grid import Grid
+from controller.bank.lookup import find_bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
@@ -125,8 +126,8 @@ def calibrate_bank(options: argparse.Namespace) -> int:
         print(f"haptic-panel: {note}", file=sys.stderr)
     figures = _figures(board, learned, source, waves, decays, drift)
     show(options, {"path": str(path), "cells": report.cells, "bytes": report.bytes} | figures | {"notes": notes}, _table)
-    if path != bank_path(board):
-        print(f"haptic-panel: run plays from {bank_path(board)} unless told --bank {path}", file=sys.stderr)
+    if path != (played := find_bank(board)).path:
+        print(f"haptic-panel: run plays from {played.path} ({played.why}) unless told --bank {path}", file=sys.stderr)
     return 0
 
 

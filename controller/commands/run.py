@@ -11,6 +11,7 @@ import msgspec
 
 from controller.board.board import Board, load_board, on_other_plate, simulated
 from controller.board.lookup import find_board
+from controller.board.paths import state_folder
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
@@ -85,8 +86,12 @@ def run(options: argparse.Namespace) -> int:
 def _serve(options: argparse.Namespace, board: Board) -> int:
     """Run the service with the board's devices."""
     from controller.commands.tables import service_table
+    from controller.service.migration import migrate
     from controller.service.run import serve
 
+    if board.is_the_systems:
+        for said in migrate(state_folder(board)):
+            print(line(said, Priority.INFO), file=sys.stderr)
     simulating = (options.plot, options.speed == "max", bool(options.plate), options.drift_percent is not None, options.drift)
     if any(simulating):
         raise ConfigError("--plot, --speed max, --plate, --drift are for simulated panels: add --link model to simulate this board")

@@ -11,6 +11,8 @@ import msgspec
 
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.errors import LinkError
+from controller.update.installed import UpdateState, update_state
+from controller.update.layout import Layout
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
@@ -38,20 +40,22 @@ def run(options: argparse.Namespace) -> int:
         If no service runs.
     """
     status, old = read_now(options.file)
+    updates = update_state(Layout.from_environment())
     if status is None:
         raise LinkError(f"no service runs: there is no {options.file}: {START}")
     gone = old and (status.ended or not is_running(status.pid))
     if not options.json:
-        print(_in_words(status, old))
+        print(_in_words(status, old, updates))
     else:
         said: dict[str, Any] = msgspec.to_builtins(status)
-        print(json.dumps(said | {"serves": status.serves and not old, "old": old, "uptime_s": status.uptime_s}))
+        more = {"serves": status.serves and not old, "old": old, "uptime_s": status.uptime_s, "updates": updates.figures()}
+        print(json.dumps(said | more))
     if gone:
         raise LinkError(f"no service runs: {options.file} is its last word: {old}: {START}")
     return 0 if status.serves and not old else 1
 
 
-def _in_words(status: PanelStatus, old: str) -> str:
+def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
     """The status as text, one matter a line."""
     causes = ", ".join(f"{name} {count}" for name, count in sorted(status.outage_causes.items()))
     plate = "unknown" if status.temperature_c is None else f"{status.temperature_c:.1f} °C"
@@ -68,9 +72,18 @@ def _in_words(status: PanelStatus, old: str) -> str:
         if latency.count:
             p50_ms, p99_ms, worst_ms = (1e-3 * us for us in (latency.p50_us, latency.p99_us, latency.worst_us))
             lines.append(f"the host's work for {name}: median {p50_ms:.3f} ms, 99 % {p99_ms:.3f} ms, worst {worst_ms:.3f} ms")
+    if updates.in_use:
+        lines.append(f"release in use: {updates.in_use}{_trial(updates)}; `haptic-panel update status` has more")
     if old:
         lines.insert(0, f"NOT NOW: {old}")
     return "\n".join(lines)
+
+
+def _trial(updates: UpdateState) -> str:
+    """What there is to say of a trial, and of releases that were one."""
+    on_trial = f", on trial, start {updates.tries}" if updates.trial == updates.in_use else ""
+    failed = f", not tried again: {', '.join(updates.failed)}" if updates.failed else ""
+    return on_trial + failed
 
 
 def _duration(seconds: float) -> str:

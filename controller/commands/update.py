@@ -16,6 +16,7 @@ STEPS: dict[str, str] = {  # in the order of --help, which prints these texts; e
     "status": "which releases this device has, and how a trial stands",
     "rollback": "go back to the release before",
     "judge": "judge the release on trial by how its service fares (haptic-panel-trial.service runs it)",
+    "make-release": "make a release: wheels, boards, banks, gateware, and a manifest of them all",
     "repository": "keep the repository of releases: keys, drafts, signatures, publication, sticks",
 }
 

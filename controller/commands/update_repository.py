@@ -176,7 +176,7 @@ def export_stick(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, repository: Repository, published: bool) -> int:
     """Say what is published, or what the draft lacks."""
-    lacking = "" if published else repository.lacking()
+    lacking = "" if published else repository.lacking() or "signed by all: take it back to the repository, with sign --from"
     show(
         options,
         {"repository": str(options.repository), "published": published, "lacking": lacking},

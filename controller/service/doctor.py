@@ -15,10 +15,11 @@ from dataclasses import dataclass
 import msgspec
 
 from controller.bank.inspection import wrong_pitch
+from controller.bank.lookup import find_bank
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.devices import LinkSettings, Realtime
-from controller.board.paths import SERVICE, bank_path, service_user
+from controller.board.paths import SERVICE, service_user
 from controller.board.touch_panels import LinuxInputTouch, RecordingTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
@@ -191,17 +192,18 @@ def _scene(board: Board) -> str:
 
 
 def _bank(board: Board) -> str:
-    path, scene_file = bank_path(board), find_scene(board)
+    found, scene_file = find_bank(board), find_scene(board)
+    path = found.path
     with Bank.open(path, board) as bank:
         if wrong := wrong_pitch(bank, board):
             raise BankError(f"{path}: {wrong}; rebuild it: {bank.rebuild}")
         cells = populate(bank, load_scene(scene_file, board), str(scene_file), responses=True)
-    return f"{path}, {cells:,} cells of the scene"
+    return f"{path}, {cells:,} cells of the scene; {found.why}"
 
 
 def _responses(board: Board) -> str | Finding:
     """Whether the bank was computed from measured or modelled responses."""
-    with Bank.open(bank_path(board)) as bank:
+    with Bank.open(find_bank(board).path) as bank:
         provenance = bank.header.provenance
     if provenance and provenance.from_measurements:
         return f"the bank's responses are {provenance.in_words()}"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import select
 import signal
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Self
@@ -22,10 +23,21 @@ LOOK_MS = 50
 
 
 class Reloaded(msgspec.Struct, frozen=True):
-    """Number of reloads since the service started, and why the last one was refused; empty if it was not."""
+    """Result of the last reload.
+
+    Attributes
+    ----------
+    count : int
+        Reloads since the service started.
+    refused : str
+        Why the last one was refused; empty if it was not.
+    environment : str
+        Where the service's program is installed; empty: one from before this was told.
+    """
 
     count: int
     refused: str
+    environment: str = ""
 
 
 class ReloadFile:
@@ -60,7 +72,7 @@ class ReloadFile:
             return
         new = self._file.with_suffix(".new")
         try:
-            new.write_bytes(msgspec.json.encode(Reloaded(count, refused)))
+            new.write_bytes(msgspec.json.encode(Reloaded(count, refused, sys.prefix)))
             new.replace(self._file)
         except OSError:
             return
@@ -77,7 +89,8 @@ def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
     Raises
     ------
     ConfigError
-        If the scene was refused, with the reason; the scene before stays in force.
+        If the scene was refused, with the reason, or the service runs from another release than this program: what one of them
+        wrote, the other may not read. The scene before stays in force.
     ControllerError
         If the process does not exist, or ended meanwhile.
     """
@@ -85,6 +98,10 @@ def reload(pid: int, environment: Mapping[str, str] = os.environ) -> None:
     if folder is None:
         raise ConfigError("$RUNTIME_DIRECTORY is not set: this is what ExecReload= of the unit runs; use systemctl reload")
     before = _read(folder / NAME)
+    if before.environment not in ("", sys.prefix):
+        raise ConfigError(
+            f"the service runs from {before.environment}, and this is {sys.prefix}: restart the service instead (systemctl restart)"
+        )
     try:
         process = os.pidfd_open(pid)
         signal.pidfd_send_signal(process, signal.SIGHUP)

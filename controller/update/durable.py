@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from controller.errors import UpdateError
 
 
 def write_durably(path: Path, data: bytes, mode: int = 0o644) -> None:
@@ -24,7 +27,7 @@ def write_durably(path: Path, data: bytes, mode: int = 0o644) -> None:
             os.fsync(file.fileno())
         new.replace(path)
     except OSError:
-        with contextlib.suppress(OSError):
+        with suppress(OSError):
             new.unlink()
         raise
     sync_folder(path.parent)
@@ -37,3 +40,14 @@ def sync_folder(folder: Path) -> None:
         os.fsync(fd)
     finally:
         os.close(fd)
+
+
+@contextmanager
+def tell_disk(folder: Path) -> Iterator[None]:
+    """Errors of a disk as one line that says where."""
+    try:
+        yield
+    except OSError as error:
+        raise UpdateError(
+            f"{error.filename or folder}: cannot be written ({error.strerror}): make room or mend it, then repeat"
+        ) from error

@@ -20,6 +20,10 @@ RETRIES: Final = 2
 CONTENT_RANGE: Final = re.compile(r"bytes (\d{1,15})-(\d{1,15})/(\d{1,15}|\*)")
 
 
+class Broken(DownloadError):
+    """A connection that ended too early."""
+
+
 class HttpSource(Source):
     """A repository at an http(s) address; whatever is not this address's own answer is refused.
 
@@ -66,9 +70,25 @@ class HttpSource(Source):
             raise UpdateError(f"{self.address}: is no http(s) address: set `source` in update.toml, or give --from URL or FOLDER")
 
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
-        """Ask for a file, or a range of it; a part of it is refused unless it is exactly what was asked for."""
-        if length == 0:
-            return
+        """Ask for a file, or a range of it; where the connection breaks after a while, ask for the rest."""
+        read = begun = 0
+        while length is None or read < length:
+            try:
+                for chunk in self._asked(url, start + read, None if length is None else length - read):
+                    read += len(chunk)
+                    yield chunk
+                return
+            except Broken:
+                if length is None or read - begun < CHUNK_BYTES:
+                    raise
+                begun = read
+            except NoRanges as error:
+                if begun:
+                    raise Broken(f"{url}: the connection broke, and the server sends whole files only: try again") from error
+                raise
+
+    def _asked(self, url: str, start: int, length: int | None) -> Iterator[bytes]:
+        """What comes of one request; a part of a file is refused unless it is exactly what was asked for."""
         headers = {**self._http.headers}
         if start or length is not None:
             headers["Range"] = f"bytes={start}-" + ("" if length is None else f"{start + length - 1}")
@@ -114,7 +134,7 @@ class HttpSource(Source):
             self._within_time(url)
             yield chunk
         if length is not None and read < length:
-            raise DownloadError(f"{url}: ended after {read:,} of {length:,} bytes")
+            raise Broken(f"{url}: ended after {read:,} of {length:,} bytes")
 
     def _pace(self, count: int) -> None:
         """Wait until the bytes that were read are due."""
@@ -156,6 +176,6 @@ def _told(url: str, gap_s: float) -> Iterator[None]:
             raise DownloadError(f"{url}: its certificate is not accepted ({cause}): is the clock right?") from error
         if isinstance(cause, urllib3.exceptions.TimeoutError) and not isinstance(cause, urllib3.exceptions.NewConnectionError):
             raise SlowRetrievalError(f"{url}: the server said nothing for {gap_s:g} s: try again; what came is kept") from error
-        raise DownloadError(f"{url}: the connection broke ({cause}): try again; what came is kept") from error
+        raise Broken(f"{url}: the connection broke ({cause}): try again; what came is kept") from error
     except (ValueError, OSError) as error:
         raise DownloadError(f"{url}: cannot be asked for ({error}): is the address right?") from error

@@ -98,11 +98,20 @@ def _reason(manifest: Manifest, installed: Manifest | None, layout: Layout, wher
 
 
 def failed_releases(layout: Layout) -> frozenset[str]:
-    """Versions that were tried and did not serve."""
+    """Versions that were tried and did not serve.
+
+    Raises
+    ------
+    UpdateError
+        If they cannot be read: what is not known to be untried is not fetched.
+    """
+    file = layout.state / "failed"
     try:
-        lines = (layout.state / "failed").read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError:
+        lines = file.read_text(encoding="ascii", errors="replace").splitlines()
+    except FileNotFoundError:
         return frozenset()
+    except OSError as error:
+        raise UpdateError(f"{file}: cannot be read ({error.strerror}), so that no release is taken: look at its owner") from error
     return frozenset(line.split()[0] for line in lines if line.strip())
 
 

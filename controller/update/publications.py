@@ -19,6 +19,7 @@ from controller.update.release_folder import banks, digest_of, read_release
 from controller.update.repository_files import content_of, put
 
 THRESHOLD_ROLES: Final = ("root", "targets")  # a threshold of several people; the others say only what is the newest
+LEFT_OVERS: Final = frozenset({"targets", ".draft.new"})  # of an `init` that was interrupted
 
 
 def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], threshold: int, now: datetime) -> None:
@@ -38,8 +39,8 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
     UpdateError
         If there is a repository already, or fewer keys than the threshold.
     """
-    if repository.metadata.exists() or repository.draft.exists():
-        raise UpdateError(f"{repository.folder}: holds a repository already: name another folder")
+    if others := {path.name for path in repository.folder.iterdir()} - LEFT_OVERS:
+        raise UpdateError(f"{repository.folder}: holds {min(others)} already: name a new folder, or an empty one")
     root = Root(version=1, expires=now + LIFE["root"], consistent_snapshot=True)
     for role in ROLES:
         root.roles[role].threshold = threshold if role in THRESHOLD_ROLES else 1
@@ -54,7 +55,7 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
         "snapshot": Snapshot(version=1, expires=now + LIFE["snapshot"]),
         "timestamp": timestamp,
     }
-    repository.targets.mkdir()
+    repository.targets.mkdir(exist_ok=True)
     repository.begin({role: Metadata(signed) for role, signed in first.items()})
 
 

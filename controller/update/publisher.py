@@ -27,10 +27,11 @@ from tuf.api.serialization.json import JSONSerializer
 
 from controller.errors import UpdateError
 from controller.update.clock import ISSUED, as_text
-from controller.update.durable import sync_folder, write_durably
+from controller.update.durable import sync_folder, tell_disk, write_durably
 from controller.update.keys import owner
 
-ROLES: Final = ("root", "targets", "snapshot", "timestamp")  # in the order of publication
+ROLES: Final = ("root", "targets", "snapshot", "timestamp")
+ORDER: Final = ("targets", "snapshot", "root", "timestamp")  # of publication: nobody reads the first two before the last says so
 LIFE: Final = {role: timedelta(days=days) for role, days in zip(ROLES, (1825, 730, 730, 90), strict=True)}
 STICK_LIFE: Final = timedelta(days=365)  # of the timestamp on a stick
 DRAFT: Final = "draft"
@@ -140,12 +141,13 @@ class Repository:
     def begin(self, roles: Mapping[str, Metadata[Any]]) -> None:
         """Write a draft; it is there whole or not at all."""
         making = self.folder / f".{DRAFT}.new"
-        shutil.rmtree(making, ignore_errors=True)
-        making.mkdir()
-        for role, metadata in roles.items():
-            write_durably(making / f"{role}.json", to_bytes(metadata))
-        making.rename(self.draft)
-        sync_folder(self.folder)
+        with tell_disk(self.folder):
+            shutil.rmtree(making, ignore_errors=True)
+            making.mkdir()
+            for role, metadata in roles.items():
+                write_durably(making / f"{role}.json", to_bytes(metadata))
+            making.rename(self.draft)
+            sync_folder(self.folder)
 
     def signers(self, role: str) -> dict[str, Key]:
         """Keys that count for a role of the draft, by their identifiers; for a new root those of the old one too."""
@@ -223,6 +225,8 @@ class Repository:
     def publish(self) -> bool:
         """Publish the draft if it has its signatures; a publication that was interrupted goes on.
 
+        A copy without `targets/`, in which somebody has signed elsewhere, publishes nothing.
+
         Returns
         -------
         bool
@@ -233,7 +237,7 @@ class Repository:
         UpdateError
             If the draft contradicts what is published, or files of it are missing or altered.
         """
-        if self.lacking():
+        if self.lacking() or not self.targets.is_dir():
             return False
         drafted = {role: _read(self.draft / f"{role}.json") for role in self._draft_roles()}
         for role, metadata in drafted.items():
@@ -243,15 +247,16 @@ class Repository:
                     f"{self.draft / role}.json: does not follow version {published.signed.version}, which is published"
                 )
         self._check_files()
-        self.metadata.mkdir(exist_ok=True)
-        for role, metadata in drafted.items():
-            name = "timestamp.json" if role == "timestamp" else f"{metadata.signed.version}.{role}.json"
-            write_durably(self.metadata / name, to_bytes(metadata))
-        done = self.folder / f".{DRAFT}.done"
-        shutil.rmtree(done, ignore_errors=True)
-        self.draft.rename(done)
-        shutil.rmtree(done)
-        sync_folder(self.folder)
+        with tell_disk(self.folder):
+            self.metadata.mkdir(exist_ok=True)
+            for role, metadata in sorted(drafted.items(), key=lambda item: ORDER.index(item[0])):
+                name = "timestamp.json" if role == "timestamp" else f"{metadata.signed.version}.{role}.json"
+                write_durably(self.metadata / name, to_bytes(metadata))
+            done = self.folder / f".{DRAFT}.done"
+            shutil.rmtree(done, ignore_errors=True)
+            self.draft.rename(done)
+            sync_folder(self.folder)
+            shutil.rmtree(done, ignore_errors=True)
         return True
 
     def _draft_roles(self) -> list[str]:

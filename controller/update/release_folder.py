@@ -17,6 +17,7 @@ import msgspec
 
 from controller.errors import UpdateError
 from controller.update.bank_index import found_pieces, read_index, write_index
+from controller.update.durable import tell_disk
 from controller.update.layout import MANIFEST
 from controller.update.manifest import Manifest, ReleaseFile, read_manifest
 
@@ -48,28 +49,27 @@ def write_release(
     Raises
     ------
     UpdateError
-        If the folder exists, or the manifest is not valid.
-    OSError
-        If it cannot be written: nothing is left of it.
+        If the folder exists, the manifest is not valid, or it cannot be written: nothing is left of it.
     """
     if out.exists():
         raise UpdateError(f"{out}: exists: a release is never overwritten, remove it or name another folder")
-    making = out.with_name(f".{out.name}.making")
-    shutil.rmtree(making, ignore_errors=True)  # of an interrupted run
-    making.mkdir(parents=True)
-    try:
-        files = [_put(making, path, contents[path]) for path in sorted(contents)]
-        manifest = msgspec.structs.replace(about, files=files)
-        read_manifest(manifest.to_json(), str(out / MANIFEST))
-        (making / MANIFEST).write_bytes(manifest.to_json())
-        for file in files:
-            if file.path.startswith(BANKS):
-                _put(making, file.index_target, write_index(making / file.path, pieces.get(file.path, ())))
-        _same_for_everyone(making, manifest.built_s)
-        making.rename(out)
-    except BaseException:
-        shutil.rmtree(making, ignore_errors=True)
-        raise
+    with tell_disk(out):
+        making = out.with_name(f".{out.name}.making")
+        shutil.rmtree(making, ignore_errors=True)  # of an interrupted run
+        making.mkdir(parents=True)
+        try:
+            files = [_put(making, path, contents[path]) for path in sorted(contents)]
+            manifest = msgspec.structs.replace(about, files=files)
+            read_manifest(manifest.to_json(), str(out / MANIFEST))
+            (making / MANIFEST).write_bytes(manifest.to_json())
+            for file in files:
+                if file.path.startswith(BANKS):
+                    _put(making, file.index_target, write_index(making / file.path, pieces.get(file.path, ())))
+            _same_for_everyone(making, manifest.built_s)
+            making.rename(out)
+        except BaseException:
+            shutil.rmtree(making, ignore_errors=True)
+            raise
     return manifest
 
 

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from tuf.api.exceptions import RepositoryError
 from tuf.api.metadata import TargetFile
 
 from controller.errors import UpdateError
-from controller.update.durable import sync_folder
+from controller.update.durable import sync_folder, tell_disk
 from controller.update.publisher import Repository
 from controller.update.release_folder import digest_of
 
@@ -58,14 +56,3 @@ def copy(content: Path | bytes, to: Path, target: TargetFile) -> None:
         finally:
             new.unlink(missing_ok=True)
         sync_folder(to.parent)
-
-
-@contextmanager
-def tell_disk(folder: Path) -> Iterator[None]:
-    """Errors of a disk as one line that says where."""
-    try:
-        yield
-    except OSError as error:
-        raise UpdateError(
-            f"{error.filename or folder}: cannot be written ({error.strerror}): make room or mend it, then repeat"
-        ) from error

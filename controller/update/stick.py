@@ -11,12 +11,12 @@ from securesystemslib.signer import CryptoSigner
 from tuf.api.metadata import TargetFile
 
 from controller.errors import UpdateError
-from controller.update.durable import write_durably
+from controller.update.durable import tell_disk, write_durably
 from controller.update.keys import owner
 from controller.update.manifest import Channel, read_manifest
 from controller.update.publisher import STICK_LIFE, Repository, to_bytes
 from controller.update.release_folder import banks
-from controller.update.repository_files import content_of, copy, tell_disk
+from controller.update.repository_files import content_of, copy
 
 CHANNELS: Final = Channel.target("").removesuffix(".json")
 
@@ -42,9 +42,14 @@ def export(repository: Repository, stick: Path, signer: CryptoSigner, now: datet
     Raises
     ------
     UpdateError
-        If a draft waits, the key does not count, or a file is altered or cannot be copied.
+        If a draft waits, the key does not count, a file is altered or cannot be copied, or the stick holds something else.
     """
     repository.must_have_no_draft()
+    if stick.resolve().is_relative_to(repository.folder.resolve()):
+        raise UpdateError(f"{stick}: is the repository itself, or in it: name another folder")
+    first = Path("metadata/1.root.json")
+    if (stick / first).exists() and (stick / first).read_bytes() != (repository.folder / first).read_bytes():
+        raise UpdateError(f"{stick}: holds the repository of another owner: empty it, or name another folder")
     timestamp, newer = repository.changed("timestamp", now), repository.changed("timestamp", now)
     timestamp.signed.expires = now + STICK_LIFE
     newer.signed.version += 1

@@ -21,7 +21,7 @@ from controller.update.requests import ask
 STATUS: Final = FOLDER / NAME
 BEFORE: Final = "before.json"  # in `Layout.download`
 LOOK_S: Final = 1.0
-NEEDED: Final = ("fetch",)  # beside trust and source: what fetches and installs the next release
+NEEDED: Final = ("fetch", "install")  # beside trust and source: what fetches and installs the next release
 
 
 def keep_before(layout: Layout, status_file: Path = STATUS) -> None:

@@ -400,7 +400,7 @@ def test_a_bank_of_another_pitch_is_said_not_to_be_the_one_that_run_reads(capsys
     path = bank_path(load_board(small_board))
     path.unlink(missing_ok=True)
     _, err = printed(capsys, "bank", "build", "--board", small_board, "--pitch-mm", "20")
-    assert f"run plays from {path} unless told --bank {path.with_name('small-20mm.bank')}" in err
+    assert f"run plays from {path} (the device's own) unless told --bank {path.with_name('small-20mm.v4.bank')}" in err
     assert not path.exists()
 
 

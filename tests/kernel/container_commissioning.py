@@ -23,7 +23,7 @@ from controller.application_socket.client import PanelClient
 LENGTH_MM, WIDTH_MM = 165.0, 100.0
 DISCS_MM = ((20, 12), (70, 13), (125, 12), (152, 45), (135, 88), (80, 87), (30, 88), (13, 52))  # no two are mirror images
 PANEL = SerialPanel()
-BANK = Path("/var/lib/haptic-panel/banks/panel.bank")
+BANK = Path("/var/lib/haptic-panel/banks/panel.v4.bank")
 TOOLS = Path("/run/tools")
 SOCKET = "/tmp/panel.sock"
 ENVIRONMENT = {

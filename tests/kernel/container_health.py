@@ -55,6 +55,7 @@ class Bench:
         drop_in.parent.mkdir(parents=True)
         drop_in.write_text(f"[Service]\nEnvironment=HAPTIC_PANEL_TRUSTED_ROOT={root}\n")
         run("systemctl", "daemon-reload")
+        run("systemctl", "start", "haptic-panel-requests.path")
         self.first = LAYOUT.current.readlink().name
 
 

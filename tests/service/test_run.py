@@ -486,8 +486,8 @@ def test_who_asked_for_a_reload_is_told_what_became_of_it(folder, panel, bank, t
     service = Service(folder, bank, environment=environment)
     service.says("the outputs are on")
 
-    def reload():
-        program = "import sys; from controller.cli import main; sys.exit(main(['reload']))"
+    def reload(before=""):
+        program = f"import sys; {before}from controller.cli import main; sys.exit(main(['reload']))"
         environ = os.environ | environment | {"MAINPID": str(service.process.pid)}
         asked = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True, env=environ)
         return communicate(asked)[1], asked.returncode
@@ -500,6 +500,9 @@ def test_who_asked_for_a_reload_is_told_what_became_of_it(folder, panel, bank, t
     assert "scene.toml" in said
     (folder / "scene.toml").write_text(CLICK)
     assert reload() == ("", 0)
+    said, code = reload("sys.prefix = '/opt/haptic-panel/releases/2.0/venv'; ")
+    assert (code, said.count("\n")) == (78, 1)
+    assert f"the service runs from {sys.prefix}, and this is /opt/haptic-panel/releases/2.0/venv: restart" in said
     figures, code = service.end()
     assert (code, figures["scenes_loaded"], figures["scenes_refused"]) == (0, 2, 1)
     said, code = reload()

@@ -19,6 +19,7 @@ from controller.errors import ControllerError
 from controller.metrics import Counters
 from controller.service import status_file
 from controller.service.status_file import APART_S, PATIENCE_S, PERIOD_S, SPARE_S, StatusFile
+from controller.update.layout import Layout
 
 ARMED = Condition(PanelState.ARMED, "", True, True, 23.5)
 
@@ -168,6 +169,20 @@ def test_the_command_says_how_the_panel_fares_and_its_exit_code_whether_it_serve
     code, out, _ = asked(tmp_path, capsys, "--json", state="no permit", cause="look at its switch")
     said = msgspec.json.decode(out)
     assert (code, said["serves"], said["state"], said["cause"]) == (1, False, "no permit", "look at its switch")
+
+
+def test_it_tells_of_a_trial_and_of_releases_that_failed(tmp_path, capsys, monkeypatch):
+    layout = Layout(tmp_path / "device")
+    monkeypatch.setenv("HAPTIC_PANEL_ROOT", str(layout.root))
+    layout.state.mkdir(parents=True)
+    layout.release("2").mkdir(parents=True)
+    layout.current.symlink_to("releases/2")
+    for name, words in {"trial": "2", "tries": "1", "failed": "1.9\n1.8"}.items():
+        (layout.state / name).write_text(f"{words}\n")
+    _, out, _ = asked(tmp_path, capsys)
+    assert "release in use: 2, on trial, start 1, not tried again: 1.9, 1.8;" in out
+    said = msgspec.json.decode(asked(tmp_path, capsys, "--json")[1])
+    assert (said["updates"]["trial"], said["updates"]["failed"]) == ("2", ["1.9", "1.8"])
 
 
 @pytest.mark.parametrize(

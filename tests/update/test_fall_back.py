@@ -117,6 +117,17 @@ def test_a_trial_that_never_serves_is_given_up_after_three_starts_and_not_tried_
     assert device.current == "1.0"
 
 
+def test_the_updater_can_read_what_is_written_before_a_start_of_the_controller(device):
+    device.ask("trial", "2.0")
+    before = os.umask(0o077)  # the unit's
+    try:
+        for _ in range(4):
+            device.run("boot")
+    finally:
+        os.umask(before)
+    assert {file.name: file.stat().st_mode & 0o777 for file in device.layout.state.iterdir()} == {"current": 0o644, "failed": 0o644}
+
+
 def test_a_trial_that_stands_and_is_not_judged_yet_survives_any_number_of_starts(device):
     device.ask("trial", "2.0")
     for _ in range(10):

@@ -223,15 +223,33 @@ def cut_at(case, *ends):
     case.server.instead = cut
 
 
-def test_what_broke_off_is_gone_on_with(tmp_path, serve):
+def test_a_connection_that_breaks_is_gone_on_with_at_once(tmp_path, serve):
     case = Case(tmp_path, serve, installed=False)
     cut_at(case, 200_000, 100_000)
+    case.fetch()
+    assert case.is_whole()
+    assert case.asked() == [f"bytes={start}-{BANK - 1}" for start in (0, 200_000, 300_000)]
+    assert BANK < case.figures.fetched_bytes < BANK + 20_000
+
+
+def test_what_broke_off_for_good_is_gone_on_with_next_time(tmp_path, serve):
+    case = Case(tmp_path, serve, installed=False)
+    cut_at(case, 200_000, 0, 100_000, 1000)
     case.refused("the connection broke")
     case.refused("what came is kept")
     case.fetch()
     assert case.is_whole()
-    assert case.asked() == [f"bytes={start}-{BANK - 1}" for start in (0, 200_000, 300_000)]
+    assert case.asked() == [f"bytes={start}-{BANK - 1}" for start in (0, 200_000, 200_000, 300_000, 301_000)]
     assert not list((case.device.layout.download / "parts").iterdir())
+
+
+def test_a_server_that_breaks_off_and_sends_no_ranges_is_told(tmp_path, serve):
+    case = Case(tmp_path, serve, installed=False)
+    cut_at(case, 200_000)
+    case.server.ranges = False
+    case.refused("the server sends whole files only")
+    case.fetch()
+    assert case.is_whole()
 
 
 def test_pieces_that_came_are_not_fetched_again(tmp_path, serve):

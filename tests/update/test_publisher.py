@@ -1,15 +1,24 @@
 """A repository signed by two people: what is published when, and what is refused."""
 
+import contextlib
+import copy
+import io
+import shutil
+
 import pytest
 from tiny_release import NOW, PASSPHRASE, TinyRepository, release_folder
+from tuf.api.exceptions import DownloadHTTPError, UnsignedMetadataError
+from tuf.api.metadata import Metadata
 from tuf.ngclient import Updater
 from tuf.ngclient.fetcher import FetcherInterface
 
 from controller.errors import UpdateError
+from controller.update import publisher
 from controller.update.keys import new_key, open_key, read_public
-from controller.update.publications import draft_releases
+from controller.update.publications import draft_keys, draft_releases
 from controller.update.publisher import Repository
 from controller.update.release_folder import read_release
+from controller.update.stick import export
 
 
 class Folder(FetcherInterface):
@@ -19,8 +28,6 @@ class Folder(FetcherInterface):
         self.folder = folder
 
     def _fetch(self, url):
-        from tuf.api.exceptions import DownloadHTTPError
-
         file = self.folder / url.removeprefix("file://")
         if not file.exists():
             raise DownloadHTTPError("absent", 404)
@@ -41,9 +48,19 @@ def keys(tmp_path):
     return tmp_path / "keys"
 
 
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("first")
+    return TinyRepository(folder / "repository", folder / "keys")
+
+
 @pytest.fixture
-def repository(tmp_path):
-    return TinyRepository(tmp_path / "repository", tmp_path / "keys")
+def repository(first, tmp_path):
+    """A copy of the first: keys take longer than anything else here."""
+    mine = copy.copy(first)
+    shutil.copytree(first.folder.parent, tmp_path, dirs_exist_ok=True)
+    mine.folder, mine.signers = tmp_path / "repository", dict(first.signers)
+    return mine
 
 
 def refused(call, *said):
@@ -108,3 +125,159 @@ def test_one_key_cannot_count_as_two(keys):
     key_id = read_public(public).keyid
     public.write_text(text.replace(key_id, key_id[::-1]))
     refused(lambda: read_public(public), "alice.pub: is no public part of a key")
+
+
+def draft(repository, *folders, channel="stable"):
+    with Repository.opened(repository.folder) as opened:
+        draft_releases(opened, folders, channel, repository.now)
+
+
+def test_what_may_not_follow_is_refused_and_changes_nothing(tmp_path, repository):
+    release_folder(tmp_path / "1", "1.0.0", 5)
+    repository.publish(tmp_path / "1")
+    before = sorted(path.name for path in repository.folder.rglob("*"))
+    release_folder(tmp_path / "2", "1.1.0", 5)
+    refused(lambda: draft(repository, tmp_path / "2"), "counter 5 is not larger than 5 of version 1.0.0", "--counter 6")
+    release_folder(tmp_path / "3", "1.0.0", 6, files={"banks/tiny.bank": b"other"}, pieces={})
+    refused(lambda: draft(repository, tmp_path / "3"), "version 1.0.0", "give it another version")
+    refused(lambda: draft(repository, tmp_path / "none"), "none: is no folder that")
+    assert sorted(path.name for path in repository.folder.rglob("*")) == before
+    with Repository.opened(repository.folder) as opened:
+        refused(lambda: opened.sign(repository.signers["bob"]), "nothing waits for signatures")
+
+
+@pytest.mark.parametrize("what", ["file", "manifest", "index", "more", "less", "link"])
+def test_a_release_that_was_altered_after_it_was_made_is_refused(tmp_path, repository, what):
+    manifest = release_folder(tmp_path / "1")
+    file = tmp_path / "1" / "gateware/tiny.bit"
+    index = tmp_path / "1" / next(file for file in manifest.files if file.path.startswith("banks/")).index_target
+    if what == "file":
+        file.write_bytes(b"gateward\n")
+    elif what == "manifest":
+        text = (tmp_path / "1/release.json").read_text()
+        (tmp_path / "1/release.json").write_text(text.replace('"counter": 1', '"counter":  2'))
+    elif what == "index":
+        index.write_bytes(index.read_bytes()[:-1] + bytes([index.read_bytes()[-1] ^ 1]))
+    elif what == "more":
+        (tmp_path / "1/boards/tiny/more.toml").touch()
+    elif what == "less":
+        file.unlink()
+    else:
+        file.rename(tmp_path / "elsewhere")
+        file.symlink_to(tmp_path / "elsewhere")
+    refused(lambda: draft(repository, tmp_path / "1"), "altered")
+    assert not (repository.folder / "draft").exists()
+
+
+def test_only_one_process_at_a_time_works_on_a_repository(repository, capsys):
+    with Repository.opened(repository.folder):
+        assert command("renew", repository.folder) == 1
+    assert "another process works on this repository" in capsys.readouterr().err
+
+
+def test_no_key_is_used_from_within_a_repository(tmp_path, repository, monkeypatch, capsys):
+    monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
+    inside = repository.folder / "targets/alice.pem"
+    inside.write_bytes((tmp_path / "keys/alice.pem").read_bytes())
+    for words in (("sign", repository.folder, "--key", inside), ("key", repository.folder / "metadata/carol.pem")):
+        assert command("renew", repository.folder) in (0, 1)
+        assert command(*words) == 1
+        assert "a key must not lie in the repository" in capsys.readouterr().err
+    assert not (repository.folder / "metadata/carol.pem").exists()
+
+
+def test_a_passphrase_comes_from_file_environment_or_terminal(tmp_path, repository, monkeypatch, capsys):
+    assert command("renew", repository.folder) == 0
+    key = ("sign", repository.folder, "--key", tmp_path / "keys/publisher.pem")
+    monkeypatch.setattr("sys.stdin", io.StringIO())
+    assert command(*key) == 1
+    assert "asked at a terminal" in capsys.readouterr().err
+    (tmp_path / "passphrase").write_text("wrong\n")
+    assert command(*key, "--passphrase-file", tmp_path / "passphrase") == 1
+    assert "passphrase does not open it" in capsys.readouterr().err
+    (tmp_path / "passphrase").write_text(f"{PASSPHRASE}\n")
+    assert command(*key, "--passphrase-file", tmp_path / "passphrase") == 0
+    assert "published" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("what", "files", "refused_at"), [("release", 3, None), ("keys", 4, 3)])
+def test_a_publication_that_stops_anywhere_goes_on(tmp_path, repository, monkeypatch, what, files, refused_at):
+    """With a key for targets changed, root and timestamp belong together: between the two, clients refuse and try again."""
+    if what == "release":
+        release_folder(tmp_path / "1")
+        draft(repository, tmp_path / "1")
+    else:
+        carol = read_public(new_key(tmp_path / "keys/carol.pem", PASSPHRASE))
+        repository.signers["carol"] = open_key(tmp_path / "keys/carol.pem", PASSPHRASE)
+        roles = ("root", "targets")
+        with Repository.opened(repository.folder) as opened:
+            bob = repository.public["bob"]
+            draft_keys(opened, {role: [carol] for role in roles}, {role: [bob] for role in roles}, None, NOW)
+    with Repository.opened(repository.folder) as opened:
+        for signer in repository.signers.values():
+            with contextlib.suppress(UpdateError):  # carol's counts for keys alone
+                opened.sign(signer)
+    write, root = publisher.write_durably, repository.root_json.read_bytes()
+    for stop in range(files + 1):
+        left = iter(range(stop))
+
+        def stopping(path, data, mode=0o644, left=left):
+            if next(left, None) is None:
+                raise KeyboardInterrupt
+            write(path, data, mode)
+
+        monkeypatch.setattr(publisher, "write_durably", stopping)
+        with Repository.opened(repository.folder) as opened:
+            if stop < files:
+                with pytest.raises(KeyboardInterrupt):
+                    opened.publish()
+            else:
+                assert opened.publish()
+        if stop == refused_at:
+            with pytest.raises(UnsignedMetadataError):
+                client(repository.folder, tmp_path / f"client{stop}", root)
+        else:
+            seen = client(repository.folder, tmp_path / f"client{stop}", root).get_targetinfo("channels/stable.json")
+            assert (seen is not None) == (what == "release" and stop == files)
+
+
+def test_a_stick_is_older_than_the_repository_from_then_on(tmp_path, repository):
+    release_folder(tmp_path / "1")
+    repository.publish(tmp_path / "1")
+    with Repository.opened(repository.folder) as opened:
+        assert export(opened, tmp_path / "stick", repository.signers["publisher"], NOW) > 16_384
+        refused(
+            lambda: export(opened, repository.folder / "stick", repository.signers["publisher"], NOW), "is the repository itself"
+        )
+        refused(lambda: export(opened, tmp_path / "stick2", repository.signers["alice"], NOW), "a key for timestamp", "publisher")
+    stick = Metadata.from_file(str(tmp_path / "stick/metadata/timestamp.json")).signed
+    online = Metadata.from_file(str(repository.folder / "metadata/timestamp.json")).signed
+    assert online.version == stick.version + 1
+    assert ((stick.expires - NOW).days, (online.expires - NOW).days) == (365, 90)
+    root = repository.root_json.read_bytes()
+    for folder in (tmp_path / "stick", repository.folder):
+        assert client(folder, tmp_path / "client", root).get_targetinfo("channels/stable.json")
+    other = TinyRepository(tmp_path / "other", tmp_path / "other_keys")
+    with Repository.opened(other.folder) as opened:
+        refused(
+            lambda: export(opened, tmp_path / "stick", other.signers["publisher"], NOW), "holds the repository of another owner"
+        )
+
+
+def test_a_signature_counts_only_for_the_draft_it_was_made_of(tmp_path, repository):
+    release_folder(tmp_path / "1")
+    draft(repository, tmp_path / "1")
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (repository.folder / "draft").rename(elsewhere / "draft")
+    (elsewhere / "metadata").symlink_to(repository.folder / "metadata")
+    with Repository.opened(elsewhere) as opened:
+        opened.sign(repository.signers["bob"])
+        assert not opened.publish()
+    release_folder(tmp_path / "2", "2.0.0", 2)
+    draft(repository, tmp_path / "2")
+    with Repository.opened(repository.folder) as opened:
+        refused(lambda: opened.take(elsewhere), "is not a copy of")
+        stranger = open_key(new_key(tmp_path / "eve.pem", PASSPHRASE).with_suffix(".pem"), PASSPHRASE)
+        refused(lambda: opened.sign(stranger), "counts for nothing", "alice, bob, publisher")
+        assert "targets lacks 2 of alice, bob" in opened.lacking()

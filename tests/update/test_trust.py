@@ -42,7 +42,7 @@ class Case:
     def moved(self, folder):
         """A copy elsewhere."""
         for name in ("repository", "haptic-panel"):
-            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copyfile)
+            shutil.copytree(self.folder / name, folder / name, symlinks=True, copy_function=shutil.copy)
         shutil.copyfile(self.folder / "root.json", folder / "root.json")
         other = copy.copy(self)
         other.publisher, other.device = self.publisher.moved(folder / "repository"), Device(folder)
@@ -232,6 +232,11 @@ def test_a_release_that_failed_here_is_not_taken_again(case):
     case.refused("release 1.1 has failed on this device: a later one is needed")
     three = case.publisher.release("1.2", 3, TWO)
     assert case.fetch() == three
+
+
+def test_where_the_failed_cannot_be_read_nothing_is_taken(case):
+    (case.device.layout.state / "failed").mkdir()
+    case.refused("state/failed: cannot be read .Is a directory., so that no release is taken")
 
 
 def test_a_manifest_under_another_releases_name_is_refused(case):

@@ -3,9 +3,12 @@
 import json
 import signal
 import socket
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
-from repository_fixture import Device, Publisher
+from repository_fixture import Device, Publisher, key
 
 from controller.cli import main
 from controller.commands import update_check
@@ -79,3 +82,30 @@ def test_whatever_hangs_ends(monkeypatch, capsys):
     assert main(["update", "check"]) == 1
     assert "not done within 0.01 s (total_s of update.toml)" in capsys.readouterr().err
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
+
+
+BARE = """
+import sys
+for name in ("cryptography", "scipy", "matplotlib", "tqdm", "cyclonedx", "cyclonedx_py"):
+    sys.modules[name] = None
+from controller.cli import main
+sys.exit(main(["update", "download", "--json", "--from", sys.argv[1]]))
+"""
+
+
+def test_a_device_needs_no_cryptography(repository):
+    """Of python-tuf's and the publisher's packages a device has only the former: signatures are verified in Python."""
+
+    def download():
+        checkout, command = Path(__file__).parents[2], [sys.executable, "-c", BARE, repository.folder]
+        return subprocess.run(command, capture_output=True, text=True, check=False, cwd=checkout)
+
+    repository.release("1.0", 1, {"wheels/a.whl": b"wheel"})
+    done = download()
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["version"] == "1.0"
+    repository.signers["timestamp"] = [key("stranger")]
+    repository.stamp()
+    done = download()
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
+    assert "is not signed by this device's owner" in done.stderr

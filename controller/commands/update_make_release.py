@@ -1,0 +1,192 @@
+"""`haptic-panel update make-release`: everything that a device of some boards needs, in one folder, ready to be signed."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import platformdirs
+
+from controller.bank.file_format import VERSION as BANK_FORMAT
+from controller.bank.file_format import Section
+from controller.bank.reader import Bank
+from controller.board.board import Board, load_board
+from controller.board.lookup import data_folder, find_board
+from controller.commands.output import show
+from controller.errors import BankError, UpdateError, UsageError
+from controller.fpga.build_hash import build_hash
+from controller.fpga.registers import PROTOCOL_VERSION
+from controller.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
+from controller.update.release_folder import write_release
+
+if TYPE_CHECKING:
+    from controller.update.lock_file import Target
+
+DISTRIBUTION = "haptic-panel"
+PIECE_BYTES_MIN = 256  # rows of a bank shorter than this are one piece: an index has 8 bytes for each
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    step.add_argument("out", type=Path, metavar="OUT", help="folder to make")
+    step.add_argument("--version", required=True, metavar="V", help="name of the release, such as 1.2.0")
+    step.add_argument("--counter", required=True, type=int, metavar="N", help="larger than that of the release before")
+    step.add_argument("--board", nargs="+", default=[], metavar="B", help="boards with their scenes: names, or folders")
+    step.add_argument("--bank", nargs="+", default=[], type=Path, metavar="FILE", help="banks of these boards")
+    step.add_argument(
+        "--gateware", nargs="+", default=[], type=Path, metavar="FILE", help="bitstreams, by the names boards call them"
+    )
+    step.add_argument(
+        "--platform", default=this_platform(), metavar="P", help=f"such as aarch64-cp311 (default: {this_platform()})"
+    )
+    step.add_argument(
+        "--wheels", type=Path, metavar="FOLDER", help="take wheels from here, without a network (default: fetch, build)"
+    )
+    step.add_argument("--mypyc", action="store_true", help="compile the loop, for this version of Python alone")
+    step.add_argument(
+        "--minimum-counter",
+        type=int,
+        default=0,
+        metavar="N",
+        help="counter of the oldest release that it may follow (default: any)",
+    )
+    step.set_defaults(command=make_release)
+
+
+def make_release(options: argparse.Namespace) -> int:
+    """Make the folder of a release."""
+    from controller.update.lock_file import Target
+
+    if options.out.exists():
+        raise UpdateError(f"{options.out}: exists: a release is never overwritten, remove it or name another folder")
+    target = Target.of(options.platform)
+    systemd, verilog = data_folder("systemd"), data_folder("fpga_rtl")
+    time_s = _time_s(systemd.parent)
+    boards = _boards(options.board)
+    contents: dict[str, Path | bytes] = {}
+    for name, board in boards.items():
+        contents |= {f"boards/{name}/{path}": file for path, file in _files(board.folder)}
+    pieces = {}
+    for file in options.bank:
+        path, found = _bank(file, boards)
+        if path in pieces:
+            raise UsageError(f"{file}: is a second bank of the board of {path}: give one for each board")
+        contents[path], pieces[path] = file, found
+    contents |= _gateware(options.gateware, boards)
+    with tempfile.TemporaryDirectory() as scratch:
+        wheels, bill = _wheels(options, target, systemd, time_s, Path(scratch))
+        contents |= {f"wheels/{wheel.name}": wheel for wheel in wheels} | {"sbom.cdx.json": bill}
+        about = Manifest(
+            version=options.version,
+            counter=options.counter,
+            python=f"3.{target.minor}",
+            architecture=target.architecture,
+            protocol=PROTOCOL_VERSION,
+            gateware_hash=f"{build_hash(verilog):08x}",
+            bank_format=BANK_FORMAT,
+            settings_format=SETTINGS_FORMAT,
+            boards={name: board.digest().hex() for name, board in boards.items()},
+            minimum_counter=options.minimum_counter,
+            built_s=time_s,
+            files=[],
+        )
+        manifest = write_release(options.out, about, contents, pieces)
+    figures = {
+        "folder": str(options.out),
+        "files": len(manifest.files),
+        "bytes": manifest.total_bytes,
+        "platform": manifest.platform,
+    }
+    show(options, figures, lambda said: "{folder}: {files} files, {bytes:,} bytes, for {platform}".format(**said))
+    return 0
+
+
+def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: int, scratch: Path) -> tuple[list[Path], bytes]:
+    """All wheels of a release, and their bill."""
+    from controller.update import lock_file, wheel_folder
+    from controller.update.sbom import sbom
+
+    tools, cache = systemd / "build.lock", platformdirs.user_cache_path(DISTRIBUTION)
+    wanted = lock_file.wanted(lock_file.read_lock(systemd / "requirements.lock"), target)
+    folder = options.wheels or wheel_folder.fetched(wanted, target, tools, cache)
+    others = list(lock_file.choose(wanted, target, folder).values())
+    own = lock_file.own_wheel(DISTRIBUTION, target, options.wheels) if options.wheels else None
+    project = systemd.parent / "pyproject.toml"
+    if own is None:
+        if not project.is_file():
+            raise UpdateError(f"{project}: is not there: make releases in a checkout, or have {DISTRIBUTION}'s wheel in --wheels")
+        wheel_folder.must_be_here(target, DISTRIBUTION)
+        own = wheel_folder.built_here(project.parent, time_s, tools, cache, scratch, options.mypyc)
+    return [*others, own], sbom(others, project if project.is_file() else None, time_s)
+
+
+def _time_s(checkout: Path) -> int:
+    """Time of the release, in s since 1970: $SOURCE_DATE_EPOCH, else that of the last commit."""
+    told = os.environ.get("SOURCE_DATE_EPOCH")
+    if told is None:
+        command = ["git", "-C", str(checkout), "log", "-1", "--format=%ct"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        told = done.stdout.strip()
+    if not told.isdecimal():
+        raise UpdateError(f"{checkout}: is no checkout whose last commit gives the release its time: set SOURCE_DATE_EPOCH")
+    return int(told)
+
+
+def _boards(names: Sequence[str]) -> dict[str, Board]:
+    """Boards by the names of their folders, which name their banks too."""
+    boards: dict[str, Board] = {}
+    for name in names:
+        board = load_board(find_board(name))
+        if board.key in boards:
+            raise UsageError(f"{board.folder}: is the second board called {board.key}: their folders need different names")
+        boards[board.key] = board
+    return boards
+
+
+def _files(folder: Path) -> Iterator[tuple[str, Path]]:
+    """Files of a board; what begins with a dot is not part of it."""
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder)
+        if any(part.startswith(".") for part in name.parts):
+            continue
+        if path.is_symlink():
+            raise UpdateError(f"{path}: is a link: a board of a release has files alone, put a copy there")
+        if path.is_file():
+            yield str(name), path
+
+
+def _bank(file: Path, boards: Mapping[str, Board]) -> tuple[str, list[tuple[int, int]]]:
+    """Path of a bank in the release, and what changes of it as one."""
+    with Bank.open(file) as bank:
+        fitting = [name for name, board in boards.items() if board.digest() == bank.header.board_digest]
+        if not fitting:
+            raise BankError(f"{file}: was built for another board than {', '.join(boards) or 'none, as no --board is given'}")
+        if len(fitting) > 1:
+            raise UsageError(f"{file}: fits boards {', '.join(fitting)} alike: make a release for one of them at a time")
+        sections = sorted(bank.sections.values(), key=lambda section: section.offset)
+    return f"banks/{fitting[0]}.bank", [piece for section in sections for piece in _pieces(section)]
+
+
+def _pieces(section: Section) -> Iterator[tuple[int, int]]:
+    """Rows of a section; short ones together."""
+    if section.stride < PIECE_BYTES_MIN:
+        yield section.offset, section.size
+    else:
+        yield from ((section.offset + row * section.stride, section.stride) for row in range(section.rows))
+
+
+def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path | bytes]:
+    """Bitstreams by the names under which boards load them."""
+    found = {file.name: file for file in files}
+    if len(found) < len(files):
+        raise UsageError("two bitstreams have the same name: boards know them by their names")
+    for name, board in boards.items():
+        loaded = Path(board.gateware.bitstream).name if board.gateware else None
+        if loaded and loaded not in found:
+            raise UpdateError(f"board {name} loads gateware {loaded}: give it with --gateware")
+    return {f"gateware/{name}": file for name, file in found.items()}
