@@ -19,7 +19,6 @@ SERVICE = "haptic-panel"  # name of the service's user and group
 SERVICE_STATE = Path("/var/lib/haptic-panel")  # StateDirectory= of the unit
 SERVICE_STATE_MODE = 0o750  # StateDirectoryMode=
 BANK_FORMAT: Final = 4  # of bank.file_format: part of a bank's name, so that an older release finds its own beside it
-SETTINGS_FORMAT: Final = 1  # of what lies in the state folder; a step from an older one is in service.migration
 
 
 def state_folder(board: Board | None = None) -> Path:

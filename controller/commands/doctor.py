@@ -15,6 +15,8 @@ from controller.service.doctor import look
 from controller.service.drivers import open_link, open_session
 from controller.service.finding import Finding
 from controller.service.link_examination import LinkExamined, examine_link
+from controller.service.update_examination import look_at_updates
+from controller.update.layout import Layout
 
 if TYPE_CHECKING:
     from controller.commands.output import Declare
@@ -26,9 +28,9 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     doctor = declare(
         parents=[common],
-        description="Check every device, file and permission that the board needs. With --link, also send random bits to the "
-        "FPGA at several speeds, propose one, fill its memory and chirp on each channel: outputs are on meanwhile, if the "
-        "permits are given. End the service first. Exit code 1 if anything is wrong.",
+        description="Check every device, file and permission that the board needs, and releases and updates of this device. With "
+        "--link, also send random bits to the FPGA at several speeds, propose one, fill its memory and chirp on each channel: "
+        "outputs are on meanwhile, if the permits are given. End the service first. Exit code 1 if anything is wrong.",
     )
     doctor.add_argument("--link", action="store_true", help="examine the link to the FPGA and what is behind it")
     doctor.add_argument("--bits", type=float, default=BITS, metavar="N", help="random bits to send at least (default: 1e6)")
@@ -40,7 +42,7 @@ def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
     board = load_board(find_board(options.board))
     real = MonotonicClock()
-    findings = look(board, real.now_s)
+    findings = look(board, real.now_s) + look_at_updates(Layout.from_environment())
     figures: dict[str, Any] = {}
     if options.link:
         clock = VirtualClock() if board.link.kind == "simulated" else real

@@ -18,7 +18,7 @@ from controller.update.layout import RELEASE_NAME
 
 FORMAT: Final = 1
 MANIFEST_BYTES_MAX: Final = 1_000_000
-SETTINGS_FORMAT: Final = 1  # of /etc/haptic-panel/*.toml and of boards
+SETTINGS_FORMAT: Final = 1  # of /etc/haptic-panel, boards and the state folder; service.migration takes over what is older
 FALL_BACK_INTERFACE: Final = 1  # of the fall-back script and units, which only the Debian package changes
 
 Digest = Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]

@@ -1,0 +1,169 @@
+"""Checks of releases and updates for `haptic-panel doctor`: what runs, what is asked for, and whether the next update can work."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Final
+
+from controller.errors import ConfigError, ControllerError
+from controller.service.finding import Finding
+from controller.service.installation import missing_package
+from controller.update.installed import manifest_of, update_state
+from controller.update.layout import SETTINGS, Layout
+from controller.update.settings import load_settings
+
+OWNERS: Final = {  # user and mode of each folder, as tmpfiles.d/haptic-panel.conf makes them
+    "": ("root", 0o755),
+    "state": ("root", 0o755),
+    "releases": ("haptic-update", 0o755),
+    "store": ("haptic-update", 0o755),
+    "requests": ("haptic-update", 0o775),
+    "download": ("haptic-update", 0o755),
+}
+RESERVE_BYTES: Final = 32_000_000  # that a download leaves free
+SOON_DAYS: Final = 90
+UNITS: Final = ("haptic-panel-update.timer", "haptic-panel-requests.path")
+BOOTED: Final = Path("/run/systemd/system")  # there where systemd runs the machine
+
+
+def look_at_updates(
+    layout: Layout, settings: Path = SETTINGS, now: Callable[[], datetime] = lambda: datetime.now(UTC)
+) -> list[Finding]:
+    """Check releases and updates of this device; nothing where there are no releases, such as on a computer for development.
+
+    Parameters
+    ----------
+    layout : Layout
+    settings : Path
+        File of the settings.
+    now : callable
+        The device's clock.
+    """
+    if not layout.releases.is_dir():
+        return []
+    checks: list[tuple[str, Callable[[], str | Finding]]] = [
+        ("release", lambda: _release(layout)),
+        ("failed releases", lambda: _failed(layout)),
+        ("update requests", lambda: _requests(layout)),
+        ("update folders", lambda: _folders(layout)),
+        ("update settings", lambda: _settings(settings)),
+        ("trusted root", lambda: _trusted_root(layout, now())),
+        ("clock", lambda: _clock(layout, now())),
+        ("free space", lambda: _space(layout)),
+    ]
+    if BOOTED.exists():
+        checks.append(("update units", _units))
+    return [_tried(about, check) for about, check in checks]
+
+
+def _tried(about: str, check: Callable[[], str | Finding]) -> Finding:
+    try:
+        found = check()
+    except (ControllerError, OSError) as error:
+        return Finding(about, False, str(error))
+    except ModuleNotFoundError as error:
+        return Finding(about, False, missing_package(error.name) or str(error))
+    return found if isinstance(found, Finding) else Finding(about, True, found)
+
+
+def _release(layout: Layout) -> str | Finding:
+    state = update_state(layout)
+    if state.problems:
+        raise ConfigError("; ".join(state.problems))
+    if state.trial:
+        said = f"{state.trial} is on trial, start {state.tries}; {state.stays or 'none'} is used again if it does not serve"
+        return Finding("release", True, said, warns=True)
+    before = f"; {state.previous} is the one before" if state.previous else ""
+    return f"{state.in_use} is in use{before}"
+
+
+def _failed(layout: Layout) -> str | Finding:
+    failed = update_state(layout).failed
+    if not failed:
+        return "none"
+    return Finding("failed releases", True, f"{', '.join(failed)} did not serve on this device: not tried again", warns=True)
+
+
+def _requests(layout: Layout) -> str | Finding:
+    asked = update_state(layout).requested
+    if not asked:
+        return "none"
+    said = f"{', '.join(asked)}: not done yet; journalctl -u haptic-panel-requests says why"
+    return Finding("update requests", True, said, warns=True)
+
+
+def _folders(layout: Layout) -> str:
+    wrong = []
+    for name, (owner, mode) in OWNERS.items():
+        folder = layout.root / name
+        is_mode = folder.stat().st_mode & 0o7777
+        try:
+            is_owner = folder.owner()
+        except KeyError:
+            is_owner = "nobody known"
+        if (is_owner, is_mode) != (owner, mode):
+            wrong.append(f"{folder} is of {is_owner} with mode {is_mode:o}, not of {owner} with {mode:o}")
+    if wrong:
+        raise ConfigError(f"{'; '.join(wrong)}: systemd-tmpfiles --create haptic-panel.conf")
+    return f"those below {layout.root} belong to whom they should"
+
+
+def _settings(file: Path) -> str | Finding:
+    settings = load_settings(file)
+    if not settings.source:
+        said = f"{file}: no source is set: updates come only from where `update install --from` says"
+        return Finding("update settings", True, said, warns=True)
+    return f"{settings.automatic} from {settings.source}, channel {settings.channel}"
+
+
+def _trusted_root(layout: Layout, now: datetime) -> str | Finding:
+    """Expiry of the newest root that this device has: the package's, or one that it was followed by."""
+    if not layout.trusted_root.exists():
+        said = f"there is no {layout.trusted_root}: this device takes no updates"
+        return Finding("trusted root", True, said, warns=True)
+    newest = layout.download / "metadata" / "root.json"
+    file = newest if newest.exists() else layout.trusted_root
+    try:
+        expires = datetime.fromisoformat(json.loads(file.read_bytes())["signed"]["expires"])
+        left_days = (expires - now).days
+    except (ValueError, KeyError, TypeError) as error:
+        raise ConfigError(f"{file}: is no root.json of a repository: install the package again") from error
+    said = f"{file} expires on {expires:%Y-%m-%d}"
+    if left_days < 0:
+        raise ConfigError(f"{said}: no update is taken until its owner publishes a newer one, or the clock is right")
+    return Finding("trusted root", True, said, warns=left_days < SOON_DAYS)
+
+
+def _clock(layout: Layout, now: datetime) -> str | Finding:
+    from controller.update.clock import as_text, earliest  # noqa: PLC0415 - tuf is installed on devices only
+
+    manifest = manifest_of(layout.current)
+    known = earliest(layout.download / "clock", manifest.built_s if manifest else 0)
+    if now < known:
+        said = f"it says {as_text(now)}, and it is {as_text(known)} at least, which is used for updates"
+        return Finding("clock", True, said, warns=True)
+    return f"{as_text(now)}, not before {as_text(known)}"
+
+
+def _space(layout: Layout) -> str | Finding:
+    manifest = manifest_of(layout.current)
+    free, needed = shutil.disk_usage(layout.root).free, RESERVE_BYTES + 2 * (manifest.total_bytes if manifest else 0)
+    said = f"{free / 1e6:,.0f} MB are free on {layout.root}"
+    if free < needed:
+        said += f": a release as large as this one may need {needed / 1e6:,.0f} MB"
+    return Finding("free space", True, said, warns=free < needed)
+
+
+def _units() -> str | Finding:
+    done = subprocess.run(["systemctl", "is-active", *UNITS], capture_output=True, text=True, check=False, timeout=10)
+    states = dict(zip(UNITS, done.stdout.split(), strict=False))
+    off = [unit for unit in UNITS if states.get(unit) != "active"]
+    if not off:
+        return f"{' and '.join(UNITS)} are active"
+    said = f"{' and '.join(off)}: not active, so updates wait: systemctl enable --now {' '.join(off)}"
+    return Finding("update units", True, said, warns=True)
