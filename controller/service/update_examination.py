@@ -14,7 +14,7 @@ from controller.errors import ConfigError, ControllerError
 from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.update.installed import manifest_of, update_state
-from controller.update.layout import SETTINGS, Layout
+from controller.update.layout import COMPLETE, MANIFEST, SETTINGS, Layout
 from controller.update.settings import load_settings
 
 OWNERS: Final = {  # user and mode of each folder, as tmpfiles.d/haptic-panel.conf makes them
@@ -46,6 +46,9 @@ def look_at_updates(
     """
     if not layout.releases.is_dir():
         return []
+    if (layout.current / COMPLETE).exists() and not (layout.current / MANIFEST).exists():
+        said = f"{layout.current.resolve().name} was installed by hand, without {MANIFEST}: updates are not looked at"
+        return [Finding("release", True, said, warns=True)]
     checks: list[tuple[str, Callable[[], str | Finding]]] = [
         ("release", lambda: _release(layout)),
         ("failed releases", lambda: _failed(layout)),

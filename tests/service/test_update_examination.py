@@ -71,6 +71,12 @@ def test_a_computer_without_releases_is_not_asked(tmp_path):
     assert look_at_updates(Layout(tmp_path, tmp_path / "root.json")) == []
 
 
+def test_an_environment_that_was_made_by_hand_is_said_to_take_no_updates(device):
+    (device.layout.release("1.0") / "release.json").unlink()
+    (found,) = device.found().items()
+    assert found == ("release", ("warns", "1.0 was installed by hand, without release.json: updates are not looked at"))
+
+
 def wrong(device, change, about, how, *words):
     change(device)
     is_how, said = device.found()[about]
