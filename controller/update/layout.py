@@ -71,7 +71,7 @@ class Layout:
 
     @property
     def download(self) -> Path:
-        """What trust and downloads keep: `metadata/`, `parts/`, `clock`, `counter`, `lock`."""
+        """What trust and downloads keep: `metadata/`, `parts/`, `indexes/`, `clock`, `counter`, `lock`, `release.json`."""
         return self.root / "download"
 
     def release(self, version: str) -> Path:

@@ -33,6 +33,7 @@ WAYS = {
     "exits 69": "sys.exit(69)",
     "crashes at the start": "os.kill(os.getpid(), signal.SIGSEGV)",
     "crashes after READY": "tell('READY=1'); time.sleep(2); os.kill(os.getpid(), signal.SIGSEGV)",
+    "crashes 19 s after READY": "tell('READY=1'); [(time.sleep(1), tell('WATCHDOG=1')) for _ in range(19)]; os.abort()",
     "hangs after READY": "tell('READY=1'); time.sleep(3600)",
     "is never ready": "time.sleep(3600)",
     "ends with 0 at once": "sys.exit(0)",
@@ -56,10 +57,15 @@ def ready():
     Path("/etc/systemd/system/haptic-panel.service.d").mkdir()
     TOLD.write_text("")
     TOLD.chmod(0o666)
-    release("good", f"open('{TOLD}', 'a').write(str(time.monotonic()) + chr(10)); serve()")
+    release("good", serving())
     run("/usr/lib/haptic-panel/fall-back", "adopt", "good")
     run("systemctl", "start", "haptic-panel-requests.path")
     run("systemctl", "start", UNIT)
+
+
+def serving(more=""):
+    """The lines of a controller that serves."""
+    return f"{more}open('{TOLD}', 'a').write(str(time.monotonic()) + chr(10)); serve()"
 
 
 def lines():
@@ -106,6 +112,10 @@ def test_a_trial_that_crashes_after_ready_is_given_up():
     failing("crashes after READY")
 
 
+def test_a_trial_that_crashes_again_and_again_before_it_is_judged_is_given_up():
+    failing("crashes 19 s after READY")
+
+
 def test_a_trial_that_hangs_is_given_up():
     failing("hangs after READY")
 
@@ -127,7 +137,7 @@ def test_what_has_failed_is_not_tried_again():
 
 def test_a_trial_that_is_called_good_stays_and_the_way_back_is_open():
     ready()
-    release("better", f"open('{TOLD}', 'a').write(str(time.monotonic()) + chr(10)); serve()")
+    release("better", serving())
     before = len(lines())
     ask(LAYOUT, "trial", "better")
     wait_for("the trial", lambda: len(lines()) > before)
@@ -137,3 +147,29 @@ def test_a_trial_that_is_called_good_stays_and_the_way_back_is_open():
     ask(LAYOUT, "rollback", "better")
     wait_for("the release before", lambda: LAYOUT.current.readlink().name == "good" and shown("ActiveState") == "active")
     assert "back to release good, by hand" in journal()
+
+
+def test_a_release_that_cannot_be_stopped_is_not_the_failure_of_the_next():
+    """It is killed in the end, and with that has failed; OnFailure= comes when the next one is on trial already."""
+    ready()
+
+    def trial_of(version, more=""):
+        release(version, serving(more))
+        before = len(lines())
+        ask(LAYOUT, "trial", version)
+        wait_for("the trial", lambda: len(lines()) > before)
+
+    def ended():
+        return run("systemctl", "show", "--value", "-p", "ExecMainExitTimestampMonotonic", "haptic-panel-failed.service").strip()
+
+    trial_of("stubborn", "signal.signal(signal.SIGTERM, signal.SIG_IGN); ")
+    ask(LAYOUT, "good", "stubborn")
+    wait_for("the end of the trial", lambda: LAYOUT.word("trial") == "")
+    before = ended()
+    trial_of("next")
+    wait_for("the unit that goes back", lambda: ended() not in (before, "0"))
+    assert "State 'stop-sigterm' timed out" in journal()
+    assert LAYOUT.word("trial") == "next"
+    assert LAYOUT.current.readlink().name == "next"
+    ask(LAYOUT, "good", "next")
+    wait_for("the end of the trial", lambda: LAYOUT.word("current") == "next")

@@ -30,9 +30,10 @@ class Device:
         self.unit_state("active")
         self.run("boot")
 
-    def unit_state(self, state):
+    def unit_state(self, state, restarts=0):
         systemctl = self.tools / "systemctl"
-        systemctl.write_text(f'#!/bin/sh\necho "$*" >>{self.tools}/asked\ncase $1 in show) echo {state} ;; esac\n')
+        answers = f'case "$*" in *NRestarts*) echo {restarts} ;; show*) echo {state} ;; esac\n'
+        systemctl.write_text(f'#!/bin/sh\necho "$*" >>{self.tools}/asked\n{answers}')
         systemctl.chmod(0o755)
 
     def asked(self):
@@ -88,7 +89,10 @@ def device(tmp_path):
 def test_a_trial_that_is_called_good_stays(device):
     device.ask("trial", "2.0")
     assert device.current == "1.0", "nothing is switched while the controller runs"
-    assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
+    assert device.asked() == [
+        "reset-failed haptic-panel.service haptic-panel-trial.service",
+        "--no-block restart haptic-panel.service",
+    ]
     assert "release 2.0 is on trial, start 1 of 3" in device.run("boot").stderr
     assert device.asked() == ["--no-block restart haptic-panel-deadline.timer"]
     assert device.current == "2.0"
@@ -137,19 +141,22 @@ def test_a_trial_that_fails_is_given_up_at_once(device, how):
     device.ask("trial", "2.0")
     device.run("boot")
     device.asked()
-    device.unit_state("activating")
+    device.unit_state("failed" if how == "failed" else "activating")
     if how == "bad":
         device.ask("bad", "2.0")
     else:
         device.run(how)
-    assert device.asked() == ["reset-failed haptic-panel.service", "--no-block restart haptic-panel.service"]
+    assert device.asked() == [
+        "reset-failed haptic-panel.service haptic-panel-trial.service",
+        "--no-block restart haptic-panel.service",
+    ]
     device.run("boot")
     assert (device.current, device.failed) == ("1.0", ["2.0"])
 
 
 @pytest.mark.parametrize("how", ["failed", "late"])
 def test_what_is_no_trial_is_not_given_up(device, how):
-    device.unit_state("activating")
+    device.unit_state("failed" if how == "failed" else "activating")
     device.run(how)
     device.unit_state("active")
     device.ask("trial", "2.0")
@@ -161,14 +168,31 @@ def test_what_is_no_trial_is_not_given_up(device, how):
     assert (device.asked(), device.failed) == ([], [])
 
 
+def test_a_trial_that_ends_again_and_again_has_one_deadline_for_all_its_starts(device):
+    device.ask("trial", "2.0")
+    device.run("boot")
+    device.run("boot")
+    device.run("late")
+    assert device.layout.word("trial") == "2.0", "started twice, not by itself: the power was cut"
+    device.unit_state("active", restarts=1)
+    device.ask("stands", "2.0")
+    device.run("late")
+    assert device.layout.word("trial") == "2.0", "it stands since"
+    device.run("boot")
+    device.run("boot")
+    device.run("late")
+    assert (device.layout.word("trial"), device.failed) == ("", ["2.0"])
+
+
 def test_a_failure_that_is_over_is_not_the_trials(device):
     """The release before could not be stopped in time, and failed so: OnFailure= comes when the trial has been started already."""
     device.ask("trial", "2.0")
     device.run("boot")
-    device.unit_state("0" * 31 + "2")  # what `systemctl show` says: the invocation of now
-    device.run("failed", MONITOR_UNIT="haptic-panel.service", MONITOR_INVOCATION_ID="0" * 31 + "1")
+    device.unit_state("activating")
+    device.run("failed")
     assert device.layout.word("trial") == "2.0"
-    device.run("failed", MONITOR_UNIT="haptic-panel.service", MONITOR_INVOCATION_ID="0" * 31 + "2")
+    device.unit_state("failed")
+    device.run("failed")
     assert (device.layout.word("trial"), device.failed) == ("", ["2.0"])
 
 
@@ -245,7 +269,7 @@ def test_a_list_of_failed_releases_that_is_damaged_is_mended(device):
     (device.layout.state / "failed").write_bytes(b"\0\xff\n0.9\n../x\n")
     device.ask("trial", "2.0")
     device.run("boot")
-    device.run("failed")
+    device.ask("bad", "2.0")
     assert device.failed == ["0.9", "2.0"]
 
 
@@ -360,6 +384,7 @@ def test_cut_at_any_command_the_next_start_ends_on_a_whole_release(tmp_path, wha
             elif what == "adopt":
                 device.run("adopt", "2.0", path=path)
             else:
+                device.unit_state("failed")
                 device.run("failed" if what == "failed" else "boot", path=path)
             counts.add(int((device.tools / "cutting/count").read_text()))
             for command in (("boot",), ("requests",), ("boot",)):
@@ -430,7 +455,7 @@ class Life(RuleBasedStateMachine):
 
     @rule(how=st.sampled_from(["failed", "late"]))
     def fail(self, how):
-        self.device.unit_state("activating")
+        self.device.unit_state("failed" if how == "failed" else "activating")
         self.device.run(how)
         self.device.unit_state("active")
 
