@@ -32,7 +32,11 @@ def install(options: argparse.Namespace) -> int:
             return 0
         if options.automatic and settings.automatic != "install":
             return {"check": check, "download": download}[settings.automatic](options)
-        if trial := layout.word("trial"):
+        trial = layout.word("trial")
+        if trial and options.automatic:  # it may wait for its permit for weeks
+            show(options, {"version": trial, "new": False}, lambda _: f"{trial} is on trial: nothing to do")
+            return 0
+        if trial:
             raise UpdateError(f"{layout.state / 'trial'}: release {trial} is on trial: wait until it is decided (update status)")
         manifest = fetch(layout, settings, options.source, progress_bar("bytes"), figures=figures)
     told: dict[str, Any] = {"version": manifest.version, "new": True, "fetched_bytes": figures.fetched_bytes}

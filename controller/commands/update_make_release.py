@@ -73,10 +73,11 @@ def make_release(options: argparse.Namespace) -> int:
         contents |= {f"boards/{name}/{path}": file for path, file in _files(board.folder)}
     pieces = {}
     for file in options.bank:
-        path, found = _bank(file, boards)
-        if path in pieces:
-            raise UsageError(f"{file}: is a second bank of the board of {path}: give one for each board")
-        contents[path], pieces[path] = file, found
+        names, found = _bank(file, boards)
+        for path in (f"banks/{name}.bank" for name in names):
+            if path in pieces:
+                raise UsageError(f"{file}: is a second bank for {path}: give one for each board")
+            contents[path], pieces[path] = file, found
     contents |= _gateware(options.gateware, boards)
     with tempfile.TemporaryDirectory() as scratch:
         wheels, bill = _wheels(options, target, systemd, time_s, Path(scratch))
@@ -160,16 +161,14 @@ def _files(folder: Path) -> Iterator[tuple[str, Path]]:
             yield str(name), path
 
 
-def _bank(file: Path, boards: Mapping[str, Board]) -> tuple[str, list[tuple[int, int]]]:
-    """Path of a bank in the release, and what changes of it as one."""
+def _bank(file: Path, boards: Mapping[str, Board]) -> tuple[list[str], list[tuple[int, int]]]:
+    """Boards that a bank is for, and what changes of it as one."""
     with Bank.open(file) as bank:
         fitting = [name for name, board in boards.items() if board.digest() == bank.header.board_digest]
         if not fitting:
             raise BankError(f"{file}: was built for another board than {', '.join(boards) or 'none, as no --board is given'}")
-        if len(fitting) > 1:
-            raise UsageError(f"{file}: fits boards {', '.join(fitting)} alike: make a release for one of them at a time")
         sections = sorted(bank.sections.values(), key=lambda section: section.offset)
-    return f"banks/{fitting[0]}.bank", [piece for section in sections for piece in _pieces(section)]
+    return fitting, [piece for section in sections for piece in _pieces(section)]
 
 
 def _pieces(section: Section) -> Iterator[tuple[int, int]]:

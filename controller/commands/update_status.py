@@ -40,7 +40,8 @@ def _table(figures: dict[str, Any]) -> str:
             "failed" if release["failed"] else "",
             "before" if release["version"] == figures["previous"] else "",
         ]
-        lines.append(f"  {release['version']} (counter {counter}){''.join(f', {mark}' for mark in marks if mark)}")
+        size = "" if release["size_bytes"] is None else f", {release['size_bytes']:,} bytes"
+        lines.append(f"  {release['version']} (counter {counter}{size}){''.join(f', {mark}' for mark in marks if mark)}")
     gone = [version for version in figures["failed"] if version not in {release["version"] for release in figures["releases"]}]
     if gone:
         lines.append(f"not tried again: {', '.join(gone)}")

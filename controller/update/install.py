@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from typing import Final
 from controller.errors import UpdateError
 from controller.update.durable import write_durably
 from controller.update.installed import manifest_of
-from controller.update.layout import COMPLETE, MANIFEST, Layout
+from controller.update.layout import COMPLETE, MANIFEST, Layout, running_release
 from controller.update.lock import alone
 from controller.update.manifest import FALL_BACK_INTERFACE, Manifest, ReleaseFile, this_platform
 
@@ -73,6 +74,8 @@ def prune(layout: Layout, coming: Manifest) -> list[str]:
     wanted = {layout.word("current"), layout.word("previous"), layout.word("trial"), coming.version}
     if layout.current.is_symlink():
         wanted.add(layout.current.readlink().name)
+    if running := running_release():
+        wanted.add(running.name)  # it works on, whatever has become of the link
     removed = [folder for folder in layout.releases.iterdir() if folder.name not in wanted]
     with alone(layout.download / "install.lock"):
         for folder in removed:
@@ -140,8 +143,16 @@ def _link(layout: Layout, file: ReleaseFile, path: Path) -> None:
 
 
 def _run(command: list[str | Path], folder: Path) -> None:
+    # settings of pip on this device, such as another index or target, are for others
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
     done = subprocess.run(
-        list(map(str, command)), cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+        list(map(str, command)),
+        cwd=folder,
+        env=environment | {"PIP_CONFIG_FILE": os.devnull},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if done.returncode:
         said = (done.stderr.strip() or done.stdout.strip() or f"exit code {done.returncode}").splitlines()[-1]

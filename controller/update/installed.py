@@ -24,12 +24,15 @@ class InstalledRelease(msgspec.Struct, frozen=True, kw_only=True):
         Whether it may be started.
     failed : bool
         Whether it was tried and did not serve.
+    size_bytes : int or None
+        Of its files before they were installed; what it shares with other releases counts for each.
     """
 
     version: str
     counter: int | None
     complete: bool
     failed: bool
+    size_bytes: int | None
 
 
 class UpdateState(msgspec.Struct, frozen=True, kw_only=True):
@@ -112,7 +115,8 @@ def _release(layout: Layout, version: str, failed: bool, problems: list[str]) ->
     complete, manifest = (folder / COMPLETE).is_file(), manifest_of(folder)
     if complete and manifest is None:
         problems.append(f"{folder / MANIFEST}: cannot be read")
-    return InstalledRelease(version=version, counter=manifest.counter if manifest else None, complete=complete, failed=failed)
+    counter, size_bytes = (manifest.counter, manifest.total_bytes) if manifest else (None, None)
+    return InstalledRelease(version=version, counter=counter, complete=complete, failed=failed, size_bytes=size_bytes)
 
 
 def _text(file: Path, problems: list[str]) -> str:

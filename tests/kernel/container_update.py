@@ -225,7 +225,7 @@ def test_release_2_comes_over_http():
 
 def test_and_another_from_a_stick():
     owner().offers("2.1.0", GOOD)
-    copied(owner().repository.folder, Path("/media/stick"))
+    copied(owner().repository.folder, Path("/media/stick/panel"))
     goes_well("2.1.0", "an update from a folder", lambda: documented(2))
     settings(source=owner().server.address, healthy_s=3.0)
 

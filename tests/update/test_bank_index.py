@@ -6,7 +6,7 @@ import random
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller.errors import UpdateError
@@ -31,6 +31,7 @@ def laid_out(gaps_and_lengths):
     return pieces, end
 
 
+@settings(max_examples=40)
 @given(PIECES, st.integers(0, 100), st.integers())
 def test_an_index_covers_its_file_and_survives_being_written(tmp_path_factory, gaps_and_lengths, tail, seed):
     pieces, end = laid_out(gaps_and_lengths)
@@ -46,6 +47,7 @@ def test_an_index_covers_its_file_and_survives_being_written(tmp_path_factory, g
     assert {offset for offset, length in pieces if length} <= starts
 
 
+@settings(max_examples=40)
 @given(PIECES, PIECES, st.integers())
 def test_what_is_known_and_what_is_fetched_make_the_file(tmp_path_factory, shared, own, seed):
     """Pieces shared with an old file, in another order and at other places; ranges fetched for the rest."""

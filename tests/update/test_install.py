@@ -16,6 +16,7 @@ from controller.update.install import install, prune
 from controller.update.installed import update_state
 from controller.update.layout import Layout
 from controller.update.manifest import Manifest, ReleaseFile, this_platform
+from controller.update.settings import UpdateSettings
 
 CONTROLLER = {"controller/__init__.py": "", "controller/__main__.py": "print('haptic-panel tiny')\n"}
 (PIP,) = (Path(ensurepip.__file__).parent / "_bundled").glob("pip-*.whl")
@@ -69,7 +70,10 @@ def files_of(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_release_is_built_from_the_store_alone_and_starts(device):
+def test_a_release_is_built_from_the_store_alone_and_starts(device, monkeypatch):
+    monkeypatch.setenv("PIP_TARGET", str(device.root / "elsewhere"))  # a setting of this computer's
+    (device.release("9") / "venv/lib").mkdir(parents=True)
+    (device.release("9") / "venv/lib/part").write_text("of an installation that was interrupted")
     manifest = release(device)
     steps = []
     install(device, manifest, lambda done, _: steps.append(done))
@@ -79,6 +83,7 @@ def test_a_release_is_built_from_the_store_alone_and_starts(device):
     assert (folder / "release.json").read_bytes() == manifest.to_json()
     assert (folder / "banks/panel.bank").stat().st_nlink == 2, "shared with the store"
     assert not (folder / "wheels").exists()
+    assert "venv/lib/part" not in files_of(folder)
     said = subprocess.run([folder / "venv/bin/python", "-I", "-m", "controller"], capture_output=True, text=True, check=True).stdout
     assert said == "haptic-panel tiny\n"
     assert any(name.endswith(".pyc") and "controller" in name for name in files_of(folder / "venv"))
@@ -118,7 +123,7 @@ def without_pip(_, manifest):
             {"controller": {"controller/__init__.py": "", "controller/__main__.py": "import nothing"}},
             "No module named 'nothing'",
         ),
-        (None, {"controller": {"controller/__init__.py": "1 +"}}, "compileall failed"),
+        pytest.param(None, {"controller": {"controller/__init__.py": "1 +"}}, "compileall failed", marks=pytest.mark.slow),
     ],
 )
 def test_what_cannot_be_built_leaves_nothing(device, spoil, options, said):
@@ -136,14 +141,7 @@ def test_another_platform_is_refused(device):
         install(device, msgspec.structs.replace(release(device), architecture="s390x", python="3.11"))
 
 
-def test_what_an_interruption_left_is_removed_first(device):
-    (device.release("9") / "venv/lib").mkdir(parents=True)
-    (device.release("9") / "venv/lib/part").write_text("part")
-    install(device, release(device))
-    assert "venv/lib/part" not in files_of(device.release("9"))
-
-
-def test_what_nothing_leads_to_is_removed(device):
+def test_what_nothing_leads_to_is_removed(device, monkeypatch):
     shared = {file.sha256 for file in release(device).files}
     for number in range(1, 6):
         folder = device.release(str(number))
@@ -157,7 +155,10 @@ def test_what_nothing_leads_to_is_removed(device):
     for name, version in (("current", "3"), ("previous", "2"), ("trial", "4")):
         (device.state / name).write_text(f"{version}\n")
     device.current.symlink_to("releases/4")
-    assert prune(device, release(device, version="6")) == ["1", "5"]
+    monkeypatch.setattr("controller.update.install.running_release", lambda: device.release("5"))
+    assert prune(device, release(device, version="6")) == ["1"], "the release that does this is kept, too"
+    monkeypatch.setattr("controller.update.install.running_release", lambda: None)
+    assert prune(device, release(device, version="6")) == ["5"]
     assert {folder.name for folder in device.releases.iterdir()} == {"2", "3", "4"}
     kept = {hashlib.sha256(f"{number}".encode()).hexdigest() for number in (2, 3, 4)}
     assert {file.name for file in device.store.iterdir()} == kept | shared
@@ -180,6 +181,7 @@ def test_the_state_is_told_whatever_it_is(device, monkeypatch, capsys):
     told = json.loads(capsys.readouterr().out)
     assert (told["in_use"], told["previous"], told["failed"], told["problems"]) == ("2", "1", ["3"], [])
     assert [one["version"] for one in told["releases"]] == ["2", "1"]
+    assert told["releases"][0]["size_bytes"] == sum(file.size_bytes for file in release(device).files)
     assert main(["update", "rollback"]) == 0
     assert (device.requests / "rollback").read_text() == "2\n"
     assert update_state(device).requested == ("rollback",)
@@ -189,3 +191,23 @@ def test_the_state_is_told_whatever_it_is(device, monkeypatch, capsys):
     said = capsys.readouterr().out
     assert f"WRONG {device.state / 'trial'}: is damaged" in said
     assert f"WRONG {device.release('1') / 'release.json'}: cannot be read" in said
+
+
+def test_the_timer_does_what_the_settings_say_and_waits_for_a_trial(device, monkeypatch, capsys):
+    monkeypatch.setenv("HAPTIC_PANEL_ROOT", str(device.root))
+
+    def automatic(**settings):
+        monkeypatch.setattr("controller.commands.update_check.load_settings", lambda: UpdateSettings(**settings))
+        code = main(["update", "install", "--automatic"])
+        return code, *capsys.readouterr()
+
+    assert automatic() == (0, "update.toml names no source: nothing to do\n", "")
+    absent = str(device.root / "stick")
+    for what in ("check", "download", "install"):
+        code, _, why = automatic(source=absent, automatic=what)
+        assert (code, why.count("\n")) == (1, 1)
+        assert "is the stick plugged in and mounted?" in why
+    (device.state / "trial").write_text("2\n")
+    assert automatic(source=absent) == (0, "2 is on trial: nothing to do\n", "")
+    assert main(["update", "install", "--from", absent]) == 1
+    assert "release 2 is on trial: wait until it is decided" in capsys.readouterr().err

@@ -1,20 +1,119 @@
 """Releases: the same bytes for the same inputs, from what is locked, and nothing that does not fit."""
 
+import hashlib
+import os
+import re
+import shutil
 import tomllib
 from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from tiny_release import wheel
 
+from controller.board.board import load_board
+from controller.board.lookup import find_board
+from controller.cli import main
+from controller.commands import update_make_release
+from controller.update.bank_index import read_index
 from controller.update.lock_file import BUILT, Target, read_lock, wanted
+from controller.update.release_folder import read_release
 
 ROOT = Path(__file__).parents[2]
 LOCK = ROOT / "systemd" / "requirements.lock"
 
 
-def locked(file=LOCK):
-    return {one.name: one for one in read_lock(file)} | {one.name: one for one in wanted(read_lock(file), Target("x86_64", 11))}
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    """A folder with wheels, lock files of them, and a board; releases are made in it."""
+    (tmp_path / "wheels").mkdir()
+    (tmp_path / "systemd").mkdir()
+    lines = []
+    for name in ("tiny", "haptic_panel"):
+        file, data = wheel(name)
+        (tmp_path / "wheels" / file).write_bytes(data)
+        lines.append(f"{name}==1.0 \\\n    --hash=sha256:{hashlib.sha256(data).hexdigest()}\n    # via elsewhere\n")
+    (tmp_path / "systemd/requirements.lock").write_text(f"# made\n{lines[0]}")
+    (tmp_path / "systemd/build.lock").touch()
+    (tmp_path / "fpga_rtl").symlink_to(ROOT / "fpga_rtl")
+    monkeypatch.setattr(update_make_release, "data_folder", tmp_path.joinpath)
+    monkeypatch.setattr("controller.update.sbom.sbom", lambda *_: b"{}")  # takes seconds; test_locked.py makes a real one
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    return tmp_path
+
+
+def make(place, out, *more):
+    words = [place / out, "--version", "1.0.0", "--counter", 1, "--wheels", place / "wheels", *more]
+    return main(["update", "make-release", *map(str, words)])
+
+
+def contents(folder):
+    return {
+        str(path.relative_to(folder)): (path.stat().st_mode, path.stat().st_mtime, path.read_bytes() if path.is_file() else None)
+        for path in [folder, *folder.rglob("*")]
+    }
+
+
+def test_the_same_inputs_make_the_same_bytes_whoever_makes_them(place, bank_file, monkeypatch):
+    assert make(place, "a", "--board", "simulated", "--bank", bank_file) == 0
+    monkeypatch.setenv("TZ", "Pacific/Auckland")
+    (place / "deep").mkdir()
+    before = os.umask(0o077)
+    try:
+        assert make(place, "deep/b", "--board", "simulated", "--bank", bank_file) == 0
+    finally:
+        os.umask(before)
+    assert contents(place / "a") == contents(place / "deep/b")
+    manifest = read_release(place / "a")
+    board = load_board(find_board("simulated"))
+    assert manifest.boards == {"simulated": board.digest().hex()}
+    assert manifest.built_s == 1_700_000_000
+    paths = {file.path for file in manifest.files}
+    assert {"wheels/tiny-1.0-py3-none-any.whl", "wheels/haptic_panel-1.0-py3-none-any.whl", "sbom.cdx.json"} <= paths
+    assert {f"boards/simulated/{path.name}" for path in board.folder.iterdir()} <= paths
+    bank = next(file for file in manifest.files if file.path == "banks/simulated.bank")
+    index = read_index((place / "a" / bank.index_target).read_bytes(), "index")
+    assert index.size_bytes == bank_file.stat().st_size
+    assert sum(1 for _ in index) > 100
+
+
+def test_what_does_not_fit_is_refused_in_one_line_and_leaves_nothing(place, bank_file, tmp_path, capsys, monkeypatch):
+    def refuses(code, said, *more):
+        assert make(place, "out", *more) == code
+        error = capsys.readouterr().err
+        assert said in error
+        assert error.count("\n") == 1
+        assert not list(place.glob("*out"))
+
+    thicker = shutil.copytree(ROOT / "boards/simulated", tmp_path / "thicker")
+    text = (thicker / "board.toml").read_text()
+    (thicker / "board.toml").write_text(re.sub(r"(?m)^thickness_mm = .*", "thickness_mm = 3.3", text))
+    refuses(78, "was built for another board than thicker", "--board", thicker, "--bank", bank_file)
+    refuses(2, "is a second bank for banks/simulated.bank", "--board", "simulated", "--bank", bank_file, bank_file)
+    refuses(1, "board ulx3s loads gateware ulx3s.bit: give it with --gateware", "--board", "ulx3s")
+    refuses(78, "as no --board is given", "--bank", bank_file)
+    refuses(78, "cannot be read", "--board", "simulated", "--bank", tmp_path / "none.bank")
+    refuses(1, "must be like aarch64-cp311", "--platform", "arm")
+    refuses(78, "board 'none' not found", "--board", "none")
+    tiny = place / "wheels/tiny-1.0-py3-none-any.whl"
+    other = tiny.rename(tiny.with_name("tiny-1.0-cp311-cp311-manylinux_2_17_aarch64.whl"))
+    refuses(1, "has no wheel of tiny==1.0 for x86_64-cp311", "--platform", "x86_64-cp311")
+    other.rename(tiny)
+    data = tiny.read_bytes()
+    tiny.write_bytes(data + b"more")
+    refuses(1, "is not the file of tiny==1.0 whose hash is locked")
+    tiny.write_bytes(data)
+    own = place / "wheels/haptic_panel-1.0-py3-none-any.whl"
+    own.rename(own.with_name("haptic_panel-1.0-cp311-abi3-linux_sparc.whl"))
+    refuses(1, "must have one wheel of haptic-panel")
+    (place / "wheels/haptic_panel-1.0-cp311-abi3-linux_sparc.whl").unlink()
+    refuses(1, "make releases in a checkout")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
+    refuses(1, "set SOURCE_DATE_EPOCH")
+    (place / "systemd/requirements.lock").write_text("tiny>=1.0\n")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    refuses(1, "tiny has no exact version, or no hash")
 
 
 def test_the_lock_file_has_what_pyproject_asks_for():
@@ -22,12 +121,13 @@ def test_the_lock_file_has_what_pyproject_asks_for():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = project["optional-dependencies"]
     asked = [Requirement(text) for text in [*project["dependencies"], *extras["update"], *extras["watch"], "pip"]]
-    packages = locked()
-    for one in asked:
-        (version,) = packages[canonicalize_name(one.name)].requirement.specifier
-        assert one.specifier.contains(version.version), one
-    assert {canonicalize_name(one.name) for one in asked} | {"securesystemslib"} == set(packages)  # tuf needs it
-    assert set(packages) >= BUILT
+    for architecture in ("x86_64", "aarch64"):
+        packages = {one.name: one for one in wanted(read_lock(LOCK), Target(architecture, 11))}
+        for one in asked:
+            (version,) = packages[canonicalize_name(one.name)].requirement.specifier
+            assert one.specifier.contains(version.version), one
+        assert {canonicalize_name(one.name) for one in asked} | {"securesystemslib"} == set(packages)  # tuf needs it
+        assert set(packages) >= BUILT
 
 
 def test_no_registry_is_named_in_the_lock_files():

@@ -359,7 +359,7 @@ def test_the_signed_document_itself_may_be_of_any_kind(case):
     assert case.fetch() == case.two
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 400))])
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 400))])
 def test_whatever_is_damaged_is_refused_or_of_no_use(case, seed):
     """Any file of the repository: bytes flipped, cut off, doubled, or those of another file."""
     rng = random.Random(seed)
