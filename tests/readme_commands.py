@@ -10,8 +10,6 @@ import shlex
 import sys
 from pathlib import Path
 
-import platformdirs
-
 from controller.cli import main
 from controller.simulation.rtl_build import verilator_root
 
@@ -33,10 +31,6 @@ def run_all(folder, mark):
     os.chdir(folder)
     for name in ("tests", "boards"):
         (folder / name).symlink_to(ROOT / name)
-    if not (folder / "gateware").exists():  # which other tests compile too: once for all
-        compiled = platformdirs.user_cache_path("haptic-panel") / "gateware"
-        compiled.mkdir(parents=True, exist_ok=True)
-        (folder / "gateware").symlink_to(compiled)
     for command in commands(mark):
         print(f"$ {command}", flush=True)
         if "--link rtl" in command and verilator_root() is None:
