@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import subprocess
 from collections.abc import Callable
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
@@ -14,8 +12,9 @@ from controller.errors import ConfigError, ControllerError
 from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.update.installed import manifest_of, update_state
-from controller.update.layout import SETTINGS, Layout
+from controller.update.layout import COMPLETE, MANIFEST, SETTINGS, Layout
 from controller.update.settings import load_settings
+from controller.update.validity import clock_told, root_expiry
 
 OWNERS: Final = {  # user and mode of each folder, as tmpfiles.d/haptic-panel.conf makes them
     "": ("root", 0o755),
@@ -26,14 +25,11 @@ OWNERS: Final = {  # user and mode of each folder, as tmpfiles.d/haptic-panel.co
     "download": ("haptic-update", 0o755),
 }
 RESERVE_BYTES: Final = 32_000_000  # that a download leaves free
-SOON_DAYS: Final = 90
 UNITS: Final = ("haptic-panel-update.timer", "haptic-panel-requests.path")
 BOOTED: Final = Path("/run/systemd/system")  # there where systemd runs the machine
 
 
-def look_at_updates(
-    layout: Layout, settings: Path = SETTINGS, now: Callable[[], datetime] = lambda: datetime.now(UTC)
-) -> list[Finding]:
+def look_at_updates(layout: Layout, settings: Path = SETTINGS) -> list[Finding]:
     """Check releases and updates of this device; nothing where there are no releases, such as on a computer for development.
 
     Parameters
@@ -41,19 +37,20 @@ def look_at_updates(
     layout : Layout
     settings : Path
         File of the settings.
-    now : callable
-        The device's clock.
     """
     if not layout.releases.is_dir():
         return []
+    if (layout.current / COMPLETE).exists() and not (layout.current / MANIFEST).exists():
+        said = f"{layout.current.resolve().name} was installed by hand, without {MANIFEST}: updates are not looked at"
+        return [Finding("release", True, said, warns=True)]
     checks: list[tuple[str, Callable[[], str | Finding]]] = [
         ("release", lambda: _release(layout)),
         ("failed releases", lambda: _failed(layout)),
         ("update requests", lambda: _requests(layout)),
         ("update folders", lambda: _folders(layout)),
         ("update settings", lambda: _settings(settings)),
-        ("trusted root", lambda: _trusted_root(layout, now())),
-        ("clock", lambda: _clock(layout, now())),
+        ("trusted root", lambda: _of_its_time("trusted root", root_expiry(layout))),
+        ("clock", lambda: _of_its_time("clock", clock_told(layout))),
         ("free space", lambda: _space(layout)),
     ]
     if BOOTED.exists():
@@ -121,33 +118,9 @@ def _settings(file: Path) -> str | Finding:
     return f"{settings.automatic} from {settings.source}, channel {settings.channel}"
 
 
-def _trusted_root(layout: Layout, now: datetime) -> str | Finding:
-    """Expiry of the newest root that this device has: the package's, or one that it was followed by."""
-    if not layout.trusted_root.exists():
-        said = f"there is no {layout.trusted_root}: this device takes no updates"
-        return Finding("trusted root", True, said, warns=True)
-    newest = layout.download / "metadata" / "root.json"
-    file = newest if newest.exists() else layout.trusted_root
-    try:
-        expires = datetime.fromisoformat(json.loads(file.read_bytes())["signed"]["expires"])
-        left_days = (expires - now).days
-    except (ValueError, KeyError, TypeError) as error:
-        raise ConfigError(f"{file}: is no root.json of a repository: install the package again") from error
-    said = f"{file} expires on {expires:%Y-%m-%d}"
-    if left_days < 0:
-        raise ConfigError(f"{said}: no update is taken until its owner publishes a newer one, or the clock is right")
-    return Finding("trusted root", True, said, warns=left_days < SOON_DAYS)
-
-
-def _clock(layout: Layout, now: datetime) -> str | Finding:
-    from controller.update.clock import as_text, earliest  # noqa: PLC0415 - tuf is installed on devices only
-
-    manifest = manifest_of(layout.current)
-    known = earliest(layout.download / "clock", manifest.built_s if manifest else 0)
-    if now < known:
-        said = f"it says {as_text(now)}, and it is {as_text(known)} at least, which is used for updates"
-        return Finding("clock", True, said, warns=True)
-    return f"{as_text(now)}, not before {as_text(known)}"
+def _of_its_time(about: str, told: tuple[str, bool]) -> Finding:
+    said, warns = told
+    return Finding(about, True, said, warns=warns)
 
 
 def _space(layout: Layout) -> str | Finding:

@@ -45,7 +45,9 @@ def blocks(document, heading):
     return [block.splitlines() for block in found]
 
 
-PACKAGE, SYSTEM, ADOPT, SERVICE = blocks("systemd/README.md", "Install")
+PACKAGE, SYSTEM, ADOPT = blocks("systemd/README.md", "Install from a checkout")
+DEB, LOOK = blocks("systemd/README.md", "Install")
+SERVICE = [*DEB[1:], *LOOK]  # the first installs the package: container_package.py
 STEPS = blocks("boards/README.md", "A panel of your own")[0]
 HOME = Path("/root")
 

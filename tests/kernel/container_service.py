@@ -12,6 +12,7 @@ from pathlib import Path
 import panel_board
 from serial_finger import SerialPanel
 from the_service import (
+    BANK,
     CHECKOUT,
     UNIT,
     fresh_start,
@@ -68,6 +69,27 @@ def test_it_is_a_user_without_rights_but_those_of_the_loop():
         assert os.sched_getscheduler(pid) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO
         assert int(status_of(pid, "VmLck").split()[0]) > 0
     assert said().count("not in real time") == (0 if permitted else 1)
+
+
+def test_all_its_processes_run_from_the_releases_own_folder():
+    """Not through the link, which may lead elsewhere by the time they import something."""
+    release = Path("/opt/haptic-panel/current").resolve()
+    processes = Path(f"/sys/fs/cgroup/system.slice/{UNIT}.service/cgroup.procs").read_text().split()
+    assert len(processes) > 1, "the loop, and what prepares scenes"
+    for pid in processes:
+        program = Path(f"/proc/{pid}/cmdline").read_text().split("\0")[0]
+        assert program == f"{release}/venv/bin/python", program
+
+
+def test_a_bank_of_before_releases_is_taken_over_and_stays():
+    run("systemctl", "stop", UNIT)
+    before = BANK.with_name("panel.bank")
+    BANK.rename(before)
+    fresh_start()
+    assert f"{BANK}: taken over from {before}" in said()
+    assert f"cells of {BANK}" in said()
+    assert BANK.samefile(before)
+    before.unlink()
 
 
 def to_and_fro():

@@ -9,6 +9,7 @@ import pytest
 
 from controller.service import update_examination
 from controller.service.update_examination import look_at_updates
+from controller.update import validity
 from controller.update.layout import Layout
 from controller.update.manifest import Manifest
 
@@ -46,7 +47,7 @@ class Device:
 
     def found(self):
         """What is said of each, and whether it is good, warned of or wrong."""
-        findings = look_at_updates(self.layout, self.settings, lambda: self.now)
+        findings = look_at_updates(self.layout, self.settings)
         return {each.about: ("warns" if each.warns else "good" if each.good else "wrong", each.said) for each in findings}
 
 
@@ -54,6 +55,14 @@ class Device:
 def device(tmp_path, monkeypatch):
     monkeypatch.setattr(update_examination, "BOOTED", tmp_path / "no systemd")
     device = Device(tmp_path)
+
+    class Clock(datetime):
+        @classmethod
+        def now(cls, tz=None):
+            assert tz is UTC
+            return device.now
+
+    monkeypatch.setattr(validity, "datetime", Clock)
     me = device.layout.root.owner()
     monkeypatch.setattr(update_examination, "OWNERS", {name: (me, mode) for name, (_, mode) in update_examination.OWNERS.items()})
     return device
@@ -69,6 +78,12 @@ def test_all_is_well(device):
 
 def test_a_computer_without_releases_is_not_asked(tmp_path):
     assert look_at_updates(Layout(tmp_path, tmp_path / "root.json")) == []
+
+
+def test_an_environment_that_was_made_by_hand_is_said_to_take_no_updates(device):
+    (device.layout.release("1.0") / "release.json").unlink()
+    (found,) = device.found().items()
+    assert found == ("release", ("warns", "1.0 was installed by hand, without release.json: updates are not looked at"))
 
 
 def wrong(device, change, about, how, *words):
