@@ -15,7 +15,6 @@ from controller.board.lookup import MANIFEST as MANIFEST  # noqa: PLC0414 - part
 from controller.board.lookup import running_release as running_release  # noqa: PLC0414
 
 ROOT = Path("/opt/haptic-panel")
-SYSTEM = Path("/usr/lib/haptic-panel")  # of the Debian package: fall-back script, trusted root of the repository
 TRUSTED_ROOT = Path("/usr/share/haptic-panel/root.json")
 SETTINGS = Path("/etc/haptic-panel/update.toml")
 RELEASE_NAME: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._+-]{0,63}")  # also what the fall-back script believes

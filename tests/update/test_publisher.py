@@ -2,10 +2,12 @@
 
 import contextlib
 import copy
+import errno
 import io
 import shutil
 
 import pytest
+from repository_fixture import Device
 from tiny_release import NOW, PASSPHRASE, TinyRepository, release_folder
 from tuf.api.exceptions import DownloadHTTPError, UnsignedMetadataError
 from tuf.api.metadata import Metadata
@@ -13,11 +15,13 @@ from tuf.ngclient import Updater
 from tuf.ngclient.fetcher import FetcherInterface
 
 from controller.errors import UpdateError
-from controller.update import publisher
+from controller.update import publisher, repository_files
+from controller.update.fetch import Figures, check, fetch
 from controller.update.keys import new_key, open_key, read_public
 from controller.update.publications import draft_keys, draft_releases
 from controller.update.publisher import Repository
 from controller.update.release_folder import read_release
+from controller.update.settings import UpdateSettings
 from controller.update.stick import export
 
 
@@ -281,3 +285,76 @@ def test_a_signature_counts_only_for_the_draft_it_was_made_of(tmp_path, reposito
         stranger = open_key(new_key(tmp_path / "eve.pem", PASSPHRASE).with_suffix(".pem"), PASSPHRASE)
         refused(lambda: opened.sign(stranger), "counts for nothing", "alice, bob, publisher")
         assert "targets lacks 2 of alice, bob" in opened.lacking()
+
+
+def test_a_device_follows_releases_keys_and_sticks(tmp_path, repository):
+    """The device's own client, which fetches of a changed bank what has changed."""
+    (tmp_path / "device").mkdir()
+    device = Device(tmp_path / "device", repository.root_json.read_bytes())
+    release_folder(tmp_path / "1", "1.0.0", 1)
+    manifest = repository.publish(tmp_path / "1")
+    assert fetch(device.layout, UpdateSettings(), str(repository.folder), print, now=NOW) == manifest
+    device.install(manifest)
+    for who in ("dora", "erin"):
+        public = read_public(new_key(tmp_path / f"keys/{who}.pem", PASSPHRASE))
+        leaver = repository.public["publisher" if who == "dora" else "bob"]
+        roles = ("snapshot", "timestamp") if who == "dora" else ("root", "targets")
+        repository.signers[who] = open_key(tmp_path / f"keys/{who}.pem", PASSPHRASE)
+        with Repository.opened(repository.folder) as opened:
+            draft_keys(opened, {role: [public] for role in roles}, {role: [leaver] for role in roles}, None, NOW)
+            for name in ("alice", "bob", who) if who == "erin" else ("alice", "bob"):
+                opened.sign(repository.signers[name])
+            opened.sign(repository.signers["dora"])
+            assert opened.publish()
+    bank = bytearray((tmp_path / "1/banks/tiny.bank").read_bytes())
+    bank[5000] ^= 1
+    release_folder(tmp_path / "2", "1.1.0", 2, files={"banks/tiny.bank": bytes(bank)})
+    draft(repository, tmp_path / "2")
+    with Repository.opened(repository.folder) as opened:
+        for name in ("alice", "erin", "dora"):
+            opened.sign(repository.signers[name])
+        assert opened.publish()
+        export(opened, tmp_path / "stick", repository.signers["dora"], NOW)
+    figures = Figures()
+    newer = fetch(device.layout, UpdateSettings(), str(tmp_path / "stick"), print, now=NOW, figures=figures)
+    assert newer.version == "1.1.0"
+    assert figures.reused_bytes == 16_384 - 256
+    assert all((device.layout.store / file.sha256).exists() for file in newer.files)
+    assert check(device.layout, UpdateSettings(), str(repository.folder), now=NOW)[0].manifest == newer  # newer than the stick
+
+
+def test_one_signs_only_what_one_has_made_oneself(tmp_path, repository, monkeypatch, capsys):
+    monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
+    release_folder(tmp_path / "theirs", files={"gateware/tiny.bit": b"something else"})
+    release_folder(tmp_path / "mine")
+    draft(repository, tmp_path / "theirs")
+    words = ("sign", repository.folder, "--key", tmp_path / "keys/bob.pem", "--same-as")
+    assert command(*words, tmp_path / "mine") == 1
+    assert "do not sign, find out who has changed what" in capsys.readouterr().err
+    release_folder(tmp_path / "other", "7.0.0")
+    assert command(*words, tmp_path / "other") == 1
+    with Repository.opened(repository.folder) as opened:
+        assert "targets lacks 2" in opened.lacking()
+    assert command(*words, tmp_path / "theirs") == 0
+    assert "targets lacks 1 of alice" in capsys.readouterr().out
+
+
+def test_a_full_disk_is_told_in_one_line_and_leaves_no_draft(tmp_path, repository, monkeypatch):
+    release_folder(tmp_path / "1")
+    before = [path.name for path in sorted(repository.folder.rglob("*")) if path.is_file()]
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    for module, name in ((repository_files.shutil, "copyfileobj"), (publisher, "write_durably")):
+        with monkeypatch.context() as patch:
+            patch.setattr(module, name, full)
+            refused(lambda: draft(repository, tmp_path / "1"), "cannot be written (No space left on device)", "make room")
+            if module is not publisher:
+                assert [path.name for path in sorted(repository.folder.rglob("*")) if path.is_file()] == before
+    with monkeypatch.context() as patch:
+        patch.setattr("controller.update.release_folder.shutil.copyfile", full)
+        refused(lambda: release_folder(tmp_path / "2", files={"banks/b.bank": repository.root_json}), "2: cannot be written")
+    assert not list(tmp_path.glob("*2*"))
+    assert not (repository.folder / "draft").exists()
+    repository.publish(tmp_path / "1")
