@@ -10,8 +10,6 @@ import shlex
 import sys
 from pathlib import Path
 
-import platformdirs
-
 from controller.cli import main
 from controller.simulation.rtl_build import verilator_root
 
@@ -33,9 +31,6 @@ def run_all(folder, mark):
     os.chdir(folder)
     for name in ("tests", "boards"):
         (folder / name).symlink_to(ROOT / name)
-    compiled = platformdirs.user_cache_path("haptic-panel") / "gateware"  # by other tests too: once for all
-    compiled.mkdir(parents=True, exist_ok=True)
-    (folder / "gateware").symlink_to(compiled)
     for command in commands(mark):
         print(f"$ {command}", flush=True)
         if "--link rtl" in command and verilator_root() is None:

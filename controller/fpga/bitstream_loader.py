@@ -16,6 +16,7 @@ from controller.fpga.configuration import IncompatibleFpga, OtherGateware
 
 SAID_BYTES = 4096  # of what the program says last
 SAID_CHARACTERS = 160  # of its last line
+ENDS_S = 1.0  # that a killed program may need; the service's watchdog bites after 3
 
 
 class BitstreamLoader:
@@ -106,7 +107,8 @@ class BitstreamLoader:
         if self._process is not None:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
+            with contextlib.suppress(subprocess.TimeoutExpired):  # a driver that hangs keeps it
+                self._process.wait(ENDS_S)
             self._process = None
         if self._said >= 0:
             os.close(self._said)

@@ -6,7 +6,7 @@ import contextlib
 import errno
 import fcntl
 import struct
-from typing import Final
+from typing import Final, cast
 
 from controller.errors import TouchError
 from controller.touch import event_codes as ev
@@ -87,7 +87,7 @@ def _path_of(name: str) -> str:
 
 
 def _axes(device: evdev.InputDevice[str]) -> dict[int, AxisInfo]:
-    listed: list[tuple[int, evdev.AbsInfo]] = device.capabilities(absinfo=True).get(ev.EV_ABS, [])  # type: ignore[assignment]
+    listed = cast("list[tuple[int, evdev.AbsInfo]]", device.capabilities(absinfo=True).get(ev.EV_ABS, []))
     return {code: AxisInfo(info.min, info.max, info.fuzz, info.flat, info.resolution) for code, info in listed}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
@@ -19,6 +20,7 @@ from controller.update.release_folder import banks, digest_of, read_release
 from controller.update.repository_files import content_of, put
 
 THRESHOLD_ROLES: Final = ("root", "targets")  # a threshold of several people; the others say only what is the newest
+CHANNEL: Final = re.compile("[0-9a-z-]{1,32}")  # as in the settings of devices
 LEFT_OVERS: Final = frozenset({"targets", ".draft.new"})  # of an `init` that was interrupted
 
 
@@ -80,6 +82,8 @@ def draft_releases(repository: Repository, folders: Sequence[Path], channel: str
         If a release was altered, its counter is not larger than that of the release it follows, or its version is taken.
     """
     repository.must_have_no_draft()
+    if not CHANNEL.fullmatch(channel):
+        raise UpdateError(f"channel {channel!r}: is no name of a channel: lower-case letters, digits and -, at most 32")
     targets = _changed(repository, now)
     known: dict[str, TargetFile] = targets["targets"].signed.targets
     offered = dict(_channel(repository, known, channel).releases)

@@ -41,6 +41,8 @@ def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path
     """
     packages = list(packages)
     built = [one for one in packages if one.name in BUILT]
+    if built:
+        must_be_here(target, ", ".join(one.name for one in built))
     lines = "".join(one.line for one in packages)
     key = _key(lines, tools.read_text(encoding="utf-8"), *target.platforms(), target.minor, _compiler() if built else "")
     with _made_once(cache / "release_wheels" / key) as folder:
@@ -52,7 +54,6 @@ def fetched(packages: Iterable[Locked], target: Target, tools: Path, cache: Path
             with _written("".join(one.line for one in packages if one.name not in BUILT)) as listed:
                 _run([sys.executable, *PIP, "download", *options, "-r", listed], "wheels cannot be fetched")
             if built:
-                must_be_here(target, ", ".join(one.name for one in built))
                 with _written("".join(one.line for one in built)) as listed:
                     options = ["--no-build-isolation", "--no-deps", "--no-binary", ":all:", "--no-cache-dir", "--require-hashes"]
                     command = [tools_in(tools, cache), *PIP, "wheel", *options, "--wheel-dir", folder, "-r", listed]

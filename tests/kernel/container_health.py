@@ -155,8 +155,8 @@ def test_a_trial_that_serves_is_good():
     wait_for("the verdict", lambda: words in judged())
     wait_for("its end", lambda: of_the_judge("ActiveState") == "inactive")
     assert of_the_judge("Result") == "success"
-    wait_for("the promotion", lambda: LAYOUT.word("current") == version)
-    assert LAYOUT.word("trial") == ""
+    wait_for("the end of the trial", lambda: LAYOUT.word("trial") == "")  # after the promotion
+    assert LAYOUT.word("current") == version
     assert state() == "playing", "without a restart"
 
 

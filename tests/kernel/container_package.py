@@ -137,13 +137,15 @@ def test_the_same_package_again_changes_nothing_and_the_panel_plays_on():
     assert done("dpkg", "-V", "haptic-panel") == ""
 
 
-def test_a_changed_unit_is_started_after_the_old_one_has_ended():
-    def change(folder):
-        unit = folder / f"lib/systemd/system/{UNIT}.service"
-        unit.write_text(unit.read_text() + "# changed\n")
+def change_unit(folder):
+    """Another unit in a package."""
+    unit = folder / f"lib/systemd/system/{UNIT}.service"
+    unit.write_text(unit.read_text() + f"# changed by {time.time_ns()}\n")
 
+
+def test_a_changed_unit_is_started_after_the_old_one_has_ended():
     pid = main_pid()
-    done("dpkg", "-i", repacked("1.0", 2, change))
+    done("dpkg", "-i", repacked("1.0", 2, change_unit))
     wait_for("a new process", lambda: main_pid() not in {0, pid} and shown("ActiveState") == "active")
     assert f"Stopped {UNIT}.service" in journal()
     assert plays()
@@ -152,8 +154,12 @@ def test_a_changed_unit_is_started_after_the_old_one_has_ended():
 def test_an_upgrade_brings_the_newer_release_on_trial():
     settings = Path("/etc/haptic-panel/update.toml")
     settings.write_text(settings.read_text() + "healthy_s = 1.0\n")
-    assert "release 2.0 is tried" in install("2.0")
+    assert "release 2.0 is tried" in done("dpkg", "-i", repacked("2.0", 2, change_unit))
     wait_for("release 2.0", lambda: in_use() == "2.0" and shown("ActiveState") == "active")
+    wait_for("the verdict", lambda: "release 2.0 serves, and stays" in journal())
+    assert "release 2.0 is on trial, start 1 of 3" in journal()
+    assert "release 2.0 is on trial, start 2 of 3" not in journal(), "the new unit is started with the trial, not after it"
+    assert shown("NeedDaemonReload") == "no"
     assert plays()
     assert (ROOT / "releases/1.0/.complete").exists(), "what it would go back to"
     assert settings.read_text().endswith("healthy_s = 1.0\n"), "settings are the owner's"
@@ -325,4 +331,6 @@ def test_an_installation_from_a_checkout_makes_room_too():
         Path(f"/etc/systemd/system/multi-user.target.wants/{UNIT}.service")
     ]
     purge()
-    assert files() - BEFORE == set()
+    assert files() - BEFORE <= {"/etc/sysusers.d", "/etc/tmpfiles.d", "/etc/udev/rules.d"}, (
+        "folders that the lines of the README made"
+    )

@@ -145,6 +145,7 @@ def test_what_may_not_follow_is_refused_and_changes_nothing(tmp_path, repository
     release_folder(tmp_path / "3", "1.0.0", 6, files={"banks/tiny.bank": b"other"}, pieces={})
     refused(lambda: draft(repository, tmp_path / "3"), "version 1.0.0", "give it another version")
     refused(lambda: draft(repository, tmp_path / "none"), "none: is no folder that")
+    refused(lambda: draft(repository, tmp_path / "2", channel="../beta"), "is no name of a channel")
     assert sorted(path.name for path in repository.folder.rglob("*")) == before
     with Repository.opened(repository.folder) as opened:
         refused(lambda: opened.sign(repository.signers["bob"]), "nothing waits for signatures")
