@@ -148,7 +148,7 @@ def tried(version, what, install=update):
         begun_s = time.monotonic()
         wait_for("the trial", lambda: word("trial") == version or was_tried(version))
         wait_for("the end of the trial", lambda: not word("trial"), seconds=FALL_BACK_S)
-        wait_for("the panel", plays)
+        wait_for("the panel", lambda: plays() and runs(word("current")))  # not the trial, which may have played to its end
         decided_s = time.monotonic() - begun_s
     print(f"{silence.longest_s:5.1f} s without haptics, decided after {decided_s:5.1f} s: {what}")
 
