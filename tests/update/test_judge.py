@@ -81,7 +81,7 @@ class Service:
         elif kind == "restart":
             status = replace(STARTED, pid=status.pid + 1, started_s=self.now_s, written_s=self.now_s)
         elif kind == "slow":
-            self.status = status
+            self.status = status = replace(status, state=PanelState.ARMED, outputs_on=True)
             return replace(status, upload=LatencyStatus(5000, 2e3, LATENCY_MAX_US * 2, 3e4))
         elif kind == "another release":
             return replace(status, release="1")
