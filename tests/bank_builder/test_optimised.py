@@ -63,6 +63,7 @@ def test_who_replaces_an_optimised_bank_by_a_plain_one_is_told(banks, monkeypatc
     assert [optimised_for(file) for file in (*banks[:2], path / "none")] == ["", "contrast", ""]
     board = msgspec.structs.replace(BOARD, bank=msgspec.structs.replace(BOARD.bank, pitch_mm=PITCH_M * 1e3))
     monkeypatch.setattr(bank_commands, "find_bank", lambda _board: FoundBank(path, "given"))
+    monkeypatch.setattr(bank_commands, "bank_path", lambda _board: path)
     monkeypatch.setattr(bank_commands, "_cells", lambda *_: np.ones(CELLS, bool))
     monkeypatch.setattr(bank_commands, "_build", lambda *_, **__: None)
     options, scene = SimpleNamespace(bank=None), SimpleNamespace(spots=())
