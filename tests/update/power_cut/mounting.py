@@ -10,6 +10,19 @@ from pathlib import Path
 
 LIBC = ctypes.CDLL(None, use_errno=True)
 ERROR_COUNT_OFFSET = 1024 + 0x194  # of an ext4: errors that its kernel has found
+NEW_NAMESPACE = 0x00020000  # CLONE_NEWNS
+PRIVATE = 0x4000 | 0x40000  # MS_REC, MS_PRIVATE
+
+
+def own_mounts():
+    """Mount nothing that others see: a container that starts meanwhile would keep it mounted. Raises OSError without root."""
+    if LIBC.unshare(NEW_NAMESPACE) or LIBC.mount(None, b"/", None, PRIVATE, None):
+        raise OSError(ctypes.get_errno(), f"{os.strerror(ctypes.get_errno())}: mounting needs root")
+
+
+def require_unused(device):
+    """Raises OSError where a device is mounted still: the next mount would show the old file system."""
+    os.close(os.open(device, os.O_RDONLY | os.O_EXCL))
 
 
 def mount(device, folder, options=""):
@@ -49,7 +62,7 @@ def recording_disk(folder, size_bytes, log):
             with loop_device(folder / "disk") as device:
                 yield device, folder / "mark"
         finally:
-            subprocess.run(["umount", folder], check=True)
+            subprocess.run(["umount", "--lazy", folder], check=True)  # the kernel lets go of the loop device when it likes to
     if server.returncode:
         raise OSError(f"recording_disk.py ended with {server.returncode}")
 
