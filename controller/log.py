@@ -46,6 +46,7 @@ class Event(Enum):
     SENSOR_BACK = "34160c712e8f4496aa39b71b5a6712c7", Priority.INFO
     NOT_REALTIME = "67cbea14efe346768fc5c8a879caf6e8", Priority.WARNING
     SLOW_HOST = "fc13180b2b5242e2a31372155b690c9b", Priority.INFO
+    RELEASE_INSTALLED = "ea305786e20540daa242b8c82c8e30ec", Priority.INFO
     LINES_LOST = "2d17095811e240e1b23a82b876f1835a", Priority.WARNING
 
     def __init__(self, message_id: str, priority: Priority) -> None:

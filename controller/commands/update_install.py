@@ -9,6 +9,7 @@ from controller.commands.output import progress_bar, show
 from controller.commands.update_check import at_work, check, declare_source
 from controller.commands.update_download import download
 from controller.errors import UpdateError
+from controller.log import Event, log
 
 
 def add(step: argparse.ArgumentParser) -> None:
@@ -48,7 +49,10 @@ def install(options: argparse.Namespace) -> int:
     install(layout, manifest, progress_bar("steps of the installation"))
     keep_before(layout)
     ask(layout, "trial", manifest.version)
-    show(options, told, _table)
+    if options.automatic:
+        log(_table(told), Event.RELEASE_INSTALLED)
+    else:
+        show(options, told, _table)
     return 0
 
 
