@@ -153,6 +153,8 @@ def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None =
         metadata = layout.download / "metadata"
         metadata.mkdir(parents=True, exist_ok=True)
         with alone(layout.download / "lock"):
+            for left in metadata.glob("tmp*"):  # python-tuf writes beside and renames; one that was killed leaves its file
+                left.unlink()
             earliest = clock.earliest(layout.download / "clock", built_s)
             try:
                 updater = DeviceUpdater(metadata, source, root, earliest, now)

@@ -275,6 +275,13 @@ def test_a_manifest_with_a_file_that_is_not_there_is_refused(case):
     case.refused("was the release added to it whole")
 
 
+def test_what_a_killed_client_left_is_removed(case):
+    left = case.device.layout.download / "metadata/tmpabc12345"
+    left.write_bytes(b"half of a timestamp")
+    assert case.fetch() == case.two
+    assert not left.exists()
+
+
 def test_one_process_at_a_time(case):
     with (case.device.layout.download / "lock").open("ab") as held:
         fcntl.flock(held, fcntl.LOCK_EX)
