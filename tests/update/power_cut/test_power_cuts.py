@@ -13,8 +13,6 @@ AS_ROOT = [] if os.geteuid() == 0 else ["sudo"]
 PHASES = {"download", "install", "switch", "trial", "waiting", "promotion", "promoted", "fall-back", "fallen-back", "roll-back"}
 POINTS_MIN = 1000
 
-pytestmark = pytest.mark.kernel
-
 
 def power_cuts(*options):
     """Exit code, states of each phase, different crash points and all output of power_cuts.py."""
@@ -27,6 +25,7 @@ def power_cuts(*options):
     return done.returncode, {phase: int(count) for phase, count in phases.items()}, int(points[1]), done.stdout
 
 
+@pytest.mark.kernel
 def test_no_power_cut_loses_a_release_or_mixes_two():
     code, phases, points, output = power_cuts("--subsets", "1", "--carry-on", "150")
     assert code == 0, output
@@ -34,6 +33,7 @@ def test_no_power_cut_loses_a_release_or_mixes_two():
     assert points >= POINTS_MIN, output
 
 
+@pytest.mark.kernel
 @pytest.mark.parametrize("how", ["sync", "install", "in-place"])
 def test_what_is_done_wrong_is_found(how):
     code, _, _, output = power_cuts("--every", "5", "--break", how)
