@@ -3,9 +3,10 @@
 import hashlib
 import os
 import re
+import signal
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from controller.update.layout import Layout
@@ -33,6 +34,10 @@ class Refused(RuntimeError):
     """A command that ended with another code than 0."""
 
 
+class Killed(RuntimeError):
+    """A command that was ended by SIGKILL."""
+
+
 @dataclass
 class Device:
     """
@@ -45,12 +50,15 @@ class Device:
         Of `small_releases.publish`.
     fall_back : Path
         The script.
+    environment_more : dict
+        Of all commands from now on.
     """
 
     root: Path
     tools: Path
     repositories: Path
     fall_back: Path = FALL_BACK
+    environment_more: dict = field(default_factory=dict)
 
     def __post_init__(self):
         self.tools.mkdir(exist_ok=True)
@@ -72,7 +80,11 @@ class Device:
             "PYTHONPATH": str(PROJECT),
             "PYTHONDONTWRITEBYTECODE": "1",
         }
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            command, env=environment | self.environment_more, capture_output=True, text=True, check=False, start_new_session=True
+        )
+        if done.returncode == -signal.SIGKILL:
+            raise Killed(" ".join(map(str, command)))
         if done.returncode:
             words = " ".join(map(str, command))
             raise Refused(f"{words}: exit {done.returncode}: {done.stdout[-800:]}{done.stderr[-800:]}")
