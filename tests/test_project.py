@@ -167,7 +167,7 @@ def set_up(folder, extra, missing=False, user=0, programs=("apt-get",)):
 
 @pytest.mark.parametrize(
     ("user", "prefix", "extra", "more"),
-    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace")],
+    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace ngspice")],
 )
 def test_what_is_missing_is_installed_and_then_the_package_into_venv(tmp_path, user, prefix, extra, more):
     done = set_up(tmp_path, [extra], missing=True, user=user)
