@@ -4,17 +4,17 @@ The library (ulx3s.cpp) keeps time, SPI and recording to itself. Times are picos
 """
 
 import ctypes
-import os
 import re
-import subprocess
-import sys
 import weakref
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+from controller.board.board import load_board
 from controller.board.lookup import data_folder
+from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import top_parameters
 from controller.simulation.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent
@@ -29,13 +29,8 @@ PS = 10**12
 
 
 def parameters():
-    """Of top.v, as the Makefile passes them to the bitstream."""
-    command = ["make", "-s", "-C", BOARD, "parameters", f"BIN={Path(sys.executable).parent}/"]
-    environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL")}
-    said = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
-    found = re.findall(r"(\w+)=32'(h[0-9a-f]+|d\d+)", said)
-    assert len(found) == len(said.split()), said
-    return {name: int(value[1:], {"h": 16, "d": 10}[value[0]]) for name, value in found}
+    """Of top.v, as its bitstream is built."""
+    return top_parameters(load_board(BOARD / "board.toml"), build_hash(data_folder("fpga_rtl")))
 
 
 @cache
