@@ -71,9 +71,9 @@ def test_connections_are_kept(folder, serve):
     assert len(connections) == 1
 
 
-def refused(server, instead, error=DownloadError, **what):
+def refused(server, instead, error=DownloadError, gap_s=20, **what):
     server.instead = instead
-    source = HttpSource(server.address, 60, gap_s=0.2, retries=0)
+    source = HttpSource(server.address, 60, gap_s=gap_s, retries=0)
     with pytest.raises(error) as told:
         read(source, **what)
     assert "\n" not in str(told.value)
@@ -100,7 +100,7 @@ def test_the_servers_errors_are_told(folder, serve, status):
 
 def test_silence_is_told(folder, serve):
     server = serve(folder)
-    said = refused(server, lambda _: server.ended.wait(20) and True, SlowRetrievalError)
+    said = refused(server, lambda _: server.ended.wait(20) and True, SlowRetrievalError, gap_s=0.2)
     assert "said nothing for 0.2 s" in said
 
 
@@ -225,7 +225,7 @@ def test_whatever_a_server_says_ends_as_one_line_or_as_bytes(folder, serve):
 
         server.instead = answer
         for what in ({}, {"length": 10}, {"start": 5, "length": 10}, {"start": 5}):
-            source = HttpSource(server.address, 60, gap_s=5, retries=0)
+            source = HttpSource(server.address, 60, retries=0)
             try:
                 given_bytes = read(source, **what)
             except DownloadError as error:
