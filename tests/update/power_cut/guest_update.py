@@ -1,6 +1,6 @@
 """In a user-mode Linux: looks at what the last power cut left, and then updates until the next one.
 
-usage: guest_update.py WORK TRUTH      prints `TOLD truth` before and after each step, `FAULT …`, and `CHECKED` once
+usage: guest_update.py WORK TRUTH [BREAK]      prints `TOLD truth` before and after each step, `FAULT …`, and `CHECKED` once
 """
 
 import json
@@ -10,11 +10,13 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from device import Device
+from power_cuts import broken
 from story import Story, Truth, faults
 
 
-def main(work, truth):
+def main(work, truth, how=""):
     device = Device(work / "device", work / "tools", work / "repositories")
+    broken(device, how)
     for fault in faults(device, Truth.read(truth), json.loads((work / "trees").read_text())):
         print(f"FAULT {fault}", flush=True)
     story = Story(device, tell=lambda told: print(f"TOLD {told}", flush=True), failed=device.failed())
@@ -35,4 +37,4 @@ def main(work, truth):
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2])
+    main(Path(sys.argv[1]), *sys.argv[2:])
