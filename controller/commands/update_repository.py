@@ -176,13 +176,12 @@ def export_stick(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, repository: Repository, published: bool) -> int:
     """Say what is published, or what the draft lacks."""
-    lacking = "" if published else repository.lacking() or "signed by all: take it back to the repository, with sign --from"
+    lacking = "" if published else repository.lacking()
+    then = f"{lacking}: haptic-panel update repository sign" if lacking else "signed by all: take it to the repository by sign --from"
     show(
         options,
         {"repository": str(options.repository), "published": published, "lacking": lacking},
-        lambda said: (
-            f"{said['repository']}: {'published' if published else f'a draft: {lacking}: haptic-panel update repository sign'}"
-        ),
+        lambda said: f"{said['repository']}: {'published' if published else f'a draft: {then}'}",
     )
     return 0
 
