@@ -337,7 +337,7 @@ def test_whoever_signs_a_copy_last_is_told_what_comes_next(tmp_path, repository,
     for name in ("alice", "bob", "publisher"):
         capsys.readouterr()
         assert command("sign", stick, "--key", tmp_path / f"keys/{name}.pem") == 0
-    assert capsys.readouterr().out .startswith(f"{stick}: a draft, signed by all: take it back to the repository: ")
+    assert capsys.readouterr().out.startswith(f"{stick}: a draft, signed by all: take it back to the repository: ")
 
 
 def test_one_signs_only_what_one_has_made_oneself(tmp_path, repository, monkeypatch, capsys):
