@@ -22,7 +22,7 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
     "status": "how the running panel fares, and whether it serves",
     "doctor": "check every device, file and permission of a panel, and say what to do",
     "board": "check a board and its scene; describe the keys of both files",
-    "gateware": "bring up an FPGA",
+    "gateware": "build, describe and load bitstreams; bring up an FPGA",
     "bank": "build, describe and verify banks of precomputed waveforms",
     "design": "what a panel of given numbers will be, by the equations of the paper",
     "focus": "focus on given points of the plate model, and measure the focus",

@@ -55,6 +55,10 @@ class FaultError(ControllerError):
         self.faults = faults
 
 
+class GatewareError(ControllerError):
+    """A bitstream that cannot be built, or is not what was asked for."""
+
+
 class CalibrationError(ControllerError):
     """Measurements that do not determine a calibration."""
 

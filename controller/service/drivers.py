@@ -92,12 +92,12 @@ def await_session(board: Board, now_s: Callable[[], float]) -> tuple[Link, Sessi
     link = LazyLink(lambda: open_link(board, now_s), now_s)
     session = Session(link, board, gateware_hash(), now_s, bring_up=False)
     if board.gateware is not None:
-        session.loader = BitstreamLoader(board.gateware, _bitstream(board, board.gateware.bitstream), now_s)
+        session.loader = BitstreamLoader(board.gateware, bitstream_path(board, board.gateware.bitstream), now_s)
     return link, session
 
 
-def _bitstream(board: Board, name: str) -> Path:
-    """Path of a bitstream: that of the release that runs, if there is one."""
+def bitstream_path(board: Board, name: str) -> Path:
+    """Path of a bitstream that board.toml names: that of the release that runs, if there is one."""
     release = running_release()
     ours = release / "gateware" / name if release else None
     return ours if ours is not None and ours.is_file() else board.beside(name)

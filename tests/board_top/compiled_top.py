@@ -4,17 +4,17 @@ The library (ulx3s.cpp) keeps time, SPI and recording to itself. Times are picos
 """
 
 import ctypes
-import os
 import re
-import subprocess
-import sys
 import weakref
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+from controller.board.board import load_board
 from controller.board.lookup import data_folder
+from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import top_parameters
 from controller.simulation.rtl_build import Design, build_library
 
 HERE = Path(__file__).parent
@@ -26,16 +26,14 @@ TOP = Design(
     ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
 PS = 10**12
+SPARE = (1 << 11, 1 << 39, 1 << 12, 1 << 40)  # gp[11], gn[11], gp[12], gn[12]: no signal of the FPGA, and no input
+MISO = 1 << 37
+UART = 1 << 56  # its line into the FPGA
 
 
 def parameters():
-    """Of top.v, as the Makefile passes them to the bitstream."""
-    command = ["make", "-s", "-C", BOARD, "parameters", f"BIN={Path(sys.executable).parent}/"]
-    environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL")}
-    said = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
-    found = re.findall(r"(\w+)=32'(h[0-9a-f]+|d\d+)", said)
-    assert len(found) == len(said.split()), said
-    return {name: int(value[1:], {"h": 16, "d": 10}[value[0]]) for name, value in found}
+    """Of top.v, as its bitstream is built."""
+    return top_parameters(load_board(BOARD / "board.toml"), build_hash(data_folder("fpga_rtl")))
 
 
 @cache
@@ -110,6 +108,7 @@ class CompiledTop:
         self._board = self._library.board_open(inputs(), pulled_up())
         weakref.finalize(self, self._library.board_close, self._board)
         self._mask = self._levels = 0
+        self._stuck = self._stuck_levels = 0
 
     @property
     def now_ps(self):
@@ -130,7 +129,25 @@ class CompiledTop:
         """Drive header pins from outside; None lets go of them."""
         self._mask = self._mask & ~pins if level is None else self._mask | pins
         self._levels = self._levels | pins if level else self._levels & ~pins
-        self._library.board_drive(self._board, self._mask, self._levels)
+        self._drive()
+
+    def stick(self, pins, level):
+        """Hold header pins at a level, whatever else drives them; None lets go, and is what a broken wire leaves: the pull."""
+        self._stuck |= pins
+        if level is None:
+            self._stuck_levels = self._stuck_levels & ~pins | (pulled_up() | UART) & pins
+        else:
+            self._stuck_levels = self._stuck_levels | pins if level else self._stuck_levels & ~pins
+        self._drive()
+
+    def mend(self):
+        """Nothing is stuck any more."""
+        self._stuck = self._stuck_levels = 0
+        self._drive()
+
+    def _drive(self):
+        levels = self._levels & ~self._stuck | self._stuck_levels
+        self._library.board_drive(self._board, self._mask | self._stuck, levels)
 
     def oscillate(self, runs):
         """Stop the oscillator, or let it run again."""
@@ -138,7 +155,8 @@ class CompiledTop:
 
     def high(self, pins):
         """Whether all of these header pins are high."""
-        return self._library.board_levels(self._board) & pins == pins
+        levels = self._library.board_levels(self._board)
+        return (levels & ~self._stuck | self._stuck_levels) & pins == pins
 
     @property
     def levels(self):
@@ -157,12 +175,18 @@ class CompiledTop:
 
     def exchange(self, pins, sent, sck_hz, lead_ps=200_000, lag_ps=100_000):
         """One chip-select assertion at pins SCK, CS, MOSI, MISO; what came back."""
-        wires_of_spi = (ctypes.c_uint64 * 4)(*pins)
         self._mask |= pins[0] | pins[1] | pins[2]
         self._levels = self._levels & ~(pins[0] | pins[2]) | pins[1]
+        # what the controller does with a wire that is stuck ends nowhere
+        pins = [spare if pin & self._stuck else pin for pin, spare in zip(pins, SPARE, strict=True)]
+        if self._stuck:
+            self._drive()
+        wires_of_spi = (ctypes.c_uint64 * 4)(*pins)
         received = ctypes.create_string_buffer(len(sent))
         period_ps = round(PS / sck_hz)
         self._library.board_exchange(self._board, wires_of_spi, lead_ps, period_ps, lag_ps, len(sent), bytes(sent), received)
+        if pins[3] in SPARE:
+            return (b"\xff" if self._stuck_levels & self._stuck & MISO else b"\0") * len(sent)
         return received.raw
 
     def take(self):

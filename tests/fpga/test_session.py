@@ -136,7 +136,7 @@ def test_all_limits_that_differ_are_said_in_one_line(board, clock):
         " TOTAL_EDGES_MAX is 1000000, not 375000 (limits.max_total_edge_rate_hz);"
         " EMISSION_TICKS_MAX is 156250, not 131250 (limits.longest_emission_ms);"
         " DUTY_SHARE_MAX is 65536, not 19661 (limits.max_duty); DUTY_TICKS_MAX is 6250000, not 1500000 (limits.duty_budget_ms);"
-        f" build its gateware with {other.folder / 'board.toml'} (make BOARD_TOML=..., in the folder of its top.v)"
+        f" build its gateware with the limits of this one: haptic-panel gateware build --board {other.folder}"
     )
 
 

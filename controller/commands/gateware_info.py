@@ -1,0 +1,65 @@
+"""`haptic-panel gateware info`: what a bitstream is, and whether a board's bring-up would take it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from controller.board.board import load_board
+from controller.board.lookup import find_board
+from controller.commands.output import show
+from controller.fpga.bitstream import differences, read_figures, read_identity, sha256_of
+from controller.fpga.build_parameters import top_parameters
+from controller.service.drivers import gateware_hash
+
+
+def add(step: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    step.add_argument("file", metavar="FILE", help="the bitstream")
+    step.add_argument("--board", metavar="B", help="board that it is compared with (default: the one that it was built for)")
+    step.add_argument("--json", action="store_true", help="print one JSON object and nothing else on stdout")
+    step.set_defaults(command=gateware_info)
+
+
+def gateware_info(options: argparse.Namespace) -> int:
+    """Print what a bitstream says of itself; 1 if the board would refuse it."""
+    file = Path(options.file)
+    identity, figures = read_identity(file), read_figures(file)
+    board = load_board(find_board(options.board or identity.board))
+    complaints = differences(identity, board, gateware_hash())
+    shown = ("clock_mhz", "fmax_mhz", "longest_path")
+    told = {
+        "file": str(file),
+        "bytes": file.stat().st_size,
+        "sha256": sha256_of(file),
+        "identity": msgspec.to_builtins(identity),
+        "board": {"name": board.name, "parameters": top_parameters(board, gateware_hash())},
+        "figures": None if figures is None else {name: getattr(figures, name) for name in shown},
+        "complaints": complaints,
+    }
+    show(options, told, _table)
+    for complaint in complaints:
+        print(f"haptic-panel: {file}: {complaint}", file=sys.stderr)
+    return 1 if complaints else 0
+
+
+def _table(told: dict[str, Any]) -> str:
+    identity, board, figures = told["identity"], told["board"], told["figures"]
+    tools = ", ".join(f"{name} {version}" for name, version in identity["tools"].items())
+    lines = [
+        f"{told['file']}: {told['bytes']:,} bytes, SHA-256 {told['sha256']}",
+        f"{identity['top']}/top.v for {identity['device']}, limits of board {identity['board']}, seed {identity['seed']}",
+        f"by {tools}, of sources {identity['sources']}",
+    ]
+    if figures:
+        lines.append(f"{figures['fmax_mhz']} MHz of {figures['clock_mhz']:g}; longest path: {figures['longest_path']}")
+    lines += ["", f"{'built in':<22}{'this file':>12}{board['name']:>22}"]
+    for name, value in sorted(identity["parameters"].items()):
+        wanted = board["parameters"].get(name)
+        shown = [f"0x{number:08X}" if name in {"BUILD_HASH", "CHANNEL_MASK_MAX"} else number for number in (value, wanted or 0)]
+        lines.append(f"{name:<22}{shown[0]:>12}{shown[1]:>22}{'' if value == wanted else '  differs'}")
+    return "\n".join(lines)

@@ -1,0 +1,155 @@
+"""What a bitstream says of itself: an identity in its header, which the FPGA skips, and a file of figures beside it.
+
+Both FPGA families begin a bitstream with comments between FF 00 and FF, each ended by a zero byte.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from controller.board.board import Board
+from controller.errors import GatewareError
+from controller.fpga.build_parameters import top_parameters
+from controller.fpga.configuration import LIMITS
+
+KEY: Final = "Haptic-panel: "  # of the comment with the identity; tools that list comments split them at the colon
+HEADER_BYTES: Final = 4096  # in which the comments end
+
+
+class Identity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All that determines the bytes of a bitstream.
+
+    Attributes
+    ----------
+    board : str
+        Whose board.toml gave the parameters.
+    top : str
+        Folder of top.v and of the pins.
+    device : str
+        Family, size, package and speed grade of the FPGA.
+    seed : int
+        Of the placement.
+    parameters : dict
+        Of top.v, among them BUILD_HASH.
+    sources : str
+        SHA-256 of every file that the tools read, and of what they were told.
+    tools : dict
+        Versions, by package.
+    """
+
+    board: str
+    top: str
+    device: str
+    seed: int
+    parameters: dict[str, int]
+    sources: str
+    tools: dict[str, str]
+
+    def comment(self) -> str:
+        """One line of the header, in ASCII."""
+        return KEY + json.dumps(msgspec.to_builtins(self), sort_keys=True, separators=(",", ":"))
+
+
+class Figures(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What became of a build: the file beside a bitstream.
+
+    Attributes
+    ----------
+    identity : Identity
+    sha256 : str
+        Of the bitstream.
+    bytes : int
+        Its size.
+    clock_mhz, fmax_mhz : float
+        The core's clock that was asked for, and the fastest that nextpnr finds possible.
+    longest_path : str
+        Of that clock: time, and the cells where it begins and ends.
+    cells : dict
+        Used and available, by kind.
+    """
+
+    identity: Identity
+    sha256: str
+    bytes: int
+    clock_mhz: float
+    fmax_mhz: float
+    longest_path: str
+    cells: dict[str, tuple[int, int]]
+
+
+def figures_path(bitstream: Path) -> Path:
+    """File of figures beside a bitstream."""
+    return bitstream.with_name(f"{bitstream.name}.json")
+
+
+def read_identity(bitstream: Path) -> Identity:
+    """Identity in the header of a bitstream.
+
+    Raises
+    ------
+    GatewareError
+        If the file is no bitstream, or one of others.
+    """
+    with bitstream.open("rb") as file:
+        header = file.read(HEADER_BYTES)
+    comments, end, _ = header[2:].partition(b"\xff")
+    if header[:2] != b"\xff\x00" or not end:
+        raise GatewareError(f"{bitstream}: is no bitstream of an ECP5 or iCE40")
+    for comment in comments.split(b"\0"):
+        if comment.startswith(KEY.encode()):
+            try:
+                return msgspec.json.decode(comment.removeprefix(KEY.encode()), type=Identity)
+            except msgspec.DecodeError as error:
+                raise GatewareError(f"{bitstream}: its identity is damaged, or of another release ({error})") from error
+    raise GatewareError(f"{bitstream}: does not say what it is: build it with `haptic-panel gateware build`")
+
+
+def read_figures(bitstream: Path) -> Figures | None:
+    """Figures beside a bitstream; None if there are none.
+
+    Raises
+    ------
+    GatewareError
+        If they are damaged, or those of another bitstream.
+    """
+    path = figures_path(bitstream)
+    if not path.exists():
+        return None
+    try:
+        figures = msgspec.json.decode(path.read_bytes(), type=Figures)
+    except msgspec.DecodeError as error:
+        raise GatewareError(f"{path}: is damaged, or of another release ({error})") from error
+    if figures.sha256 != sha256_of(bitstream):
+        raise GatewareError(f"{path}: tells of another file than {bitstream.name}: their SHA-256 differ")
+    return figures
+
+
+def sha256_of(file: Path) -> str:
+    """SHA-256 of a file, in hexadecimal."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def differences(identity: Identity, board: Board, build_hash: int) -> list[str]:
+    """Why bring-up would refuse a bitstream on a board; empty if it would not.
+
+    Parameters
+    ----------
+    identity : Identity
+    board : Board
+    build_hash : int
+        Of the Verilog that belongs to this software.
+    """
+    wanted, built = top_parameters(board, build_hash), identity.parameters
+    keys = {register.name: key for register, key in LIMITS.items()} | {"CLOCK_HZ": "link.clock_hz", "SLOTS": "link.slots"}
+    found = []
+    if built.get("BUILD_HASH") != build_hash:
+        found.append(f"its BUILD_HASH is 0x{built.get('BUILD_HASH', 0):08X}, not 0x{build_hash:08X}: it is of other Verilog")
+    for name, key in keys.items():
+        if built.get(name) != wanted[name] and not (name == "SLOTS" and built.get(name, 0) > wanted[name]):
+            found.append(f"its {name} is {built.get(name)}, not {wanted[name]} ({key} of board {board.name})")
+    return found

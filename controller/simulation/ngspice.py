@@ -1,0 +1,103 @@
+"""Transient simulations with ngspice: a netlist as text in, traces out."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.errors import ControllerError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Traces:
+    """What a transient simulation computed.
+
+    Attributes
+    ----------
+    time_s : (n,) array
+    values : dict
+        (n,) array in V or A for each saved vector, by the name it was asked for.
+    """
+
+    time_s: Floats
+    values: dict[str, Floats]
+
+    def __getitem__(self, name: str) -> Floats:
+        return self.values[name]
+
+    def crossing_s(self, name: str, level: float, *, rising: bool, after_s: float = 0.0) -> float:
+        """Time in s of the first crossing of a level after `after_s`, by interpolation; nan if there is none."""
+        value = self.values[name]
+        side = value >= level if rising else value <= level
+        (found,) = np.nonzero(side[1:] & ~side[:-1] & (self.time_s[1:] > after_s))
+        if not found.size:
+            return float("nan")
+        before, after = found[0], found[0] + 1
+        share = (level - value[before]) / (value[after] - value[before])
+        return float(self.time_s[before] + share * (self.time_s[after] - self.time_s[before]))
+
+    def at(self, name: str, time_s: float) -> float:
+        """Value of a vector at a time in s, by interpolation."""
+        return float(np.interp(time_s, self.time_s, self.values[name]))
+
+    def between(self, begin_s: float, end_s: float) -> Traces:
+        """Part of the traces, both times in s."""
+        part = (self.time_s >= begin_s) & (self.time_s <= end_s)
+        return Traces(self.time_s[part], {name: value[part] for name, value in self.values.items()})
+
+    def integral(self, values: Floats) -> float:
+        """Integral over the time of these traces of values, one for each of their samples: V or A times s."""
+        return float(np.trapezoid(values, self.time_s))
+
+
+def transient(netlist: str, vectors: Sequence[str], step_s: float, end_s: float) -> Traces:
+    """Simulate a netlist from its operating point.
+
+    Parameters
+    ----------
+    netlist : str
+        Without its title, analysis and end.
+    vectors : sequence of str
+        What to keep, such as ``v(out)`` and ``i(v1)``.
+    step_s, end_s : float
+        Longest step, and end of the simulation.
+
+    Raises
+    ------
+    ControllerError
+        If there is no ngspice, or it could not simulate this.
+    """
+    if not shutil.which("ngspice"):
+        raise ControllerError("there is no ngspice on this machine: apt-get install ngspice")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        saved = " ".join(vectors)
+        text = f"* haptic-panel\n{netlist}\n.save {saved}\n.tran {step_s:g} {end_s:g} 0 {step_s:g}\n.end\n"
+        (folder / "deck.cir").write_text(text)
+        command = ["ngspice", "-n", "-b", "-r", "traces.raw", "deck.cir"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        raw = folder / "traces.raw"
+        time_s, values = _read(raw.read_bytes()) if raw.exists() else (np.empty(0), {})
+        if done.returncode or not time_s.size or time_s[-1] < end_s * (1 - 1e-9):
+            raise ControllerError(f"ngspice did not simulate this:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return Traces(time_s, {vector: values[vector.lower()] for vector in vectors})
+
+
+def _read(raw: bytes) -> tuple[Floats, dict[str, Floats]]:
+    """Time and vectors of a binary raw file: a header as text, then one row of doubles for each time."""
+    head, _, rows = raw.partition(b"Binary:\n")
+    text = head.decode()
+    names = re.findall(r"^\t\d+\t(\S+)\t", text, re.MULTILINE)
+    (points,) = map(int, re.findall(r"No\. Points: (\d+)", text))
+    table = np.frombuffer(rows, np.float64, points * len(names)).reshape(points, len(names))
+    return table[:, 0].copy(), {name: table[:, column].copy() for column, name in enumerate(names)}

