@@ -121,6 +121,17 @@ async def asked_for_more_patience_it_has_what_is_built_in(dut):
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
+async def only_frames_of_the_link_that_armed_keep_it_on(dut):
+    for link, keeps in ((0, True), (1, False)):
+        await armed(dut, heartbeat_ticks=100, link=0)
+        dut.link_i.value = link
+        for _ in range(6):
+            await clocks(dut, 50)
+            await pulse(dut, dut.heard_i)
+        assert fault(dut) == (Fault(0) if keeps else Fault.HOST_SILENT)
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
 async def a_channel_without_a_stage_never_moves(dut):
     for asked, given in ((ALL, 0xFFFF), (0xF0F0F0F0, 0xF0F0), (0, 0)):
         await armed(dut, channel_mask=asked)
