@@ -313,25 +313,28 @@ module register_file #(
     end
 
     // Address and words rest long before their frame ends: what they mean is found out a clock early
-    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, known_q, idle_q;
+    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, takes_q, known_q, idle_q;
 
+    wire command = address_i == `REGISTER_CONTROL;
+    wire known   = address_i < `REGISTER_COUNT;
     always @(posedge clk_i) begin
         if (judge_i) begin
-            known_q    <= address_i < `REGISTER_COUNT;
-            control_q  <= address_i == `REGISTER_CONTROL;
+            known_q    <= known;
+            control_q  <= command;
             idle_q     <= register == `REGISTER_BIT_PERIOD;
-            arm_q      <= word0 == `CONTROL_ARM;
-            disarm_q   <= word0 == `CONTROL_DISARM;
-            clear_q    <= word0 == `CONTROL_CLEAR;
-            stop_q     <= word0 == `CONTROL_STOP;
-            unlock_q   <= word0 == `CONTROL_UNLOCK;
-            trigger_q  <= word0 == `CONTROL_TRIGGER;
+            arm_q      <= command && word0 == `CONTROL_ARM;
+            disarm_q   <= command && word0 == `CONTROL_DISARM;
+            clear_q    <= command && word0 == `CONTROL_CLEAR;
+            stop_q     <= command && word0 == `CONTROL_STOP;
+            unlock_q   <= command && word0 == `CONTROL_UNLOCK;
+            trigger_q  <= command && word0 == `CONTROL_TRIGGER;
             key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
             setting_q  <= setting;
+            takes_q    <= setting && known && in_range;
             in_range_q <= in_range;
         end
         if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
-                    in_range_q} <= 12'd0;
+                    in_range_q, takes_q} <= 13'd0;
     end
 
     wire unlocked = unlocked_q[uart_i];
@@ -345,13 +348,12 @@ module register_file #(
         else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
     end
 
-    wire command  = write_i && control_q;
     wire free     = idle_q ? quiet_i : off_i;            // BIT_PERIOD is written while nothing plays or waits, all others while disarmed
-    assign change = write_i && known_q && setting_q && free && in_range_q;
+    assign change = write_i && takes_q && free;
 
     always @(posedge clk_i) begin
         if (refused_i != 2'b00) unlocked_q <= unlocked_q & ~refused_i;
-        if (accept_i) unlocked_q[uart_i] <= command && unlock_q && key_good_q;
+        if (accept_i) unlocked_q[uart_i] <= write_i && unlock_q && key_good_q;
         if (change) written_q[place] <= 1'b1;
         if (rst_i) begin
             unlocked_q <= 2'b00;
@@ -375,7 +377,7 @@ module register_file #(
     reg arm, disarm, clear, stop, trigger;
     always @* begin
         {arm, disarm, clear, stop, trigger} = 5'd0;
-        if (command) begin
+        if (write_i) begin
             arm     = arm_q && arm_good;
             disarm  = disarm_q;
             clear   = clear_q;
