@@ -108,7 +108,12 @@ def read_case(register: Register, registers: Iterable[Register]) -> list[str]:
         case Kind.LIVE | Kind.COUNTER:
             return [f"{label} value = {_padded(f'{name}_i', register.bits)};"]
     place = settings(registers).index(register)
-    lines = [f"value   = {_verilog(register.reset)};", "setting = 1'b1;", *([f"place   = {place};"] if place else []), *_bounds(register)]
+    lines = [
+        f"value   = {_verilog(register.reset)};",
+        "setting = 1'b1;",
+        *([f"place   = {place};"] if place else []),
+        *_bounds(register),
+    ]
     return [f"{label} begin", *(f"    {line}" for line in lines), "end"]
 
 

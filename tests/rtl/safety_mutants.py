@@ -35,7 +35,7 @@ MUTANTS = {
     "every CRC is right": Change(
         "frame_decoder", "accept_q <= sync_good_q && whole && crc == `CRC_RESIDUE;", "accept_q <= sync_good_q && whole;"
     ),
-    "every key opens": Change("register_file", "command && unlock_q && key_good_q;", "command && unlock_q;"),
+    "every key opens": Change("register_file", "write_i && unlock_q && key_good_q;", "write_i && unlock_q;"),
     "every slot is intact": Change(
         "waveform_buffer", "intact_q[check_slot_q] <= crc == expected_q;", "intact_q[check_slot_q] <= 1'b1;"
     ),
