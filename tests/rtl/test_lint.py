@@ -102,7 +102,7 @@ def test_no_module_has_a_limit_of_its_own():
             if name in LIMITS:
                 assert default == "32'd0", f"{module}: {name} = {default}"
                 found += 1
-    assert found == 3 * len(LIMITS)  # core and register file have each; island, gate and stage_limits those of them they need
+    assert found == 3 * len(LIMITS) + 5  # core and register file have each; island, gate and stage_limits those of them they need
 
 
 def test_other_defaults_are_the_simulated_boards():
