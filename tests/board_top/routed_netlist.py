@@ -121,12 +121,13 @@ class Netlist:
                 yield f"assign {cell.out(to)} = {cell.pin(of)};"
 
     def pad(self, cell):
-        """A pin; one that is never enabled is not driven."""
+        """A pin, which is an input or an output for good: nextpnr enables the driver of any other whose enable has no net."""
         pad = self.pads[cell.net("B")]
-        if cell.net("I") and (cell.text("DIR") == "OUTPUT" or (cell.text("DIR") == "BIDIR" and cell.net("T"))):
-            assert cell.text("DIR") == "OUTPUT", "no pin of the gateware is ever let go of"
+        assert cell.text("DIR") in {"INPUT", "OUTPUT"}, pad
+        if cell.text("DIR") == "OUTPUT":
+            assert not cell.net("T")
             yield f"OB {cell.own('pad')} (.I({cell.pin('I')}), .O({pad}));"
-        if cell.net("O"):
+        elif cell.net("O"):
             yield f"assign {cell.out('O')} = {pad};"
 
     def block_ram(self, cell):
