@@ -30,7 +30,8 @@ def session(folder, monkeypatch, library):
     pi.board.take()  # before it is out of reset, registers without one differ
     with monkeypatch.context() as patch:
         pi.install(patch)
-        host = session_on(pi, opened(pi))
+        link = opened(pi)
+        host = session_on(pi, link)
         for register in Register:
             if register.access != "WO":
                 host.exchange.read(register)
@@ -51,6 +52,7 @@ def session(folder, monkeypatch, library):
             host.heartbeat()
         pi.board.oscillate(False)
         pi.board.run(1_000_000)
+        link.close()
     times, pins = pi.board.take()
     return pi.answers, times, pins
 
