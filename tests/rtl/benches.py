@@ -3,6 +3,7 @@
 Each runs from a random initial state, in a process of its own, so that the tests go on meanwhile.
 """
 
+import os
 import sys
 from functools import partial
 from pathlib import Path
@@ -12,7 +13,7 @@ from cocotb_tools.runner import get_runner
 
 from controller.fpga.frames import FRAME_BYTES
 
-RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
+RTL = Path(os.environ.get("HAPTIC_PANEL_TEST_RTL", Path(__file__).parent.parent.parent / "fpga_rtl"))  # or a folder of mutants.py
 
 # Which the wheel's verilated.mk sets without asking the environment; the flag for GCC's precompiled headers, used by the
 # largest designs, it leaves empty
@@ -85,14 +86,15 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
     """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
+    packages = sorted(RTL.glob("*.sv"))
     runner.build(
-        sources=[*sorted(RTL.glob("*.v")), *beside],
+        sources=[*packages, *sorted(RTL.glob("*.v")), *beside],
         includes=[RTL],
         hdl_toplevel=module,
         parameters=parameters,
         timescale=("1ns", "1ps"),
         build_dir=folder,
-        build_args=VERILATOR_ARGUMENTS if verilator else ["-g2005"],
+        build_args=VERILATOR_ARGUMENTS + ["-Wno-fatal"] * bool(packages) if verilator else ["-g2005"],
         log_file=folder / "build.log",
     )
     runner.test(
