@@ -25,7 +25,8 @@ module haptic_core #(
     parameter [31:0] DUTY_SHARE_MAX      = 32'd0,
     parameter [31:0] DUTY_TICKS_MAX      = 32'd0,
     // end of parameters
-    parameter [31:0] BAUD                = 32'd1_000_000
+    parameter [31:0] BAUD                = 32'd1_000_000,
+    parameter [31:0] UART                = 32'd1           // 0: no link by UART is built; its line rests
 ) (
     input  wire        clk_i,
     input  wire        rst_i,
@@ -86,239 +87,95 @@ module haptic_core #(
     wire [31:0] duty_level;
     // end of wires
 
-    // Pins that have no clock, through two flip-flops; a trigger is high for FILTER_TICKS, low as long before the next
-    reg [3:0]  trigger_q;
-    reg        triggered_q, command_q;
-    reg [63:0] now_q, input_time_q;
-    reg [1:0]  permits_q;
-    wire       trigger_high    = trigger_q[3:1] == 3'b111;
-    wire       trigger_low     = trigger_q[3:1] == 3'b000;
-    wire       command;
-    wire       trigger         = (trigger_high && !triggered_q) || command_q;
-    wire       run_permit, temperature_ok;
-    assign     inputs          = {trigger_q[1], temperature_ok, run_permit};
-    assign     input_time      = input_time_q;
-
-    always @(posedge clk_i) begin
-        trigger_q        <= {trigger_q[2:0], trigger_i};
-        triggered_q      <= trigger_high || (triggered_q && !trigger_low);
-        command_q        <= command;
-        permits_q        <= {temperature_ok, run_permit};
-        now_q            <= now_q + 64'd1;
-        if (permits_q != {temperature_ok, run_permit}) input_time_q <= now_q;
-        if (rst_i) begin
-            trigger_q        <= 4'b1111;   // high at reset is no edge
-            triggered_q      <= 1'b1;
-            command_q        <= 1'b0;
-            permits_q        <= 2'b00;
-            now_q            <= 64'd0;
-            input_time_q     <= 64'd0;
-        end
-    end
-
-    // Frames: each link has a decoder, an encoder of answers and a conversation of its own. What the SPI accepts is carried
-    // out at once; a frame of the UART waits, whole and good, for a pause of the SPI.
-    wire       spi_select, spi_active, spi_release, spi_partial, spi_byte_valid, spi_take;
-    wire       uart_select, uart_release, uart_partial, uart_byte_valid, uart_take;
-    wire [7:0] spi_byte, uart_byte, spi_answer, uart_answer;
-
-    spi_peripheral spi_peripheral (
-        .clk_i(clk_i), .rst_i(rst_i),
-        .spi_sck_i(spi_sck_i), .spi_cs_n_i(spi_cs_n_i), .spi_mosi_i(spi_mosi_i), .spi_miso_o(spi_miso_o),
-        .select_o(spi_select), .active_o(spi_active), .release_o(spi_release), .partial_o(spi_partial),
-        .byte_valid_o(spi_byte_valid), .byte_o(spi_byte), .answer_i(spi_answer), .answer_take_o(spi_take)
-    );
-
-    uart_peripheral #(.CLOCK_HZ(CLOCK_HZ), .BAUD(BAUD)) uart_peripheral (
-        .clk_i(clk_i), .rst_i(rst_i), .uart_rx_i(uart_rx_i), .uart_tx_o(uart_tx_o),
-        .select_o(uart_select), .release_o(uart_release), .partial_o(uart_partial),
-        .byte_valid_o(uart_byte_valid), .byte_o(uart_byte), .answer_i(uart_answer), .answer_take_o(uart_take)
-    );
-
-    wire         spi_accept, spi_refuse, spi_word_valid, spi_landing_busy, spi_landing_live, spi_fast;
-    wire         uart_accept, uart_refuse, uart_damaged, uart_word_valid, uart_landing_busy, uart_landing_live;
-    wire         relay_select, relay_release, relay_byte_valid, relay_refuse, relay_begin, relay_word_valid, relay_accept;
-    wire [7:0]   spi_refusal, spi_kind, spi_sequence, spi_word_number;
-    wire [7:0]   uart_refusal, uart_kind, uart_sequence, uart_word_number, relay_word_number;
-    wire [15:0]  spi_argument, uart_argument;
-    wire [31:0]  spi_word, uart_word, relay_word;
-    wire [6:0]   spi_payload_words, uart_payload_words;
-    wire         landing_busy, landing_live;
-    wire         spi_load_word;
-
-    frame_decoder spi_decoder (
-        .clk_i(clk_i), .rst_i(rst_i),
-        .select_i(spi_select), .release_i(spi_release), .partial_i(spi_partial),
-        .byte_valid_i(spi_byte_valid), .byte_i(spi_byte),
-        .landing_busy_i(landing_busy), .landing_live_i(landing_live), .bit_period_i(bit_period),
-        .accept_o(spi_accept), .refuse_o(spi_refuse), .refusal_o(spi_refusal),
-        .type_o(spi_kind), .sequence_o(spi_sequence), .argument_o(spi_argument),
-        .landing_busy_o(spi_landing_busy), .landing_live_o(spi_landing_live), .payload_words_o(spi_payload_words), .fast_o(spi_fast),
-        .word_valid_o(spi_word_valid), .word_number_o(spi_word_number), .word_o(spi_word), .load_word_o(spi_load_word)
-    );
-
-    /* verilator lint_off PINCONNECTEMPTY */
-    frame_decoder uart_decoder (
-        .clk_i(clk_i), .rst_i(rst_i),
-        .select_i(relay_select), .release_i(relay_release), .partial_i(uart_partial),
-        .byte_valid_i(relay_byte_valid), .byte_i(uart_byte),
-        .landing_busy_i(1'b0), .landing_live_i(1'b0), .bit_period_i(32'd0),
-        .accept_o(uart_accept), .refuse_o(uart_damaged), .refusal_o(uart_refusal),
-        .type_o(uart_kind), .sequence_o(uart_sequence), .argument_o(uart_argument),
-        .landing_busy_o(), .landing_live_o(), .payload_words_o(uart_payload_words), .fast_o(),
-        .word_valid_o(uart_word_valid), .word_number_o(uart_word_number), .word_o(uart_word), .load_word_o()
-    );
-    /* verilator lint_on PINCONNECTEMPTY */
-
-    wire from_uart;                        // whose frame the core is asked
-    frame_relay frame_relay (
-        .clk_i(clk_i), .rst_i(rst_i), .busy_i(spi_select || spi_active || spi_release || spi_accept || spi_refuse),
-        .select_i(uart_select), .release_i(uart_release), .byte_valid_i(uart_byte_valid),
-        .select_o(relay_select), .release_o(relay_release), .byte_valid_o(relay_byte_valid), .refuse_o(relay_refuse),
-        .accept_i(uart_accept), .payload_words_i(uart_payload_words),
-        .word_valid_i(uart_word_valid), .word_number_i(uart_word_number), .word_i(uart_word),
-        .landing_busy_i(landing_busy), .landing_live_i(landing_live),
-        .begin_o(relay_begin), .turn_o(from_uart), .word_valid_o(relay_word_valid), .word_number_o(relay_word_number),
-        .word_o(relay_word), .accept_o(relay_accept), .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live)
-    );
-
-    wire         select            = spi_select || relay_begin;
-    wire         accept            = spi_accept || relay_accept;
-    wire         word_valid        = spi_word_valid || relay_word_valid;
-    wire [7:0]   word_number       = from_uart ? relay_word_number : spi_word_number;
-    wire [31:0]  word              = from_uart ? relay_word : spi_word;
-
-    // What the frame asks rests long before it is accepted: chosen a clock early, it begins no long path. It is chosen, and found
-    // out what it means, only in clocks in which it may have changed. Its first words are gathered as they come; every frame of the
-    // UART brings them again in its turn.
-    reg  [7:0]   kind, sequence_number;
-    reg  [15:0]  argument;
-    reg  [191:0] words;                    // first six of the payload, the first lowest
-    reg  [6:0]   payload_words;
-    reg  [1:0]   taken_q;                  // the SPI's decoder took something in one clock ago, two: a word comes a clock later
-    reg          returned_q, chosen_q;
-    wire         choose = taken_q != 2'b00 || relay_begin || from_uart || returned_q;
-    always @(posedge clk_i) begin
-        taken_q    <= {taken_q[0], spi_select || spi_byte_valid};
-        returned_q <= from_uart;
-        chosen_q   <= choose;
-        if (choose && (relay_begin || from_uart)) begin
-            kind            <= uart_kind;
-            sequence_number <= uart_sequence;
-            argument        <= uart_argument;
-            payload_words   <= uart_payload_words;
-        end else if (choose) begin
-            kind            <= spi_kind;
-            sequence_number <= spi_sequence;
-            argument        <= spi_argument;
-            payload_words   <= spi_payload_words;
-        end
-        if (word_valid && word_number < 8'd6) words[{word_number[2:0], 5'd0} +: 32] <= word;
-        if (rst_i) begin
-            kind            <= `TYPE_NOP;
-            sequence_number <= 8'd0;
-            argument        <= 16'd0;
-            words           <= 192'd0;
-            payload_words   <= 7'd0;
-            taken_q         <= 2'b00;
-            returned_q      <= 1'b0;
-            chosen_q        <= 1'b0;
-        end
-    end
-
-    reg          load_word, play_word;
-    always @* begin
-        load_word = 1'b0;
-        play_word = 1'b0;
-        if (word_valid) begin
-            load_word = spi_load_word || (relay_word_valid && uart_kind == `TYPE_LOAD && uart_argument < {12'd0, `CHUNKS});
-            play_word = kind == `TYPE_PLAY;
-        end
-    end
-    wire         landing_was_busy  = from_uart ? uart_landing_busy : spi_landing_busy;
-    wire         landing_was_live  = from_uart ? uart_landing_live : spi_landing_live;
-    assign       uart_refuse       = uart_damaged || relay_refuse;
-
-    // What becomes of them
-    wire [7:0] register_result, write_result, load_result, store_result, play_result, memory_result, crc_result, queue_result;
-    reg  [7:0] read_result, result;
-    reg  [7:0] spi_result_q, spi_sequence_q, uart_result_q, uart_sequence_q;
-    reg        fast_q;                     // of the last LOAD; never of one by the UART
-    wire       play_accept = accept && kind == `TYPE_PLAY;
-    wire       play_good;
-    wire       push = play_accept && play_good;
-
-    wire [31:0] register_data, memory_data, crc_data, queue_data;
-    reg  [31:0] read_data, spi_data_q, uart_data_q;
-    reg         gap, read;
-`ifdef SYNTHESIS
-    wire        judge = 1'b1;              // on an FPGA it costs nothing to find out what has not changed
-`else
-    wire        judge = chosen_q || accept;  // results hold in this clock
-`endif
-    always @* begin
-        read_result = `RESULT_OK;
-        read_data   = 32'd0;
-        result      = `RESULT_OK;
-        gap         = 1'b0;
-        read        = 1'b0;
-        if (accept) begin
-            if (argument[15]) begin
-                read_result = memory_result;
-                read_data   = memory_data;
-            end else if (argument[14:8] == 7'd1) begin
-                read_result = crc_result;
-                read_data   = crc_data;
-            end else if (argument[14:8] == 7'd2) begin
-                read_result = argument[7:6] != 2'd0 ? `RESULT_BAD_RANGE : queue_result;
-                read_data   = queue_data;
-            end else begin
-                read_result = register_result;
-                read_data   = register_data;
-            end
-            case (kind)
-                `TYPE_NOP, `TYPE_TEST: result = `RESULT_OK;
-                `TYPE_READ:  result = read_result;
-                `TYPE_WRITE: result = write_result;
-                `TYPE_LOAD:  result = load_result;
-                `TYPE_STORE: result = store_result;
-                `TYPE_PLAY:  result = play_result;
-                default:     result = `RESULT_UNKNOWN_TYPE;
-            endcase
-            gap  = sequence_number != (from_uart ? uart_sequence_q : spi_sequence_q) + 8'd1;
-            read = kind == `TYPE_READ && read_result == `RESULT_OK;
-        end
-    end
-
-    always @(posedge clk_i) begin
-        if (spi_refuse) spi_result_q <= spi_refusal;
-        if (spi_accept) begin
-            spi_result_q   <= result;
-            spi_sequence_q <= sequence_number;
-            if (read) spi_data_q <= read_data;
-        end
-        if (relay_accept) begin
-            uart_result_q   <= result;
-            uart_sequence_q <= sequence_number;
-            if (read) uart_data_q <= read_data;
-        end
-        if (uart_damaged) uart_result_q <= uart_refusal;
-        if (relay_refuse) uart_result_q <= `RESULT_BUSY;
-        if (accept && kind == `TYPE_LOAD) fast_q <= spi_fast && !from_uart;
-        if (rst_i) begin
-            spi_result_q    <= `RESULT_OK;
-            spi_sequence_q  <= 8'd0;
-            spi_data_q      <= 32'd0;
-            uart_result_q   <= `RESULT_OK;
-            uart_sequence_q <= 8'd0;
-            uart_data_q     <= 32'd0;
-            fast_q          <= 1'b0;
-        end
-    end
-
+    wire [63:0] now;
+    wire        command, trigger, trigger_level, run_permit, temperature_ok;
     wire        arm, disarm, clear, stop;
     wire        off, settling, armed, ramp_up, ramp_down, stopping, alive, shut;
     wire        quiet, settled;
+    assign      inputs = {trigger_level, temperature_ok, run_permit};
+
+    trigger_input trigger_input (
+        .clk_i(clk_i), .rst_i(rst_i), .trigger_i(trigger_i), .command_i(command), .level_o(trigger_level), .trigger_o(trigger)
+    );
+
+    tick_counter tick_counter (
+        .clk_i(clk_i), .rst_i(rst_i), .permits_i({temperature_ok, run_permit}), .now_o(now), .change_time_o(input_time)
+    );
+
+    // Frames: each link has a decoder, an encoder of answers and a conversation of its own. What the SPI accepts is carried
+    // out at once; a frame of the UART waits, whole and good, for a pause of the SPI.
+    wire         spi_busy, spi_select, spi_take, spi_byte_valid, spi_accept, spi_refuse, spi_word_valid, spi_load_word;
+    wire         spi_landing_busy, spi_landing_live, spi_fast;
+    wire [7:0]   spi_byte, spi_answer, spi_refusal, spi_kind, spi_sequence, spi_word_number;
+    wire [15:0]  spi_argument;
+    wire [31:0]  spi_word;
+    wire [6:0]   spi_payload_words;
+    wire         uart_select, uart_begin, from_uart, uart_accept, uart_refuse, uart_word_valid, uart_load_word;
+    wire         uart_landing_busy, uart_landing_live;
+    wire [7:0]   uart_kind, uart_sequence, uart_word_number;
+    wire [15:0]  uart_argument;
+    wire [31:0]  uart_word;
+    wire [6:0]   uart_payload_words;
+    wire         landing_busy, landing_live;
+
+    spi_link spi_link (
+        .clk_i(clk_i), .rst_i(rst_i),
+        .spi_sck_i(spi_sck_i), .spi_cs_n_i(spi_cs_n_i), .spi_mosi_i(spi_mosi_i), .spi_miso_o(spi_miso_o),
+        .answer_i(spi_answer), .take_o(spi_take),
+        .landing_busy_i(landing_busy), .landing_live_i(landing_live), .bit_period_i(bit_period),
+        .busy_o(spi_busy), .select_o(spi_select), .byte_valid_o(spi_byte_valid), .byte_o(spi_byte),
+        .accept_o(spi_accept), .refuse_o(spi_refuse), .refusal_o(spi_refusal),
+        .kind_o(spi_kind), .sequence_o(spi_sequence), .argument_o(spi_argument), .payload_words_o(spi_payload_words),
+        .landing_busy_o(spi_landing_busy), .landing_live_o(spi_landing_live), .fast_o(spi_fast),
+        .word_valid_o(spi_word_valid), .word_number_o(spi_word_number), .word_o(spi_word), .load_word_o(spi_load_word)
+    );
+
+    wire         judge, accept, load_word, play_word, lengths, fast, landing_was_busy, landing_was_live;
+    wire [7:0]   kind, sequence_number;
+    wire [15:0]  argument;
+    wire [191:0] words;
+    wire [31:0]  word;
+    wire [6:0]   payload_words, word_number;
+    frame_select frame_select (
+        .clk_i(clk_i), .rst_i(rst_i),
+        .spi_taken_i(spi_select || spi_byte_valid), .spi_accept_i(spi_accept), .spi_kind_i(spi_kind), .spi_sequence_i(spi_sequence),
+        .spi_argument_i(spi_argument), .spi_payload_words_i(spi_payload_words),
+        .spi_landing_busy_i(spi_landing_busy), .spi_landing_live_i(spi_landing_live), .spi_fast_i(spi_fast),
+        .spi_word_valid_i(spi_word_valid), .spi_load_word_i(spi_load_word), .spi_word_number_i(spi_word_number), .spi_word_i(spi_word),
+        .uart_begin_i(uart_begin), .uart_turn_i(from_uart), .uart_accept_i(uart_accept),
+        .uart_kind_i(uart_kind), .uart_sequence_i(uart_sequence), .uart_argument_i(uart_argument),
+        .uart_payload_words_i(uart_payload_words),
+        .uart_landing_busy_i(uart_landing_busy), .uart_landing_live_i(uart_landing_live),
+        .uart_word_valid_i(uart_word_valid), .uart_load_word_i(uart_load_word), .uart_word_number_i(uart_word_number),
+        .uart_word_i(uart_word),
+        .judge_o(judge), .accept_o(accept), .kind_o(kind), .sequence_o(sequence_number), .argument_o(argument),
+        .payload_words_o(payload_words), .words_o(words), .landing_busy_o(landing_was_busy), .landing_live_o(landing_was_live),
+        .fast_o(fast), .load_word_o(load_word), .play_word_o(play_word), .lengths_o(lengths),
+        .word_number_o(word_number), .word_o(word)
+    );
+
+    wire [7:0]   register_result, write_result, load_result, store_result, play_result, memory_result, crc_result, queue_result;
+    wire [31:0]  register_data, memory_data, crc_data, queue_data;
+    wire         gap, done_read, play_good;
+    wire [1:0]   done;                       // by UART (1), by SPI (0)
+    wire [7:0]   done_result, done_sequence, spi_result, spi_last, uart_last;
+    wire [31:0]  done_data, spi_data;
+    wire         play_accept = accept && kind == `TYPE_PLAY;
+    frame_result frame_result (
+        .clk_i(clk_i), .rst_i(rst_i), .accept_i(accept), .uart_i(from_uart),
+        .kind_i(kind), .sequence_i(sequence_number), .page_i(argument[15:6]),
+        .spi_sequence_i(spi_last), .uart_sequence_i(uart_last), .gap_o(gap),
+        .write_result_i(write_result), .load_result_i(load_result), .store_result_i(store_result), .play_result_i(play_result),
+        .register_result_i(register_result), .memory_result_i(memory_result), .crc_result_i(crc_result), .queue_result_i(queue_result),
+        .register_data_i(register_data), .memory_data_i(memory_data), .crc_data_i(crc_data), .queue_data_i(queue_data),
+        .done_o(done), .read_o(done_read), .result_o(done_result), .sequence_o(done_sequence), .data_o(done_data)
+    );
+
+    link_reply spi_reply (
+        .clk_i(clk_i), .rst_i(rst_i), .done_i(done[0]), .read_i(done_read),
+        .result_i(done_result), .sequence_i(done_sequence), .data_i(done_data), .refuse_i(spi_refuse), .refusal_i(spi_refusal),
+        .result_o(spi_result), .sequence_o(spi_last), .data_o(spi_data)
+    );
 
     register_file #(
         // generated: built_in
@@ -382,7 +239,7 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   missing, underrun, play_read, play_polarity, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire [1:0]             head_start;
@@ -395,7 +252,7 @@ module haptic_core #(
 
     waveform_buffer #(.SLOTS(SLOTS), .BUFFER_BITS(BUFFER_BITS)) waveform_buffer (
         .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .look_i(kind == `TYPE_STORE),
-        .write_i(load_word), .write_word_i(word_number[6:0]), .write_data_i(word),
+        .write_i(load_word), .write_word_i(word_number), .write_data_i(word),
         .load_i(accept && kind == `TYPE_LOAD), .store_i(accept && kind == `TYPE_STORE),
         .argument_i(argument), .word0_i(words[31:0]), .word1_i(words[63:32]), .load_words_i(payload_words),
         .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
@@ -404,29 +261,26 @@ module haptic_core #(
         .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(slots_loaded), .checking_o(checking),
         .landing_o(landing), .chunks_o(chunks),
         .memory_result_o(memory_result), .memory_data_o(memory_data), .crc_result_o(crc_result), .crc_data_o(crc_data),
-        .play_i(playing), .play_read_i(play_read), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
+        .play_i(playing), .play_read_i(play_read), .play_polarity_i(play_polarity), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
         .play_within_i(read_within), .missing_o(missing), .play_data_o(play_data)
     );
 
-    reg lengths_q;                         // words 0 to 2 of a PLAY are there
-    always @(posedge clk_i) lengths_q <= play_word && word_number == 8'd2 && !rst_i;
-
     play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
-        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths_q), .accept_i(play_accept), .forget_i(stop || disarm || shut),
+        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths), .accept_i(play_accept), .forget_i(stop || disarm || shut),
         .argument_i(argument), .first_i(words[15:0]), .asked_i(words[31:16]), .count_i(words[47:32]), .start_i(words[55:48]),
         .polarity_i(words[63:56]), .period_i(words[95:64]), .when_i(words[191:128]),
-        .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now_q),
+        .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now),
         .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),
-        .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast_q),
+        .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast),
         .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queue), .full_i(queue_full),
         .good_o(play_good), .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
     );
 
     play_queue #(.BUFFER_BITS(BUFFER_BITS)) play_queue (
-        .clk_i(clk_i), .rst_i(rst_i), .select_i(select),
+        .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select || uart_begin),
         .write_i(play_word), .write_word_i(word_number[2:0]), .write_data_i(word),
-        .push_i(push), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
+        .push_i(play_accept && play_good), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
         .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
@@ -443,12 +297,12 @@ module haptic_core #(
 
     waveform_player #(.BUFFER_BITS(BUFFER_BITS)) waveform_player (
         .clk_i(clk_i), .rst_i(rst_i), .idle_word_i(idle_word), .bit_period_i(bit_period),
-        .armed_i(armed), .stop_i(stop), .disarm_i(disarm), .fault_i(shut), .trigger_i(trigger), .now_i(now_q),
+        .armed_i(armed), .stop_i(stop), .disarm_i(disarm), .fault_i(shut), .trigger_i(trigger), .now_i(now),
         .head_i(head), .head_buffer_i(head_buffer), .head_first_i(head_first), .head_length_i(head_length),
         .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
         .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
-        .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
+        .read_o(play_read), .read_polarity_o(play_polarity), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),
@@ -470,7 +324,7 @@ module haptic_core #(
         .channel_edges_i({8'd0, channel_edges}), .total_edges_i({3'd0, total_edges}), .emission_ticks_i(emission_ticks),
         .duty_share_i(duty_share), .duty_ticks_i(duty_ticks),
         .drive_i(drive), .bit_ticks_i(bit_period[31:16]), .playing_i(playing), .start_i(start), .ended_i(ended),
-        .underrun_i(underrun), .ramp_done_i(ramp_done), .settled_i(settled), .now_i(now_q),
+        .underrun_i(underrun), .ramp_done_i(ramp_done), .settled_i(settled), .now_i(now),
         .run_permit_o(run_permit), .temperature_ok_o(temperature_ok),
         .off_o(off), .settling_o(settling), .ramp_up_o(ramp_up), .armed_o(armed), .stopping_o(stopping), .ramp_down_o(ramp_down),
         .alive_o(alive), .shut_o(shut),
@@ -479,55 +333,67 @@ module haptic_core #(
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
 
-    reg waiting_q, fault_q;                  // pads: no glitch of the logic before them
-    always @(posedge clk_i or posedge clock_lost_i) begin
-        if (clock_lost_i) begin
-            waiting_q <= 1'b0;
-            fault_q <= 1'b0;
-        end else begin
-            waiting_q <= waiting && !rst_i;
-            fault_q <= fault != 16'd0 && !rst_i;
-        end
-    end
-    assign waiting_o = waiting_q;
-    assign fault_o = fault_q;
+    indicator_pins indicator_pins (
+        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .waiting_i(waiting), .fault_i(fault != 16'd0),
+        .waiting_o(waiting_o), .fault_o(fault_o)
+    );
 
-    // The answer
-    reg [15:0] state;                      // as a frame begins
-    always @* begin
-        state = 16'd0;
-        if (spi_select || uart_select) begin
-            state[`STATE_ARMED]             = armed;
-            state[`STATE_RAMPING]           = settling || ramp_up || ramp_down || stopping;
-            state[`STATE_PLAYING]           = playing;
-            state[`STATE_REPEATING]         = repeating;
-            state[`STATE_PENDING]           = queue != 4'd0;
-            state[`STATE_LANDING_BUSY]      = landing_busy;
-            state[`STATE_RUN_PERMIT]        = run_permit;
-            state[`STATE_HEARTBEAT]         = alive;
-            state[`STATE_HV_ENABLE]         = hv_enable_o;
-            state[`STATE_TEMPERATURE_GOOD]  = temperature_ok;
-            state[`STATE_CHECKING]          = checking;
-            state[`STATE_DELAYED]           = delayed;
-            state[`STATE_WAITING]           = waiting;
-        end
-    end
+    // The answers
+    wire [15:0] state;
+    status_flags status_flags (
+        .sample_i(spi_select || uart_select), .armed_i(armed), .ramping_i(settling || ramp_up || ramp_down || stopping),
+        .playing_i(playing), .repeating_i(repeating), .pending_i(queue != 4'd0), .landing_busy_i(landing_busy),
+        .run_permit_i(run_permit), .alive_i(alive), .hv_enable_i(hv_enable_o), .temperature_ok_i(temperature_ok),
+        .checking_i(checking), .delayed_i(delayed), .waiting_i(waiting), .state_o(state)
+    );
 
     status_encoder spi_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select), .take_i(spi_take), .byte_o(spi_answer),
-        .result_i(spi_result_q), .sequence_i(spi_sequence_q), .state_i(state), .fault_i(fault), .data_i(spi_data_q),
-        .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
+        .result_i(spi_result), .sequence_i(spi_last), .data_i(spi_data), .state_i(state), .fault_i(fault),
+        .triggers_i(triggers), .timestamp_i(now), .emissions_i(emissions),
         .queued_i({4'd0, queue}), .chunks_i(chunks), .ignored_i(triggers_ignored[15:0]),
         .echo_i(spi_kind == `TYPE_TEST), .byte_valid_i(spi_byte_valid), .byte_i(spi_byte)
     );
 
-    status_encoder uart_encoder (
-        .clk_i(clk_i), .rst_i(rst_i), .select_i(uart_select), .take_i(uart_take), .byte_o(uart_answer),
-        .result_i(uart_result_q), .sequence_i(uart_sequence_q), .state_i(state), .fault_i(fault), .data_i(uart_data_q),
-        .triggers_i(triggers), .timestamp_i(now_q), .emissions_i(emissions),
-        .queued_i({4'd0, queue}), .chunks_i(chunks), .ignored_i(triggers_ignored[15:0]),
-        .echo_i(1'b0), .byte_valid_i(1'b0), .byte_i(8'd0)
-    );
+    generate
+        if (UART != 32'd0) begin : uart
+            wire        uart_take;
+            wire [7:0]  uart_answer, uart_refusal, uart_result;
+            wire [31:0] uart_data;
+            uart_link #(.CLOCK_HZ(CLOCK_HZ), .BAUD(BAUD)) uart_link (
+                .clk_i(clk_i), .rst_i(rst_i), .uart_rx_i(uart_rx_i), .uart_tx_o(uart_tx_o),
+                .select_o(uart_select), .answer_i(uart_answer), .take_o(uart_take),
+                .busy_i(spi_busy), .landing_busy_i(landing_busy), .landing_live_i(landing_live),
+                .refuse_o(uart_refuse), .refusal_o(uart_refusal), .begin_o(uart_begin), .turn_o(from_uart), .accept_o(uart_accept),
+                .kind_o(uart_kind), .sequence_o(uart_sequence), .argument_o(uart_argument), .payload_words_o(uart_payload_words),
+                .landing_busy_o(uart_landing_busy), .landing_live_o(uart_landing_live),
+                .word_valid_o(uart_word_valid), .word_number_o(uart_word_number), .word_o(uart_word), .load_word_o(uart_load_word)
+            );
+
+            link_reply uart_reply (
+                .clk_i(clk_i), .rst_i(rst_i), .done_i(done[1]), .read_i(done_read),
+                .result_i(done_result), .sequence_i(done_sequence), .data_i(done_data),
+                .refuse_i(uart_refuse), .refusal_i(uart_refusal),
+                .result_o(uart_result), .sequence_o(uart_last), .data_o(uart_data)
+            );
+
+            status_encoder uart_encoder (
+                .clk_i(clk_i), .rst_i(rst_i), .select_i(uart_select), .take_i(uart_take), .byte_o(uart_answer),
+                .result_i(uart_result), .sequence_i(uart_last), .data_i(uart_data), .state_i(state), .fault_i(fault),
+                .triggers_i(triggers), .timestamp_i(now), .emissions_i(emissions),
+                .queued_i({4'd0, queue}), .chunks_i(chunks), .ignored_i(triggers_ignored[15:0]),
+                .echo_i(1'b0), .byte_valid_i(1'b0), .byte_i(8'd0)
+            );
+        end else begin : no_uart
+            /* verilator lint_off UNUSEDSIGNAL */
+            wire unused = uart_rx_i || done[1] || spi_busy;
+            /* verilator lint_on UNUSEDSIGNAL */
+            assign uart_tx_o = 1'b1;
+            assign {uart_select, uart_begin, from_uart, uart_accept, uart_refuse, uart_word_valid, uart_load_word} = 7'd0;
+            assign {uart_landing_busy, uart_landing_live, uart_kind, uart_sequence, uart_argument, uart_payload_words} = 41'd0;
+            assign {uart_word_number, uart_word, uart_last} = 48'd0;
+        end
+    endgenerate
 endmodule
 
 `default_nettype wire

@@ -7,13 +7,15 @@ module status_encoder (
     input  wire        clk_i,
     input  wire        rst_i,
     input  wire        select_i,     // pulse: take the snapshot
-    input  wire        take_i,       // pulse: byte_o was taken
+    input  wire        take_i,       // pulse: byte_o was taken, a clock behind select_i at the earliest
     output wire [7:0]  byte_o,
+    // what the frames before brought: taken a clock later than all else
     input  wire [7:0]  result_i,
     input  wire [7:0]  sequence_i,
+    input  wire [31:0] data_i,
+    // state
     input  wire [15:0] state_i,
     input  wire [15:0] fault_i,
-    input  wire [31:0] data_i,
     input  wire [31:0] triggers_i,
     input  wire [63:0] timestamp_i,
     input  wire [31:0] emissions_i,
@@ -24,29 +26,34 @@ module status_encoder (
     input  wire        byte_valid_i,
     input  wire [7:0]  byte_i
 );
-    localparam BYTES = 32;           // before the CRC
+    localparam [5:0]  BYTES = 6'd32;  // before the CRC
+    localparam [15:0] SYNC  = `STATUS_SYNC;
 
-    reg [8*BYTES-1:0] left_q;        // bytes to come, next one lowest
-    reg [5:0]         count_q;       // bytes taken, held at 36
-    reg [7:0]         last_q;        // byte that came in last
+    reg         selected_q;
+    reg [7:0]   result_q, sequence_q;
+    reg [31:0]  data_q;
+    reg [191:0] snapshot_q;
+    reg [5:0]   count_q;             // bytes taken, held at 36
+    reg [7:0]   next_q;              // next byte of the snapshot
+    reg [7:0]   last_q;              // byte that came in last
 
-    wire in_snapshot = count_q < BYTES[5:0];
-    wire in_status   = count_q < BYTES[5:0] + 6'd4;
+    wire        in_snapshot = count_q < BYTES;
+    wire        in_status   = count_q < BYTES + 6'd4;
     wire [31:0] crc;
-    reg  [7:0]  next;
+    reg  [7:0]  answer;
 
     crc32 crc32_status (
         .clk_i(clk_i), .rst_i(rst_i), .clear_i(select_i),
-        .valid_i(take_i && in_snapshot), .byte_i(next), .crc_o(crc)
+        .valid_i(take_i && in_snapshot), .byte_i(next_q), .crc_o(crc)
     );
 
     always @* begin
         case (count_q)
-            6'd32:   next = ~crc[7:0];
-            6'd33:   next = ~crc[15:8];
-            6'd34:   next = ~crc[23:16];
-            6'd35:   next = ~crc[31:24];
-            default: next = in_snapshot ? left_q[7:0] : echo_i ? last_q : 8'd0;
+            6'd32:   answer = ~crc[7:0];
+            6'd33:   answer = ~crc[15:8];
+            6'd34:   answer = ~crc[23:16];
+            6'd35:   answer = ~crc[31:24];
+            default: answer = in_snapshot ? next_q : echo_i ? last_q : 8'd0;
         endcase
     end
 
@@ -54,21 +61,65 @@ module status_encoder (
         if (byte_valid_i) last_q <= byte_i;
         if (take_i && in_status) begin
             count_q <= count_q + 6'd1;
-            left_q  <= {8'd0, left_q[8*BYTES-1:8]};
+            case (count_q[4:0])      // byte taken
+                5'd0:    next_q <= SYNC[15:8];
+                5'd1:    next_q <= result_q;
+                5'd2:    next_q <= sequence_q;
+                5'd3:    next_q <= snapshot_q[7:0];
+                5'd4:    next_q <= snapshot_q[15:8];
+                5'd5:    next_q <= snapshot_q[23:16];
+                5'd6:    next_q <= snapshot_q[31:24];
+                5'd7:    next_q <= data_q[7:0];
+                5'd8:    next_q <= data_q[15:8];
+                5'd9:    next_q <= data_q[23:16];
+                5'd10:   next_q <= data_q[31:24];
+                5'd11:   next_q <= snapshot_q[39:32];
+                5'd12:   next_q <= snapshot_q[47:40];
+                5'd13:   next_q <= snapshot_q[55:48];
+                5'd14:   next_q <= snapshot_q[63:56];
+                5'd15:   next_q <= snapshot_q[71:64];
+                5'd16:   next_q <= snapshot_q[79:72];
+                5'd17:   next_q <= snapshot_q[87:80];
+                5'd18:   next_q <= snapshot_q[95:88];
+                5'd19:   next_q <= snapshot_q[103:96];
+                5'd20:   next_q <= snapshot_q[111:104];
+                5'd21:   next_q <= snapshot_q[119:112];
+                5'd22:   next_q <= snapshot_q[127:120];
+                5'd23:   next_q <= snapshot_q[135:128];
+                5'd24:   next_q <= snapshot_q[143:136];
+                5'd25:   next_q <= snapshot_q[151:144];
+                5'd26:   next_q <= snapshot_q[159:152];
+                5'd27:   next_q <= snapshot_q[167:160];
+                5'd28:   next_q <= snapshot_q[175:168];
+                5'd29:   next_q <= snapshot_q[183:176];
+                5'd30:   next_q <= snapshot_q[191:184];
+                default: next_q <= 8'd0;
+            endcase
         end
+        selected_q <= select_i;
         if (select_i) begin
-            count_q <= 6'd0;
-            left_q  <= {ignored_i, chunks_i, queued_i, emissions_i, timestamp_i, triggers_i, data_i, fault_i, state_i,
-                        sequence_i, result_i, `STATUS_SYNC};
+            count_q    <= 6'd0;
+            next_q     <= SYNC[7:0];
+            snapshot_q <= {ignored_i, chunks_i, queued_i, emissions_i, timestamp_i, triggers_i, fault_i, state_i};
+        end
+        if (selected_q) begin
+            result_q   <= result_i;
+            sequence_q <= sequence_i;
+            data_q     <= data_i;
         end
         if (rst_i) begin
-            count_q <= 6'd0;
-            left_q  <= {8*BYTES{1'b0}};
-            last_q  <= 8'd0;
+            selected_q <= 1'b0;
+            result_q   <= 8'd0;
+            sequence_q <= 8'd0;
+            data_q     <= 32'd0;
+            snapshot_q <= 192'd0;
+            count_q    <= 6'd0;
+            next_q     <= 8'd0;
+            last_q     <= 8'd0;
         end
     end
 
-    assign byte_o = next;
+    assign byte_o = answer;
 endmodule
 
 `default_nettype wire

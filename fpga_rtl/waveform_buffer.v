@@ -48,6 +48,7 @@ module waveform_buffer #(
     // player; data two clocks after play_read_i, until the next
     input  wire                   play_i,         // it plays
     input  wire                   play_read_i,    // pulse: it has come to another word; never in two clocks one behind the other
+    input  wire                   play_polarity_i, // words come inverted
     input  wire [BUFFER_BITS-1:0] play_buffer_i,
     input  wire [9:0]             play_word_i,
     input  wire [2:0]             play_chunk_i,   // the same word within its chunk
@@ -127,7 +128,7 @@ module waveform_buffer #(
         if (play_read_i || played_q) begin
             played_q <= play_read_i;
             if (play_read_i) play_odd_q <= play_word_i[0];
-            if (played_q)    play_data_q <= play_odd_q ? odd : even;
+            if (played_q)    play_data_q <= (play_odd_q ? odd : even) ^ {32{play_polarity_i}};
         end
         if (check_q || read_memory || fetched_q) begin
             owed_q      <= check_q && check_reads && play_read_i;

@@ -129,6 +129,8 @@ def limits(board: Board) -> dict[str, tuple[str, float, bool, str]]:
         "pins of an FPGA that is not configured": ("V", INPUT_LOW_V, most, "low for a 74AHCT"),
         "switched supply then": ("V", 1, most, "hv_enable off"),
         "stage then, were the switch shorted": ("V", 2, most, "the second protection alone"),
+        "patch 10 ms after the 5 V are gone, channel high": ("V", 1, most, "both switches open, R9"),
+        "patch 10 ms after the 60 V are gone, channel high": ("V", 1, most, "the rail follows its source"),
         "from hv_enable to 98 % of the supply": ("us", settle_us, most, "limits.hv_settle_us: the first edge comes then"),
         "from the last beat of hv_alive to an open switch": ("ms", 10, most, "it stops high or low, hv_enable still high"),
         "heat in the switch at switching on": ("mJ", 10, most, "a SOT-223 takes 10 mJ in 1 ms"),
@@ -346,6 +348,24 @@ def start_up(_board: Board, parts: Parts) -> Measured:
     }
 
 
+def supply_gone(_board: Board, parts: Parts) -> Measured:
+    """One of the two supplies of the stages breaks down while a channel is high and armed."""
+    gone_s, end_s = 2e-3, 12.5e-3
+    left: dict[str, list[float]] = {"5": [], "60": []}
+    for corner in (CORNERS["both early"], CORNERS["both late"]):
+        for name, values in left.items():
+            falls = f"{gone_s:g} {{0}} {gone_s + 5e-4:g} 0"
+            high = f"PWL(0 {{high_v}} {falls.format('{high_v}')})" if name == "60" else "{high_v}"
+            logic = f"PWL(0 {{logic_v}} {falls.format('{logic_v}')})" if name == "5" else "{logic_v}"
+            lines = [f"Vhv v60_in 0 {high}", f"Vlogic v5 0 {logic}", f"Vdrive drive 0 {levels([(1e-3, 1)])}"]
+            lines += [f"Venable enable 0 {levels([(0, 1)])}", _alive(0.0, end_s), "Xsupply enable alive v60_in v5 v60 supply"]
+            lines += ["Xs drive v60 v5 patch stage"]
+            traces = transient(netlist(corner, parts, *lines), ("v(patch)", "v(v60)"), 1e-6, end_s)
+            high_before = traces.at("v(patch)", gone_s) > 0.9 * corner["high_v"]
+            values.append(abs(traces.at("v(patch)", gone_s + 10e-3)) if high_before else math.nan)
+    return {f"patch 10 ms after the {name} V are gone, channel high": worst(values) for name, values in left.items()}
+
+
 def supply(_board: Board, parts: Parts) -> Measured:
     """From hv_enable to a supply that is up, and from a lost beat to one that is off."""
     begin_s, stop_s, end_s = 1e-4, 3e-3, 9e-3
@@ -395,6 +415,7 @@ BENCHES: Final[dict[str, Bench]] = {
     "heat": heat,
     "all off": all_off,
     "start-up": start_up,
+    "supply gone": supply_gone,
     "supply": supply,
 }
 # (what is wrong, parts, bench that finds it)
@@ -412,6 +433,7 @@ WRONG_PARTS: Final[tuple[tuple[str, dict[str, float], str], ...]] = (
     ("no pull-downs", {"pull_down_ohm": 1e9, "supply_pull_down_ohm": 1e9}, "start-up"),
     ("pull-downs of 10 kohm", {"pull_down_ohm": 10e3, "supply_pull_down_ohm": 10e3}, "start-up"),
     ("no gate pull-up R5", {"gate_pull_up_ohm": 1e9}, "start-up"),
+    ("no resistor R9 across the patch", {"bleeder_ohm": 1e9}, "supply gone"),
     ("store C22 ten times too large", {"store_f": 1e-6}, "supply"),
     ("no resistor R23 across it", {"store_ohm": 1e9}, "supply"),
     ("bulk C24 ten times too large", {"bulk_f": 15e-6}, "supply"),

@@ -69,7 +69,7 @@ always @* if (started_q) begin
         assert (age_q <= SETTLED && age_1_q <= SETTLED && age_2_q <= SETTLED && age_3_q <= SETTLED && age_4_q <= SETTLED);
         assert (up_q <= SETTLED);
         if (state_q == SETTLING) assert (age_q < SETTLED && settle_left_q == SETTLED - 17'd1 - age_q);
-        if (moves)            assert (age_q == SETTLED);
+        if (moves)            moves_once_settled: assert (age_q == SETTLED);
         if (moves_later_q[0]) assert (on_later_q[0] && age_1_q == SETTLED);
         if (moves_later_q[1]) assert (on_later_q[1] && age_2_q == SETTLED);
         if (moves_later_q[2]) assert (on_later_q[2] && age_3_q == SETTLED);

@@ -103,8 +103,8 @@ private:
     void clock() {
         Vhaptic_core___024root &root = *core_.rootp;
         const auto reset_moved = [&] {
-            return root.haptic_core__DOT__spi_peripheral__DOT__sck_reset_q
-                   != root.__Vtrigprevexpr___TOP__haptic_core__DOT__spi_peripheral__DOT__sck_reset_q__0;
+            return root.haptic_core__DOT__spi_link__DOT__spi_peripheral__DOT__sck_reset_q
+                   != root.__Vtrigprevexpr___TOP__haptic_core__DOT__spi_link__DOT__spi_peripheral__DOT__sck_reset_q__0;
         };
         core_.clk_i = 1;
         if (core_.spi_sck_i != root.__Vtrigprevexpr___TOP__spi_sck_i__0) {

@@ -26,6 +26,9 @@ TOP = Design(
     ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
 PS = 10**12
+SPARE = (1 << 11, 1 << 39, 1 << 12, 1 << 40)  # gp[11], gn[11], gp[12], gn[12]: no signal of the FPGA, and no input
+MISO = 1 << 37
+UART = 1 << 56  # its line into the FPGA
 
 
 def parameters():
@@ -105,6 +108,7 @@ class CompiledTop:
         self._board = self._library.board_open(inputs(), pulled_up())
         weakref.finalize(self, self._library.board_close, self._board)
         self._mask = self._levels = 0
+        self._stuck = self._stuck_levels = 0
 
     @property
     def now_ps(self):
@@ -125,7 +129,25 @@ class CompiledTop:
         """Drive header pins from outside; None lets go of them."""
         self._mask = self._mask & ~pins if level is None else self._mask | pins
         self._levels = self._levels | pins if level else self._levels & ~pins
-        self._library.board_drive(self._board, self._mask, self._levels)
+        self._drive()
+
+    def stick(self, pins, level):
+        """Hold header pins at a level, whatever else drives them; None lets go, and is what a broken wire leaves: the pull."""
+        self._stuck |= pins
+        if level is None:
+            self._stuck_levels = self._stuck_levels & ~pins | (pulled_up() | UART) & pins
+        else:
+            self._stuck_levels = self._stuck_levels | pins if level else self._stuck_levels & ~pins
+        self._drive()
+
+    def mend(self):
+        """Nothing is stuck any more."""
+        self._stuck = self._stuck_levels = 0
+        self._drive()
+
+    def _drive(self):
+        levels = self._levels & ~self._stuck | self._stuck_levels
+        self._library.board_drive(self._board, self._mask | self._stuck, levels)
 
     def oscillate(self, runs):
         """Stop the oscillator, or let it run again."""
@@ -133,7 +155,8 @@ class CompiledTop:
 
     def high(self, pins):
         """Whether all of these header pins are high."""
-        return self._library.board_levels(self._board) & pins == pins
+        levels = self._library.board_levels(self._board)
+        return (levels & ~self._stuck | self._stuck_levels) & pins == pins
 
     @property
     def levels(self):
@@ -152,12 +175,18 @@ class CompiledTop:
 
     def exchange(self, pins, sent, sck_hz, lead_ps=200_000, lag_ps=100_000):
         """One chip-select assertion at pins SCK, CS, MOSI, MISO; what came back."""
-        wires_of_spi = (ctypes.c_uint64 * 4)(*pins)
         self._mask |= pins[0] | pins[1] | pins[2]
         self._levels = self._levels & ~(pins[0] | pins[2]) | pins[1]
+        # what the controller does with a wire that is stuck ends nowhere
+        pins = [spare if pin & self._stuck else pin for pin, spare in zip(pins, SPARE, strict=True)]
+        if self._stuck:
+            self._drive()
+        wires_of_spi = (ctypes.c_uint64 * 4)(*pins)
         received = ctypes.create_string_buffer(len(sent))
         period_ps = round(PS / sck_hz)
         self._library.board_exchange(self._board, wires_of_spi, lead_ps, period_ps, lag_ps, len(sent), bytes(sent), received)
+        if pins[3] in SPARE:
+            return (b"\xff" if self._stuck_levels & self._stuck & MISO else b"\0") * len(sent)
         return received.raw
 
     def take(self):

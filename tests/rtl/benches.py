@@ -43,6 +43,7 @@ BENCHES = {  # by module
     "spi_peripheral": {},
     "uart_peripheral": {"CLOCK_HZ": 25_000_000, "BAUD": 3_000_000},  # 8 1/3 clocks a bit: the fewest allowed are 8
     "status_encoder": {},
+    "indicator_pins": {},
     "frame_decoder": {},
     "register_file": BUILT_IN,
     "waveform_buffer": {"SLOTS": 2, "BUFFER_BITS": 2},

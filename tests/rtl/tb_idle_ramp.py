@@ -9,14 +9,14 @@ from controller.gateware_model.pins import ramp_bits, turned_ramp_bits
 
 
 async def bits_while(dut, signal, bit_ticks, most=10_000):
-    """Raise up_i or down_i until the glide is done; its bits, one clock late, sampled in the middle of each."""
+    """Raise up_i or down_i until the glide is done; its bits, two clocks late, sampled in the middle of each."""
     signal.value = 1
     bits, done = [], False
     for tick in range(most):
         await clocks(dut)
-        if tick % bit_ticks == 0:
+        if tick % bit_ticks == 1:
             bits.append(bool(dut.bit_o.value))
-        assert int(dut.bit_o.value) == bits[-1], "changed within a drive word"
+        assert not bits or int(dut.bit_o.value) == bits[-1], "changed within a drive word"
         if dut.done_o.value:
             done = True
             await clocks(dut)
@@ -27,7 +27,8 @@ async def bits_while(dut, signal, bit_ticks, most=10_000):
 
 @cocotb.test(timeout_time=2, timeout_unit="ms")
 async def glides_up_and_down_as_the_model_does(dut):
-    for samples, bit_ticks in ((1, 4), (2, 5), (9, 4), (500, 4), (97, 7)):
+    few = [(samples, random.choice([4, 4, 5, 6])) for samples in range(1, 24)]
+    for samples, bit_ticks in (*few, (500, 4), (97, 7)):
         await after_reset(dut, samples_i=samples, bit_ticks_i=bit_ticks)
         assert await bits_while(dut, dut.up_i, bit_ticks) == (ramp_bits(samples, up=True).tolist(), True)
         dut.stay_i.value = 1

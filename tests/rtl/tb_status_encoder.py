@@ -22,6 +22,7 @@ NAMES = (
     "chunks_i",
     "ignored_i",
 )
+REPLIES = ("result_i", "sequence_i", "data_i")  # taken a clock later
 BITS = (8, 8, 16, 16, 32, 32, 64, 32, 8, 8, 16)
 
 
@@ -34,9 +35,18 @@ def packed(values):
 
 
 async def snapshot(dut, values):
-    await pulse(dut, dut.select_i, **dict(zip(NAMES, values, strict=True)))
-    for name in NAMES:
+    given = dict(zip(NAMES, values, strict=True))
+    replies = [given.pop(name) for name in REPLIES]
+    await pulse(dut, dut.select_i, **given, **{name: random.getrandbits(8) for name in REPLIES})
+    for name in given:
         getattr(dut, name).value = 0  # what changes afterwards is of no account
+    for name, value in zip(REPLIES, replies, strict=True):
+        getattr(dut, name).value = value
+    if int(dut.byte_o.value) == 0x5A and random.random() < 0.5:
+        return  # taken in the very next clock
+    await clocks(dut, 1)
+    for name in REPLIES:
+        getattr(dut, name).value = 0
 
 
 async def exchange(dut, count, mosi=b""):

@@ -110,7 +110,7 @@ class Bench:
     def __init__(self, dut):
         self.dut = dut
         self.settings = {"argument": 0, "word0": 0, "word1": 0, "load_words": 0, "load_busy": 0, "load_live": 0, "live": 0}
-        self.settings |= {"play": 0, "play_buffer": 0, "play_word": 0, "play_chunk": 0, "play_within": 0}
+        self.settings |= {"play": 0, "play_buffer": 0, "play_word": 0, "play_chunk": 0, "play_within": 0, "play_polarity": 0}
         self.begin()
 
     def begin(self):

