@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 import panel
-from cocotb_tools.runner import get_runner
+from cocotb_tools.runner import get_results, get_runner
 
 from controller.fpga.frames import FRAME_BYTES
 
@@ -98,7 +98,7 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         build_args=VERILATOR_ARGUMENTS + ["-Wno-fatal"] * bool(packages) if verilator else ["-g2005"],
         log_file=folder / "build.log",
     )
-    runner.test(
+    results = runner.test(
         hdl_toplevel=module,
         test_module=f"tb_{module}",
         build_dir=folder,
@@ -107,6 +107,8 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
         **which,
     )
+    if get_results(results)[1]:  # the runner itself looks only where pytest has started it
+        sys.exit(1)
 
 
 OTHER_RATES = [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)]

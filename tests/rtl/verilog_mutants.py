@@ -171,6 +171,8 @@ class Finder:
         self.add_at(operator, node.sourceRange.start.offset, node.sourceRange.end.offset, text, form)
 
     def add_at(self, operator, start, end, text, form):
+        if self.source[start:end].strip() == text:
+            return
         first = self.source.rfind("\n", 0, start) + 1
         last = self.source.find("\n", start)
         line, before = self.source.count("\n", 0, start) + 1, self.source[first:last].strip()
@@ -235,9 +237,7 @@ class Finder:
                 self.add("index", node, f"({index}) ^ 1'b1")
         elif kind == "ExpressionStatement" and any(name == "AlwaysBlock" for name, _ in above):
             self._assignment(node, above)
-        elif kind == "StandardCaseItem" and self._in_clocked(above):
-            self.add("arm", node.clause, ";", "leave")
-        elif kind == "DefaultCaseItem" and self._in_clocked(above):
+        elif kind in {"StandardCaseItem", "DefaultCaseItem"} and self._in_clocked(above):
             self.add("arm", node.clause, ";", "leave")
         elif kind == "NamedPortConnection":
             port, given = node.name.valueText, node.expr
