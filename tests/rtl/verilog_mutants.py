@@ -187,7 +187,7 @@ class Finder:
         if not hasattr(node, "sourceRange") or hasattr(node, "valueText"):
             return
         kind = str(node.kind).removeprefix("SyntaxKind.")
-        if kind in CONSTANT_PLACES:
+        if kind in CONSTANT_PLACES or (kind == "FunctionDeclaration" and self._makes_constants(node)):
             return
         self._mutate(kind, node, above)
         children = [child for child in node if child is not None]
@@ -205,6 +205,11 @@ class Finder:
             children = [node.left]
         for child in children:
             self._visit(child, [*above, (kind, node)])
+
+    def _makes_constants(self, function):
+        """A function that a constant is made with is one itself."""
+        name = re.search(r"(\w+)\s*[(;]", self.text(function))
+        return name is not None and re.search(rf"\b(localparam|parameter)\b[^;]*\b{name[1]}\s*\(", self.source) is not None
 
     def _mutate(self, kind, node, above):
         if kind == "ConditionalPredicate":
