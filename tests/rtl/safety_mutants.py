@@ -35,7 +35,7 @@ MUTANTS = {
     "every CRC is right": Change(
         "frame_decoder", "accept_q <= sync_good_q && whole && crc == `CRC_RESIDUE;", "accept_q <= sync_good_q && whole;"
     ),
-    "every key opens": Change("register_file", "command && unlock_q && key_good_q;", "command && unlock_q;"),
+    "every key opens": Change("register_file", "write_i && unlock_q && key_good_q;", "write_i && unlock_q;"),
     "every slot is intact": Change("waveform_buffer", "if (crc == expected_q) intact_q", "intact_q"),
     "a buffer in use is loaded": Change("waveform_buffer", "= chunk_good_q && !load_busy_i &&", "= chunk_good_q &&"),
     "pulses are not watched": Change("safety_island", ".pulse_ticks_i(pulse_ticks_q)", ".pulse_ticks_i(16'd0)"),
