@@ -64,8 +64,86 @@ PROOFS = {
             "any other code for a state": Bug("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
             "outputs that wait for the clock": Bug("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
             "channels with the supply": Bug("open && moves_later_q[2] &&", "open &&", "supply_has_settled"),
-            "one clock of settling": Bug("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", "supply_has_settled|moves_once_settled"),
+            "one clock of settling": Bug("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", "moves_once_settled"),
+            "a settling that begins late": Bug(
+                "settling ? settle_left_q - 1'b1", "settling ? settle_left_q", "settling_is_counted"
+            ),
             "a fault by a limit that is cleared": Bug("{`FAULT_CAUSES{resting_q}}", "{`FAULT_CAUSES{1'b0}}", "rest_is_kept"),
+            "a rest of a clock less": Bug("rest_left_q != 32'd1", "rest_left_q != 32'd2", "rest_is_counted|rest_has_its_time"),
+            "a channel without a stage": Bug("drive_i & channel_mask_i", "drive_i", "mask_is_kept"),
+            "a level that nobody plays": Bug("drive_i & channel_mask_i", "channel_mask_i", "only_what_is_played"),
+            "an underrun that goes on": Bug("live && underrun_i;\n    assign", "1'b0;\n    assign", "underrun_is_off"),
+            "a fault that heals": Bug(": fault_q) | cause", ": {`FAULT_CAUSES{1'b0}}) | cause", "only_a_command_clears"),
+            "a fault that is not kept": Bug(": fault_q) | cause", ": fault_q)", "a_fault_is_counted|.*_(is|are)_kept"),
+            "a fault that counts twice": Bug("fault_count_q + 32'd1", "fault_count_q + 32'd2", "a_fault_is_counted"),
+            "a host that is never silent": Bug("silence_q[31:1] == 31'd0;", "1'b0;", "silent_in_time"),
+            "2^32 ticks for a heartbeat of none": Bug(
+                "silence_q[31:1] == 31'd0;", "silence_q == 32'd1;", "silence_is_counted|on_while_fed"
+            ),
+            "a ramp up that goes on disarmed": Bug("if (disarm_i) state_q <= RAMP_DOWN; else", "", "disarm_is_obeyed"),
+            "a ramp down that ends armed": Bug(
+                "RAMP_DOWN: if (ramp_done_i) state_q <= OFF", "RAMP_DOWN: if (ramp_done_i) state_q <= ON", "disarmed_for_good"
+            ),
+            "signs of life of a closed gate": Bug(
+                "hv_alive_q  <= open && !rst_i && (", "hv_alive_q  <= (", "no_sign_of_life_alone"
+            ),
+        },
+    ),
+    "crc32": Proof(
+        "crc32.v",
+        {
+            "another polynomial": Bug("32'hEDB88320", "32'hEDB88321", "divides"),
+            "a register that begins at zero": Bug("32'hFFFFFFFF", "32'd0", "divides"),
+            "a byte of seven bits": Bug("bit_number < 8", "bit_number < 7", "divides"),
+        },
+    ),
+    "play_queue": Proof(
+        "play_queue.v",
+        {
+            "a word into a full queue": Bug("write_i && !full_q", "write_i", "word_is_its|memory_is_its"),
+            "a full queue of nine": Bug("full_q <= count_q == 4'd8", "full_q <= count_q == 4'd9", "never_overflows|full_in_time"),
+            "a head that is fetched one word early": Bug(
+                "index_q <= 3'd0;\n        end", "index_q <= 3'd1;\n        end", "fetches_in_order"
+            ),
+            "a head that stays when it was taken": Bug("head_q          <= head_q + 3'd1;", "", "in_order|counts_all|tail_follows"),
+            "the buffer of the play before": Bug(
+                "buffer_q[tail_q] <= buffer_i", "buffer_q[head_q] <= buffer_i", "buffer_is_its|memory_is_its"
+            ),
+            "plays that are shown when they are dropped": Bug(
+                "if (drop_i || rst_i) begin\n            valid_q   <= 1'b0;", "if (drop_i || rst_i) begin\n", "shows_what_is"
+            ),
+        },
+    ),
+    "frame_decoder": Proof(
+        "frame_decoder.v",
+        {
+            "any CRC": Bug(
+                "accept_q <= sync_good_q && whole && crc == `CRC_RESIDUE",
+                "accept_q <= sync_good_q && whole",
+                "accepts_only_good_frames",
+            ),
+            "any second byte of the sync word": Bug(
+                "sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC", "sync_good_q", "sync_is_whole"
+            ),
+            "bits left over": Bug("length_good && !partial_i &&", "length_good &&", "accepts_only_good_frames"),
+            "a byte more": Bug("{1'b0, length_q} + 17'd12", "{1'b0, length_q} + 17'd13", "accepts_(only|all)_good_frames"),
+            "a count that wraps": Bug("if (count_q != 10'h3FF) count_q", "count_q", "counts_bytes"),
+            "half a word of a LOAD": Bug(" && length_q[1:0] == 2'b00", "", "accepts_only_good_frames"),
+            "words beyond the payload": Bug("word_number_q < {1'b0, length_q[8:2]}", "1'b1", "words_in_order"),
+            "words of another byte order": Bug("{byte_i, recent_q[31:8]}", "{recent_q[23:0], byte_i}", "recent_bytes_are_its"),
+            "chunks there are none of": Bug(" && argument_q < {12'd0, `CHUNKS}", "", "only_loads_are_kept"),
+        },
+    ),
+    "frame_relay": Proof(
+        "frame_relay.v",
+        {
+            "a frame that is done twice": Bug("else if (last) full_q <= 1'b0;", "", "only_what_is_owed"),
+            "a turn that goes on into a frame of the SPI": Bug("= turn_q && !busy_i", "= turn_q", "only_in_a_pause"),
+            "a beginning while the SPI is busy": Bug("!turn_q && !busy_i", "!turn_q", "only_in_a_pause"),
+            "a frame that overwrites the one that waits": Bug("select_i && !full_q", "select_i", "rests_meanwhile"),
+            "accepted before play_check is done": Bug("+ 8'd39", "+ 8'd30", "accepts_when_checked|counts_its_clocks"),
+            "a word too few": Bug("step_q <= {1'b0, payload_words_i}", "step_q < {1'b0, payload_words_i}", "words_in_order"),
+            "no word for a frame that is cut": Bug("release_i && !open_q", "1'b0", "refuses_or_takes"),
         },
     ),
 }
