@@ -56,11 +56,12 @@ module waveform_buffer #(
     output wire                   missing_o,      // that word of the landing buffer has not arrived
     output wire [31:0]            play_data_o
 );
+    localparam [SLOTS-1:0] FIRST = 1;           // slot 0, a bit for each
     localparam SLOT_BITS = SLOTS > 1 ? $clog2(SLOTS) : 1;
 
     // Of each slot and chunk, in memories without a reset: what they hold counts where the bit beside them is set
     reg [BUFFER_BITS+9:0] slots [0:SLOTS-1];    // buffer, words
-    reg [31:0]            slot_crcs [0:SLOTS-1];
+    reg [31:0]            slot_crcs [0:SLOTS-1];    // inverted, as the register of a CRC holds it
     reg [SLOTS-1:0]       stored_q, intact_q;
     reg [BUFFER_BITS-1:0] landing_q;
     reg [6:0]             chunk_words [0:7];
@@ -68,6 +69,7 @@ module waveform_buffer #(
 
     reg                   check_q;
     reg [SLOT_BITS-1:0]   check_slot_q;
+    reg [SLOTS-1:0]       checked_slot_q;       // the same, a bit for each
     reg [BUFFER_BITS-1:0] check_buffer_q;
     reg [9:0]             check_word_q, check_words_q;
     reg [31:0]            expected_q;
@@ -79,37 +81,45 @@ module waveform_buffer #(
     reg [2:0]             settled_q;            // clocks for which the address of a READ of memory has had its way, up to 4
 
     wire       read_memory = argument_i[15];
-    wire [4:0] number      = read_memory ? argument_i[14:10] : argument_i[4:0];
-    wire       slot_good   = (read_memory || argument_i[7:5] == 3'd0) && number < SLOTS[4:0];
-    wire       store_slot  = slot_good && argument_i[15:8] == 8'd0;
-
     // What the argument names rests long before its frame ends: found out a clock early, and whether it is a word of that slot two
     reg [SLOT_BITS-1:0]    slot;
-    reg                    slot_good_q, store_slot_q, within_q;
+    reg [SLOTS-1:0]        slot_q;              // the same, a bit for each
+    reg                    slot_good_q, store_slot_q, within_q, chunk_good_q, length_good_q;
     reg [BUFFER_BITS-1:0]  slot_buffer;
     reg [9:0]              slot_words;
-    wire [SLOT_BITS-1:0]   named       = slot_good ? number[SLOT_BITS-1:0] : {SLOT_BITS{1'b0}};
-    always @(posedge clk_i) begin
+    always @(posedge clk_i) begin : names
+        reg [4:0]           number;
+        reg                 slot_good;
+        reg [SLOT_BITS-1:0] named;
         if (judge_i || read_memory) begin
-            slot         <= named;
-            slot_good_q  <= slot_good;
-            store_slot_q <= store_slot;
+            number        = read_memory ? argument_i[14:10] : argument_i[4:0];
+            slot_good     = (read_memory || argument_i[7:5] == 3'd0) && number < SLOTS[4:0];
+            named         = slot_good ? number[SLOT_BITS-1:0] : {SLOT_BITS{1'b0}};
+            slot          <= named;
+            slot_q        <= FIRST << named;
+            slot_good_q   <= slot_good;
+            store_slot_q  <= slot_good && argument_i[15:8] == 8'd0;
             {slot_buffer, slot_words} <= stored_q[named] ? slots[named] : {{BUFFER_BITS-SLOT_BITS{1'b0}}, named, 10'd0};
-            within_q     <= argument_i[9:0] < slot_words;
+            within_q      <= argument_i[9:0] < slot_words;
+            chunk_good_q  <= argument_i[15:3] == 13'd0;       // CHUNKS is 8
+            length_good_q <= word0_i[31:10] == 22'd0 && word0_i[9:0] != 10'd0 && {1'b0, word0_i[9:0]} <= `WAVEFORM_WORDS;
         end
         if (rst_i) begin
-            slot         <= {SLOT_BITS{1'b0}};
-            slot_good_q  <= 1'b0;
-            store_slot_q <= 1'b0;
-            slot_buffer  <= {BUFFER_BITS{1'b0}};
-            slot_words   <= 10'd0;
-            within_q     <= 1'b0;
+            slot          <= {SLOT_BITS{1'b0}};
+            slot_q        <= FIRST;
+            slot_good_q   <= 1'b0;
+            store_slot_q  <= 1'b0;
+            slot_buffer   <= {BUFFER_BITS{1'b0}};
+            slot_words    <= 10'd0;
+            within_q      <= 1'b0;
+            chunk_good_q  <= 1'b0;
+            length_good_q <= 1'b0;
         end
     end
     wire [2:0]             chunk       = argument_i[2:0];
     wire                   count_good  = load_live_i ? !chunks_q[chunk] : !load_busy_i;
     wire                   write       = write_i && !load_busy_i && count_good;
-    wire [9:0]  write_word = {chunk, 7'd0} - {6'd0, chunk, 1'b0} - {7'd0, chunk} + {3'd0, write_word_i};
+    wire [9:0]             write_word  = {chunk, 7'd0} - {6'd0, chunk, 1'b0} - {7'd0, chunk} + {3'd0, write_word_i};
 
     wire                   reading     = check_q && check_word_q != check_words_q;
     wire                   check_reads = (reading && !check_word_q[0]) || owed_q;
@@ -183,14 +193,12 @@ module waveform_buffer #(
     end
 
     // Book-keeping
-    reg  chunk_good, length_good, load_good, store_good, checking;
+    reg  load_good, store_good, checking;
     always @* begin
-        {chunk_good, length_good, load_good, store_good, checking} = 5'd0;
+        {load_good, store_good, checking} = 3'd0;
         if (judge_i) begin
-            chunk_good  = argument_i < {12'd0, `CHUNKS};
-            length_good = word0_i != 32'd0 && word0_i <= {21'd0, `WAVEFORM_WORDS};
-            load_good   = chunk_good && !load_busy_i && count_good;
-            store_good  = store_slot_q && length_good && !check_q && !live_i && complete_q;
+            load_good   = chunk_good_q && !load_busy_i && count_good;
+            store_good  = store_slot_q && length_good_q && !check_q && !live_i && complete_q;
             checking    = check_q && check_slot_q == slot;
         end
     end
@@ -209,7 +217,7 @@ module waveform_buffer #(
 
     always @(posedge clk_i) begin
         if (store_i && store_good) slots[slot] <= {landing_q, word0_i[9:0]};
-        if (checked)               slot_crcs[check_slot_q] <= crc;
+        if (checked)               slot_crcs[check_slot_q] <= ~crc;
         if (load_i && load_good)   chunk_words[chunk] <= load_words_i;
     end
 
@@ -218,20 +226,21 @@ module waveform_buffer #(
         if (reading_q[2]) odd_now_q <= !odd_now_q;
         if (reading) check_word_q <= check_word_q + 10'd1;
         if (checked) begin
-            check_q                <= 1'b0;
-            intact_q[check_slot_q] <= crc == expected_q;
+            check_q <= 1'b0;
+            if (crc == expected_q) intact_q <= intact_q | checked_slot_q;
         end
 
         if (write)               chunks_q[chunk] <= 1'b0;
         if (load_i && load_good) chunks_q[chunk] <= load_words_i != 7'd0;
         if (store_i && store_good) begin
-            stored_q[slot] <= 1'b1;
-            intact_q[slot] <= 1'b0;
+            stored_q       <= stored_q | slot_q;
+            intact_q       <= intact_q & ~slot_q;
             landing_q      <= slot_buffer;
             chunks_q       <= 8'd0;
             check_q        <= 1'b1;
             odd_now_q      <= 1'b0;
             check_slot_q   <= slot;
+            checked_slot_q <= slot_q;
             check_buffer_q <= landing_q;
             check_word_q   <= 10'd0;
             check_words_q  <= word0_i[9:0];
@@ -249,6 +258,7 @@ module waveform_buffer #(
             intact_q       <= {SLOTS{1'b0}};
             check_q        <= 1'b0;
             check_slot_q   <= {SLOT_BITS{1'b0}};
+            checked_slot_q <= {SLOTS{1'b0}};
             check_buffer_q <= {BUFFER_BITS{1'b0}};
             check_word_q   <= 10'd0;
             check_words_q  <= 10'd0;
@@ -266,8 +276,8 @@ module waveform_buffer #(
         memory_result = `RESULT_OK;
         crc_result    = `RESULT_OK;
         if (judge_i) begin
-            load_result   = !chunk_good ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
-            store_result  = !store_slot_q ? `RESULT_BAD_SLOT : !length_good ? `RESULT_BAD_VALUE
+            load_result   = !chunk_good_q ? `RESULT_BAD_CHUNK : !load_good ? `RESULT_BUSY : `RESULT_OK;
+            store_result  = !store_slot_q ? `RESULT_BAD_SLOT : !length_good_q ? `RESULT_BAD_VALUE
                           : check_q || live_i ? `RESULT_BUSY : !complete_q ? `RESULT_INCOMPLETE : `RESULT_OK;
             memory_result = !slot_good_q ? `RESULT_BAD_SLOT : !within_q ? `RESULT_BAD_RANGE
                           : settled_q != 3'd4 ? `RESULT_BUSY : `RESULT_OK;
@@ -282,11 +292,11 @@ module waveform_buffer #(
     assign memory_data_o   = data;
     assign crc_result_o    = crc_result;
     assign chunks_o        = chunks_q;
-    assign crc_data_o      = slot_crcs[slot];
+    assign crc_data_o      = ~slot_crcs[slot];
     assign slot_good_o     = store_slot_q;
     assign slot_buffer_o   = slot_buffer;
     assign slot_words_o    = slot_words;
-    assign slot_intact_o   = intact_q[slot];
+    assign slot_intact_o   = |(intact_q & slot_q);
     assign slot_checking_o = checking;
     assign checking_o      = check_q;
     assign landing_o       = landing_q;

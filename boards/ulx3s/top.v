@@ -62,6 +62,7 @@ module top #(
 
     wire [31:0] channel;
     wire        configured = released_q[15];        // falls with the lock, without a clock
+    wire        spi_sck, spi_cs_n, spi_mosi, trigger, run_permit, temperature_ok;
     wire        spi_miso, hv_enable, hv_alive, focus, waiting, fault;
 
     haptic_core #(
@@ -82,16 +83,17 @@ module top #(
         .BOARD("ULX3"), .BAUD(1_000_000), .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH)
     ) core (
         .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
-        .spi_sck_i(gp[8]), .spi_cs_n_i(gn[8]), .spi_mosi_i(gp[9]), .spi_miso_o(spi_miso),
+        .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),
         .uart_rx_i(ftdi_txd), .uart_tx_o(ftdi_rxd),
-        .trigger_i(gp[10]), .run_permit_i(gp[26]), .temperature_ok_i(gn[26]),
+        .trigger_i(trigger), .run_permit_i(run_permit), .temperature_ok_i(temperature_ok),
         .channel_o(channel), .hv_enable_o(hv_enable), .hv_alive_o(hv_alive), .focus_o(focus),
         .waiting_o(waiting), .fault_o(fault)
     );
 
     // J1: channels 0 to 15 on GP0, GN0 ... GP7, GN7; link on the six pins after them. GP/GN 11 to 13 belong to the ESP32.
     // J2: channels 16 to 31 on GP18, GN18 ... GP25, GN25; safety on the four pins after them. GP/GN 14 to 17 are also ADC inputs.
-    // Each by an output buffer: assigned to a pin of an inout bus, what the core reads of its outputs came back from the pad.
+    // Each by a buffer, the unused too. Assigned to a pin of an inout bus, what the core reads of its outputs came back from the pad;
+    // read from one of which other pins are driven, an input is a constant 0 for Yosys, and nextpnr drives its pin low.
     genvar pair;
     generate
         for (pair = 0; pair < 8; pair = pair + 1) begin : channels
@@ -102,6 +104,24 @@ module top #(
         end
     endgenerate
 
+    IB spi_sck_pad        (.I(gp[8]),  .O(spi_sck));
+    IB spi_cs_n_pad       (.I(gn[8]),  .O(spi_cs_n));
+    IB spi_mosi_pad       (.I(gp[9]),  .O(spi_mosi));
+    IB trigger_pad        (.I(gp[10]), .O(trigger));
+    IB run_permit_pad     (.I(gp[26]), .O(run_permit));
+    IB temperature_ok_pad (.I(gn[26]), .O(temperature_ok));
+
+    wire [15:11] unused_gp;
+    wire [16:11] unused_gn;
+    genvar pin;
+    generate
+        for (pin = 11; pin <= 15; pin = pin + 1) begin : unused
+            (* keep *) IB left_gp (.I(gp[pin]), .O(unused_gp[pin]));
+            (* keep *) IB left_gn (.I(gn[pin]), .O(unused_gn[pin]));
+        end
+    endgenerate
+    (* keep *) IB left_gn16 (.I(gn[16]), .O(unused_gn[16]));
+
     OB spi_miso_pad   (.I(spi_miso),   .O(gn[9]));
     OB configured_pad (.I(configured), .O(gn[10]));
     OB hv_enable_pad  (.I(hv_enable),  .O(gp[27]));
@@ -111,7 +131,7 @@ module top #(
     OB waiting_pad    (.I(waiting),    .O(gp[16]));
 
     assign wifi_gpio0 = 1'b1;                       // low would take the board back to its loader
-    assign led = {fault, hv_enable, hv_alive, focus, waiting, gn[26], gp[26], configured};
+    assign led = {fault, hv_enable, hv_alive, focus, waiting, temperature_ok, run_permit, configured};
 endmodule
 
 `default_nettype wire

@@ -151,7 +151,7 @@ def refuse_coarse(board: Board, pitch_m: float) -> None:
     half_m = bending_wavelength_m(board.plate, board.waveform.band_high_hz) / 2
     if pitch_m > half_m and not board.bank.coarse:
         raise ConfigError(
-            f"board {board.name!r}: pitch_mm = {pitch_m * 1e3:g} is above {half_m * 1e3:.3g} mm, half a wavelength of the plate at"
-            f" waveform.band_high_hz = {board.waveform.band_high_hz:g}: fingers between cells would lose part of"
+            f"board {board.name!r}: pitch_mm = {pitch_m * 1e3:g} is above {math.floor(half_m * 1e5) / 100:g} mm, half a wavelength"
+            f" of the plate at waveform.band_high_hz = {board.waveform.band_high_hz:g}: fingers between cells would lose part of"
             " their amplitude or all of it; choose a smaller pitch (bank.coarse = true builds it all the same)"
         )

@@ -45,6 +45,11 @@ def find_board(name_or_path: str) -> Path:
     raise ConfigError(f"board {name_or_path!r} not found; there are: {', '.join(known) or 'none'} (or a folder with a board.toml)")
 
 
+def own_board() -> str:
+    """Name of the board of this device: `panel`, which its service runs, else the simulated one."""
+    return "panel" if any((place / "panel/board.toml").is_file() for place in _system_places()) else "simulated"
+
+
 def in_system_folder(folder: Path) -> bool:
     """Whether a board's folder is in /etc or in the running release, where the service looks for its board."""
     return folder.parent.resolve() in [place.resolve() for place in _system_places()]

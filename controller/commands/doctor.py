@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from controller.board.board import load_board
-from controller.board.lookup import find_board
+from controller.board.lookup import find_board, own_board
 from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands.output import progress_bar, show
 from controller.errors import ControllerError
@@ -30,17 +30,18 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         parents=[common],
         description="Check every device, file and permission that the board needs, and releases and updates of this device. With "
         "--link, also send random bits to the FPGA at several speeds, propose one, fill its memory and chirp on each channel: "
-        "outputs are on meanwhile, if the permits are given. End the service first. Exit code 1 if anything is wrong.",
+        "outputs are on meanwhile, if the permits are given. End the service first. Without --board: `panel`, which the service "
+        "runs, if this device has it. Exit code 1 if anything is wrong.",
     )
     doctor.add_argument("--link", action="store_true", help="examine the link to the FPGA and what is behind it")
     doctor.add_argument("--bits", type=float, default=BITS, metavar="N", help="random bits to send at least (default: 1e6)")
     doctor.add_argument("--no-chirps", action="store_true", help="leave the outputs off")
-    doctor.set_defaults(command=examine)
+    doctor.set_defaults(command=examine, board=None)
 
 
 def examine(options: argparse.Namespace) -> int:
     """Check the panel, with --link also the link to its FPGA; returns 1 if anything is wrong."""
-    board = load_board(find_board(options.board))
+    board = load_board(find_board(options.board or own_board()))
     real = MonotonicClock()
     findings = look(board, real.now_s) + look_at_updates(Layout.from_environment())
     figures: dict[str, Any] = {}

@@ -176,13 +176,16 @@ def export_stick(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, repository: Repository, published: bool) -> int:
     """Say what is published, or what the draft lacks."""
-    lacking = "" if published else repository.lacking() or "signed by all: take it back to the repository, with sign --from"
+    lacking = "" if published else repository.lacking()
+    state = "published" if published else "a draft"
+    if lacking:
+        state += f": {lacking}: haptic-panel update repository sign"
+    elif not published:
+        state += ", signed by all: take it back to the repository: haptic-panel update repository sign REPOSITORY --from FOLDER"
     show(
         options,
         {"repository": str(options.repository), "published": published, "lacking": lacking},
-        lambda said: (
-            f"{said['repository']}: {'published' if published else f'a draft: {lacking}: haptic-panel update repository sign'}"
-        ),
+        lambda said: f"{said['repository']}: {state}",
     )
     return 0
 

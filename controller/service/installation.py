@@ -12,6 +12,8 @@ import shlex
 import sys
 from urllib.parse import unquote, urlsplit
 
+from controller.board.lookup import running_release
+
 DISTRIBUTION = "haptic-panel"
 OFFLINE = frozenset(
     {"scipy", "matplotlib", "mpl_toolkits", "PIL", "tqdm", "threadpoolctl", "dask", "distributed"}
@@ -34,6 +36,8 @@ def install_line(extra: str = "") -> str:
 def missing_package(name: str | None) -> str | None:
     """Message for a package that cannot be imported: how to install it; None for one that this package does not use."""
     package = (name or "").partition(".")[0]
+    if package in OFFLINE and running_release():
+        return f"{package} is missing, one of the offline tools, which no release has: use a checkout, set_up.sh offline"
     if package in OFFLINE:
         return f"{package} is missing, one of the offline tools that this needs: {install_line('offline')}"
     if package in MEASURE:

@@ -43,12 +43,15 @@ class Design(NamedTuple):
         C++ file with the exported functions.
     options : tuple of str
         Further options of Verilator.
+    optimise : str
+        Of the C++ compiler.
     """
 
     top: str
     sources: tuple[Path, ...]
     wrapper: Path
     options: tuple[str, ...] = ()
+    optimise: str = "-O2"
 
 
 def core_design() -> Design:
@@ -121,7 +124,14 @@ def _key(design: Design, parameters: dict[str, int]) -> str:
     """Hash of everything that the library is built from."""
     verilog = sorted(file for file in data_folder("fpga_rtl").iterdir() if file.suffix in (".v", ".vh"))
     made_from = [file.read_bytes() for file in (*verilog, *design.sources, design.wrapper)]
-    settings = (sorted(parameters.items()), importlib.metadata.version("verilator"), VERILATE, COMPILE, design.options)
+    settings = (
+        sorted(parameters.items()),
+        importlib.metadata.version("verilator"),
+        VERILATE,
+        COMPILE,
+        design.options,
+        design.optimise,
+    )
     made_from.append(repr(settings).encode())
     return hashlib.sha256(b"\0".join(made_from)).hexdigest()[:16]
 
@@ -140,7 +150,7 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
     _include_all(runtime, [root / "include" / name for name in (*RUNTIME, *timing)])
     slow = subprocess.Popen(_object(runtime, "-O0", include), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
-        _run(_object(all_of_it, "-O2", include))
+        _run(_object(all_of_it, design.optimise, include))
     finally:
         said, _ = slow.communicate()
     if slow.returncode:

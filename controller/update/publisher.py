@@ -193,6 +193,8 @@ class Repository:
             If it is the copy of another draft, or has a signature that does not hold.
         """
         other, taken = Repository(folder), set()
+        if not other.draft.is_dir():
+            raise UpdateError(f"{other.draft}: is not there: name the folder that the copy of `draft` lies in")
         for role in self._draft_roles():
             mine, copy = _read(self.draft / f"{role}.json"), other.drafted(role)
             if copy is None or copy.signed_bytes != mine.signed_bytes:

@@ -87,9 +87,15 @@ class FolderSource(Source):
 
     def look(self) -> None:
         """Check that the folder is there, and is a repository."""
-        if not self._folder.is_dir():
+        try:
+            is_there, is_repository = self._folder.is_dir(), (self._folder / "metadata").is_dir()
+        except OSError as error:
+            raise UpdateError(
+                f"{self._folder}: cannot be read ({error.strerror}): the user haptic-update must be able to"
+            ) from None
+        if not is_there:
             raise UpdateError(f"{self._folder}: there is no such folder: is the stick plugged in and mounted?")
-        if not (self._folder / "metadata").is_dir():
+        if not is_repository:
             raise UpdateError(f"{self._folder}: is no repository of releases, which has a folder `metadata`")
 
     def open(self, url: str, start: int = 0, length: int | None = None) -> Iterator[bytes]:
@@ -126,7 +132,7 @@ class FolderSource(Source):
         return os.fdopen(fd, "rb")
 
     def _trouble(self, name: str, error: Exception) -> DownloadError:
-        if not (self._folder / "metadata").is_dir():
+        if not os.path.isdir(self._folder / "metadata"):  # noqa: PTH112 - Path.is_dir() fails where it may not look
             return DownloadError(f"{self._folder}: is gone: was the stick pulled? Plug it in and repeat; what came is kept")
         if isinstance(error, OSError) and error.errno not in {errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EISDIR}:
             return DownloadError(f"{self._folder / name}: cannot be read ({error.strerror}): is the stick whole, and still there?")

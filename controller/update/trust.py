@@ -211,7 +211,11 @@ def refusal(error: Exception, where: str, now: datetime | None = None) -> Update
             text = f"{where}: contradicts itself ({said}): refused"
         case OSError():
             full = error.errno in {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
-            advice = "make room on the disk" if full else "see to it that the user haptic-update may write there"
+            advice = "see to it that the user haptic-update may write there"
+            if full:
+                advice = "make room on the disk"
+            elif error.errno == errno.EACCES:
+                advice = f"run this as root; {advice}"
             text = f"{error.filename or where}: cannot be read or written ({error.strerror or said}): {advice}"
         case _:
             text = f"{where}: {said}"

@@ -40,6 +40,9 @@ endmodule
 module OB (input wire I, output wire O);
     assign O = I;
 endmodule
+module IB (input wire I, output wire O);
+    assign O = I;
+endmodule
 module SB_PLL40_CORE #(
     parameter FEEDBACK_PATH = "", parameter [3:0] DIVR = 0, parameter [6:0] DIVF = 0, parameter [2:0] DIVQ = 0,
     parameter [2:0] FILTER_RANGE = 0
@@ -150,10 +153,11 @@ def test_what_must_be_driven_to_run_is_pulled_down():
     top = (BOARDS / "ulx3s" / "top.v").read_text()
     pins = (BOARDS / "ulx3s" / "pins.lpf").read_text()
     for port in ("run_permit_i", "temperature_ok_i", "trigger_i", "spi_sck_i"):
-        pin = re.search(rf"\.{port}\((\S+?)\)[,\s]", top)[1]
+        signal = re.search(rf"\.{port}\((\S+?)\)[,\s]", top)[1]
+        pin = re.search(rf"IB {signal}_pad +\(\.I\((\S+)\),", top)[1]
         assert f'IOBUF PORT "{pin}" PULLMODE=DOWN ' in pins
     for pin in re.findall(r'IOBUF PORT "(g[pn]\[\d+\])" PULLMODE=UP', pins):
-        assert f".spi_cs_n_i({pin})" in top
+        assert f"IB spi_cs_n_pad       (.I({pin})," in top
     assert re.findall(r"-pullup yes (\S+)", (BOARDS / "ice40_hx8k" / "pins.pcf").read_text()) == ["rs232_rx", "spi_cs_n"]
 
 

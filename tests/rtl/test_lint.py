@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import safety_mutants
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
@@ -89,6 +90,10 @@ def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
 
 
+def test_the_core_without_a_uart_has_no_warning_either():
+    assert verilator(TOP, RTL / f"{TOP}.v", parameters=BUILT_IN | {"UART": 0}) == (0, "")
+
+
 LIMITS = [name for name in BUILT_IN if name not in ("CLOCK_HZ", "SLOTS", "BUILD_HASH", "BOARD")]
 
 
@@ -101,7 +106,7 @@ def test_no_module_has_a_limit_of_its_own():
             if name in LIMITS:
                 assert default == "32'd0", f"{module}: {name} = {default}"
                 found += 1
-    assert found == 3 * len(LIMITS)  # core and register file have each; island, gate and stage_limits those of them they need
+    assert found == 3 * len(LIMITS) + 5  # core and register file have each; island, gate and stage_limits those of them they need
 
 
 def test_other_defaults_are_the_simulated_boards():
@@ -172,13 +177,40 @@ def test_yosys_would_find_them(broken, statements, complaint):
     assert complaint in text
 
 
-def test_every_test_that_the_safety_table_names_exists():
-    table = (RTL / "README.md").read_text().partition("## Safety")[2].partition("## Benches")[0]
-    named, bench = [], ""
-    for bench_name, test in re.findall(r"\b(tb_\w+)\b|`(\w+)…`", table):
-        bench = bench_name or bench
-        if test:
-            named.append((bench, test))
-    assert len(named) > 25
+ROWS = safety_mutants.rows()
+WITHOUT_MUTANT = ["bitstream of another panel"]  # what the host compares, in Python
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[hazard for hazard, *_ in ROWS])
+def test_what_the_safety_table_names_exists(row):
+    hazard, _, proofs, tests, mutants = row
+    named = safety_mutants.tests_named(tests)
     for bench, test in named:
         assert f"async def {test}" in (Path(__file__).parent / f"{bench}.py").read_text(), (bench, test)
+    proof = ""
+    for name, promise in re.findall(r"(\w+): |`(\w+)`", proofs):
+        proof = name or proof
+        if promise:
+            assert re.search(rf"\b{promise}: +assert", (RTL / "formal" / f"{proof}_properties.vh").read_text()), (proof, promise)
+    assert proofs == "–" or proof
+    if hazard in WITHOUT_MUTANT:
+        assert mutants == "–"
+        assert re.search(r"tests/\w+/test_\w+\.py", tests)
+        return
+    for mutant in mutants.split("; "):
+        change = safety_mutants.MUTANTS[mutant]
+        assert (RTL / f"{change.module}.v").read_text().count(change.old) == 1, mutant
+        assert {f"tb_{change.module}", "tb_haptic_core"} & {bench for bench, _ in named}, mutant
+
+
+def test_every_mutant_of_a_protection_is_in_the_safety_table():
+    assert len(ROWS) >= 19
+    named = [mutant for *_, mutants in ROWS for mutant in mutants.split("; ") if mutant != "–"]
+    assert sorted(named) == sorted(safety_mutants.MUTANTS)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mutant", safety_mutants.MUTANTS)
+def test_a_test_of_its_row_fails_without_the_protection(simulator, tmp_path, mutant):
+    (tests,) = [tests for *_, tests, mutants in ROWS if mutant in mutants.split("; ")]
+    assert safety_mutants.failed(mutant, safety_mutants.tests_named(tests), simulator, tmp_path)

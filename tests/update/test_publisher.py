@@ -324,6 +324,22 @@ def test_a_device_follows_releases_keys_and_sticks(tmp_path, repository):
     assert check(device.layout, UpdateSettings(), str(repository.folder), now=NOW)[0].manifest == newer  # newer than the stick
 
 
+def test_whoever_signs_a_copy_last_is_told_what_comes_next(tmp_path, repository, monkeypatch, capsys):
+    monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
+    release_folder(tmp_path / "1")
+    draft(repository, tmp_path / "1")
+    stick = tmp_path / "stick"
+    for name in ("metadata", "draft"):
+        shutil.copytree(repository.folder / name, stick / name)
+    missing = tmp_path / "stik"
+    assert command("sign", repository.folder, "--from", missing) == 1
+    assert f"{missing}/draft: is not there" in capsys.readouterr().err
+    for name in ("alice", "bob", "publisher"):
+        capsys.readouterr()
+        assert command("sign", stick, "--key", tmp_path / f"keys/{name}.pem") == 0
+    assert capsys.readouterr().out.startswith(f"{stick}: a draft, signed by all: take it back to the repository: ")
+
+
 def test_one_signs_only_what_one_has_made_oneself(tmp_path, repository, monkeypatch, capsys):
     monkeypatch.setenv("HAPTIC_PANEL_PASSPHRASE", PASSPHRASE)
     release_folder(tmp_path / "theirs", files={"gateware/tiny.bit": b"something else"})

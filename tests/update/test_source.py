@@ -61,6 +61,11 @@ def test_what_is_not_there_is_told(source):
         read(source, start=255_990, length=100)
 
 
+def test_a_folder_that_cannot_be_looked_at_is_told(tmp_path):
+    with pytest.raises(UpdateError, match=r"cannot be read \(File name too long\): the user haptic-update must be able to$"):
+        FolderSource(str(tmp_path / ("x" * 300))).look()
+
+
 def test_connections_are_kept(folder, serve):
     server = serve(folder)
     connections = set()

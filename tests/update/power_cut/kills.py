@@ -7,6 +7,7 @@ system; moments are spread evenly over all of them. The whole process group is k
 """
 
 import collections
+import re
 import shutil
 import subprocess
 import sys
@@ -46,8 +47,12 @@ def again(device):
 
 
 def left(device):
-    """Paths on a device, and what its release and its state are; how often was tried what is not on trial means nothing."""
-    paths = {str(path.relative_to(device.root)) for path in device.root.rglob("*")} - {"state/tries"}
+    """Paths on a device, and what its release and its state are.
+
+    How often was tried what is not on trial means nothing; nor does a `.NAME.new`, which the next write of NAME replaces.
+    """
+    paths = {str(path.relative_to(device.root)) for path in device.root.rglob("*") if not re.fullmatch(r"\..+\.new", path.name)}
+    paths.discard("state/tries")
     states = {name: device.word(name) for name in ("current", "previous", "trial", "failed")}
     return {"paths": paths, "release": tree_of(device.root / "releases" / NEW), "state": states, "versions": device.start()}
 

