@@ -97,6 +97,14 @@ PROOFS = {
             "a byte of seven bits": Bug("bit_number < 8", "bit_number < 7", "divides"),
         },
     ),
+    "crc32_word": Proof(
+        "crc32_word.v",
+        {
+            "another polynomial": Bug("parities(32'hEDB88320)", "parities(32'hEDB88321)", "divides"),
+            "a word that counts always": Bug("if (valid_i) crc_q", "if (1'b1) crc_q", "divides"),
+            "a word of 31 bits": Bug("shift < 32", "shift < 31", "divides"),
+        },
+    ),
     "play_queue": Proof(
         "play_queue.v",
         {
