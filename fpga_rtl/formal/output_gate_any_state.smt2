@@ -1,14 +1,14 @@
-; of b54cca6eb68d1a0f408f940958ec5253a0c60907339f74257e9ba004dd4189bd, by python -m tests.rtl.proofs
+; of e5af123b771596dea993c2ca7929c0905bf05be1013ffac8c326943e80e81d60, by python -m tests.rtl.proofs
 (declare-sort |output_gate_s| 0)
 (declare-fun |output_gate_is| (|output_gate_s|) Bool)
-(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_351
-(define-fun |output_gate_n _witness_.anyinit_procdff_351| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
-(declare-fun |output_gate#1| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_354
-(define-fun |output_gate_n _witness_.anyinit_procdff_354| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#1| state)) #b1))
-(declare-fun |output_gate#2| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_357
-(define-fun |output_gate_n _witness_.anyinit_procdff_357| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#2| state)) #b1))
-(declare-fun |output_gate#3| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_360
-(define-fun |output_gate_n _witness_.anyinit_procdff_360| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#3| state)) #b1))
+(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_350
+(define-fun |output_gate_n _witness_.anyinit_procdff_350| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
+(declare-fun |output_gate#1| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_353
+(define-fun |output_gate_n _witness_.anyinit_procdff_353| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#1| state)) #b1))
+(declare-fun |output_gate#2| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_356
+(define-fun |output_gate_n _witness_.anyinit_procdff_356| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#2| state)) #b1))
+(declare-fun |output_gate#3| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_359
+(define-fun |output_gate_n _witness_.anyinit_procdff_359| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#3| state)) #b1))
 (declare-fun |output_gate#4| (|output_gate_s|) (_ BitVec 32)) ; \alive_left_q
 (define-fun |output_gate_n alive_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#4| state))
 (declare-fun |output_gate#5| (|output_gate_s|) (_ BitVec 1)) ; \silent_q
@@ -16,11 +16,11 @@
 (define-fun |output_gate_n alive_o| ((state |output_gate_s|)) Bool (|output_gate#6| state))
 (declare-fun |output_gate#7| (|output_gate_s|) (_ BitVec 1)) ; \clock_lost_i
 (define-fun |output_gate#8| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#0| state))) ; \channel_q
-(define-fun |output_gate#9| ((state |output_gate_s|)) Bool (distinct (|output_gate#8| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:77$169_Y
+(define-fun |output_gate#9| ((state |output_gate_s|)) Bool (distinct (|output_gate#8| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:75$168_Y
 (define-fun |output_gate#10| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#1| state))) ; \hv_enable_q
-(define-fun |output_gate#11| ((state |output_gate_s|)) Bool (or  (|output_gate#9| state) false  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:77$170_Y
+(define-fun |output_gate#11| ((state |output_gate_s|)) Bool (or  (|output_gate#9| state) false  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$169_Y
 (define-fun |output_gate#12| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#3| state))) ; \hv_alive_q
-(define-fun |output_gate#13| ((state |output_gate_s|)) Bool (or  (|output_gate#11| state) false  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:77$171_Y
+(define-fun |output_gate#13| ((state |output_gate_s|)) Bool (or  (|output_gate#11| state) false  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$170_Y
 (define-fun |output_gate#14| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#2| state))) ; \focus_q
 (define-fun |output_gate#15| ((state |output_gate_s|)) Bool (or  (|output_gate#13| state) false  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false)) ; \any
 (define-fun |output_gate_n any| ((state |output_gate_s|)) Bool (|output_gate#15| state))
@@ -30,8 +30,8 @@
 (define-fun |output_gate#18| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b010)) ; \armed_o
 (define-fun |output_gate_n armed_o| ((state |output_gate_s|)) Bool (|output_gate#18| state))
 (declare-fun |output_gate#19| (|output_gate_s|) (_ BitVec 5)) ; \limits_1_q
-(define-fun |output_gate#20| ((state |output_gate_s|)) Bool (distinct (|output_gate#19| state) #b00000)) ; $ne$output_gate_properties.vh:85$186_Y
-(define-fun |output_gate#21| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#20| state) #b1 #b0)) ; $procmux$314_Y
+(define-fun |output_gate#20| ((state |output_gate_s|)) Bool (distinct (|output_gate#19| state) #b00000)) ; $ne$output_gate_properties.vh:83$185_Y
+(define-fun |output_gate#21| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#20| state) #b1 #b0)) ; $procmux$313_Y
 (declare-fun |output_gate#22| (|output_gate_s|) (_ BitVec 1)) ; \started_q
 (define-fun |output_gate#23| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#21| state) #b0)) ; \beyond_is_off_EN
 (define-fun |output_gate_n beyond_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#23| state)) #b1))
@@ -106,7 +106,7 @@
 (declare-fun |output_gate#65| (|output_gate_s|) (_ BitVec 32)) ; \heartbeat_ticks_i
 (define-fun |output_gate_n heartbeat_ticks_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#65| state))
 (define-fun |output_gate_n host_silent| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#5| state)) #b1))
-(define-fun |output_gate#66| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#51| state)) #b1) #b0 #b1)) ; $procmux$322_Y
+(define-fun |output_gate#66| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#51| state)) #b1) #b0 #b1)) ; $procmux$321_Y
 (define-fun |output_gate#67| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#66| state) #b0)) ; \hot_is_off_EN
 (define-fun |output_gate_n hot_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#67| state)) #b1))
 (define-fun |output_gate_n hv_alive_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#12| state)) #b1))
@@ -125,7 +125,7 @@
 (define-fun |output_gate_n moves_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#70| state))
 (define-fun |output_gate#71| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b1 #b0)) ; \no_clock_is_off_EN
 (define-fun |output_gate_n no_clock_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#71| state)) #b1))
-(define-fun |output_gate#72| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#59| state)) #b1) #b0 #b1)) ; $procmux$306_Y
+(define-fun |output_gate#72| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#59| state)) #b1) #b0 #b1)) ; $procmux$305_Y
 (define-fun |output_gate#73| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#72| state) #b0)) ; \nonsense_is_off_EN
 (define-fun |output_gate_n nonsense_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#73| state)) #b1))
 (declare-fun |output_gate#74| (|output_gate_s|) (_ BitVec 64)) ; \now_i
@@ -146,7 +146,7 @@
 (define-fun |output_gate_n ramp_down_o| ((state |output_gate_s|)) Bool (|output_gate#30| state))
 (define-fun |output_gate_n ramp_up_o| ((state |output_gate_s|)) Bool (|output_gate#26| state))
 (declare-fun |output_gate#81| (|output_gate_s|) (_ BitVec 1)) ; \rst_1_q
-(define-fun |output_gate#82| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#81| state)) #b1) #b1 #b0)) ; $procmux$330_Y
+(define-fun |output_gate#82| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#81| state)) #b1) #b1 #b0)) ; $procmux$329_Y
 (define-fun |output_gate#83| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#82| state) #b0)) ; \reset_is_off_EN
 (define-fun |output_gate_n reset_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#83| state)) #b1))
 (declare-fun |output_gate#84| (|output_gate_s|) (_ BitVec 32)) ; \rest_left_q
@@ -169,14 +169,14 @@
 (define-fun |output_gate_n silence_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#89| state))
 (declare-fun |output_gate#90| (|output_gate_s|) (_ BitVec 1)) ; \silent_1_q
 (define-fun |output_gate_n silent_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#90| state)) #b1))
-(define-fun |output_gate#91| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#90| state)) #b1) #b1 #b0)) ; $procmux$318_Y
+(define-fun |output_gate#91| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#90| state)) #b1) #b1 #b0)) ; $procmux$317_Y
 (define-fun |output_gate#92| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#91| state) #b0)) ; \silent_is_off_EN
 (define-fun |output_gate_n silent_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#92| state)) #b1))
 (define-fun |output_gate_n silent_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#5| state)) #b1))
 (define-fun |output_gate_n started_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#22| state)) #b1))
 (define-fun |output_gate_n state_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#17| state))
 (define-fun |output_gate_n stays| ((state |output_gate_s|)) Bool (|output_gate#77| state))
-(define-fun |output_gate#93| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#79| state)) #b1) #b0 #b1)) ; $procmux$326_Y
+(define-fun |output_gate#93| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#79| state)) #b1) #b0 #b1)) ; $procmux$325_Y
 (define-fun |output_gate#94| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#93| state) #b0)) ; \stopped_is_off_EN
 (define-fun |output_gate_n stopped_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#94| state)) #b1))
 (define-fun |output_gate_n stopping_o| ((state |output_gate_s|)) Bool (|output_gate#28| state))
@@ -184,130 +184,130 @@
 (declare-fun |output_gate#95| (|output_gate_s|) (_ BitVec 1)) ; \underrun_1_q
 (define-fun |output_gate_n underrun_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#95| state)) #b1))
 (define-fun |output_gate_n underrun_i| ((state |output_gate_s|)) Bool (|output_gate#44| state))
-(define-fun |output_gate#96| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#95| state)) #b1) #b1 #b0)) ; $procmux$310_Y
+(define-fun |output_gate#96| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#95| state)) #b1) #b1 #b0)) ; $procmux$309_Y
 (define-fun |output_gate#97| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#96| state) #b0)) ; \underrun_is_off_EN
 (define-fun |output_gate_n underrun_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#97| state)) #b1))
 (declare-fun |output_gate#98| (|output_gate_s|) (_ BitVec 32)) ; \underruns_q
 (define-fun |output_gate_n underruns_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#98| state))
 (define-fun |output_gate_n underruns_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#98| state))
-(define-fun |output_gate#99| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#50| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$476
-(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#99| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$477
-(define-fun |output_gate#100| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#61| state)) #b1) (= ((_ extract 1 1) (|output_gate#61| state)) #b1) (= ((_ extract 2 2) (|output_gate#61| state)) #b1) (= ((_ extract 3 3) (|output_gate#61| state)) #b1) (= ((_ extract 4 4) (|output_gate#61| state)) #b1) (= ((_ extract 5 5) (|output_gate#61| state)) #b1) (= ((_ extract 6 6) (|output_gate#61| state)) #b1) (= ((_ extract 7 7) (|output_gate#61| state)) #b1) (= ((_ extract 8 8) (|output_gate#61| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:32$82_Y
-(define-fun |output_gate#101| ((state |output_gate_s|)) Bool (and (or  (|output_gate#57| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:32$83_Y
-(define-fun |output_gate#102| ((state |output_gate_s|)) Bool (and (or  (|output_gate#101| state) false) (or  (|output_gate#37| state) false))) ; $logic_and$output_gate_properties.vh:32$84_Y
-(define-fun |output_gate#103| ((state |output_gate_s|)) Bool (and (or  (|output_gate#102| state) false) (or  (|output_gate#41| state) false))) ; $logic_and$output_gate_properties.vh:32$85_Y
-(define-fun |output_gate#104| ((state |output_gate_s|)) Bool (and (or  (|output_gate#103| state) false) (or  (|output_gate#64| state) false))) ; $logic_and$output_gate_properties.vh:32$86_Y
-(define-fun |output_gate#105| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#16| state) #b1 #b0)) ; $assume$output_gate_properties.vh:32$81_EN
-(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#104| state) (not (= ((_ extract 0 0) (|output_gate#105| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_32_81
-(define-fun |output_gate#106| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#7| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:36$89_Y
-(define-fun |output_gate#107| ((state |output_gate_s|)) Bool (or  (|output_gate#106| state) false  (|output_gate#86| state) false)) ; $logic_or$output_gate_properties.vh:36$90_Y
-(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#107| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_36_88
-(define-fun |output_gate#108| ((state |output_gate_s|)) Bool (not (or  (|output_gate#15| state) false))) ; $logic_not$output_gate_properties.vh:81$174_Y
+(define-fun |output_gate#99| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#50| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$475
+(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#99| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$476
+(define-fun |output_gate#100| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#61| state)) #b1) (= ((_ extract 1 1) (|output_gate#61| state)) #b1) (= ((_ extract 2 2) (|output_gate#61| state)) #b1) (= ((_ extract 3 3) (|output_gate#61| state)) #b1) (= ((_ extract 4 4) (|output_gate#61| state)) #b1) (= ((_ extract 5 5) (|output_gate#61| state)) #b1) (= ((_ extract 6 6) (|output_gate#61| state)) #b1) (= ((_ extract 7 7) (|output_gate#61| state)) #b1) (= ((_ extract 8 8) (|output_gate#61| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:30$82_Y
+(define-fun |output_gate#101| ((state |output_gate_s|)) Bool (and (or  (|output_gate#57| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:30$83_Y
+(define-fun |output_gate#102| ((state |output_gate_s|)) Bool (and (or  (|output_gate#101| state) false) (or  (|output_gate#37| state) false))) ; $logic_and$output_gate_properties.vh:30$84_Y
+(define-fun |output_gate#103| ((state |output_gate_s|)) Bool (and (or  (|output_gate#102| state) false) (or  (|output_gate#41| state) false))) ; $logic_and$output_gate_properties.vh:30$85_Y
+(define-fun |output_gate#104| ((state |output_gate_s|)) Bool (and (or  (|output_gate#103| state) false) (or  (|output_gate#64| state) false))) ; $logic_and$output_gate_properties.vh:30$86_Y
+(define-fun |output_gate#105| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#16| state) #b1 #b0)) ; $assume$output_gate_properties.vh:30$81_EN
+(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#104| state) (not (= ((_ extract 0 0) (|output_gate#105| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_30_81
+(define-fun |output_gate#106| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#7| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:31$88_Y
+(define-fun |output_gate#107| ((state |output_gate_s|)) Bool (or  (|output_gate#106| state) false  (|output_gate#86| state) false)) ; $logic_or$output_gate_properties.vh:31$89_Y
+(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#107| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_31_87
+(define-fun |output_gate#108| ((state |output_gate_s|)) Bool (not (or  (|output_gate#15| state) false))) ; $logic_not$output_gate_properties.vh:79$173_Y
 (define-fun |output_gate_a 0| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#23| state)) #b1)))) ; beyond_is_off
 (define-fun |output_gate_a 1| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#67| state)) #b1)))) ; hot_is_off
-(define-fun |output_gate#109| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#68| state))) ; $not$output_gate_properties.vh:89$191_Y
-(define-fun |output_gate#110| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#109| state))) ; $and$output_gate_properties.vh:89$192_Y
-(define-fun |output_gate#111| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#110| state)) #b1) (= ((_ extract 1 1) (|output_gate#110| state)) #b1) (= ((_ extract 2 2) (|output_gate#110| state)) #b1) (= ((_ extract 3 3) (|output_gate#110| state)) #b1) (= ((_ extract 4 4) (|output_gate#110| state)) #b1) (= ((_ extract 5 5) (|output_gate#110| state)) #b1) (= ((_ extract 6 6) (|output_gate#110| state)) #b1) (= ((_ extract 7 7) (|output_gate#110| state)) #b1) (= ((_ extract 8 8) (|output_gate#110| state)) #b1) (= ((_ extract 9 9) (|output_gate#110| state)) #b1) (= ((_ extract 10 10) (|output_gate#110| state)) #b1) (= ((_ extract 11 11) (|output_gate#110| state)) #b1) (= ((_ extract 12 12) (|output_gate#110| state)) #b1) (= ((_ extract 13 13) (|output_gate#110| state)) #b1) (= ((_ extract 14 14) (|output_gate#110| state)) #b1) (= ((_ extract 15 15) (|output_gate#110| state)) #b1) (= ((_ extract 16 16) (|output_gate#110| state)) #b1) (= ((_ extract 17 17) (|output_gate#110| state)) #b1) (= ((_ extract 18 18) (|output_gate#110| state)) #b1) (= ((_ extract 19 19) (|output_gate#110| state)) #b1) (= ((_ extract 20 20) (|output_gate#110| state)) #b1) (= ((_ extract 21 21) (|output_gate#110| state)) #b1) (= ((_ extract 22 22) (|output_gate#110| state)) #b1) (= ((_ extract 23 23) (|output_gate#110| state)) #b1) (= ((_ extract 24 24) (|output_gate#110| state)) #b1) (= ((_ extract 25 25) (|output_gate#110| state)) #b1) (= ((_ extract 26 26) (|output_gate#110| state)) #b1) (= ((_ extract 27 27) (|output_gate#110| state)) #b1) (= ((_ extract 28 28) (|output_gate#110| state)) #b1) (= ((_ extract 29 29) (|output_gate#110| state)) #b1) (= ((_ extract 30 30) (|output_gate#110| state)) #b1) (= ((_ extract 31 31) (|output_gate#110| state)) #b1)))) ; $eq$output_gate_properties.vh:89$193_Y
+(define-fun |output_gate#109| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#68| state))) ; $not$output_gate_properties.vh:87$190_Y
+(define-fun |output_gate#110| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#109| state))) ; $and$output_gate_properties.vh:87$191_Y
+(define-fun |output_gate#111| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#110| state)) #b1) (= ((_ extract 1 1) (|output_gate#110| state)) #b1) (= ((_ extract 2 2) (|output_gate#110| state)) #b1) (= ((_ extract 3 3) (|output_gate#110| state)) #b1) (= ((_ extract 4 4) (|output_gate#110| state)) #b1) (= ((_ extract 5 5) (|output_gate#110| state)) #b1) (= ((_ extract 6 6) (|output_gate#110| state)) #b1) (= ((_ extract 7 7) (|output_gate#110| state)) #b1) (= ((_ extract 8 8) (|output_gate#110| state)) #b1) (= ((_ extract 9 9) (|output_gate#110| state)) #b1) (= ((_ extract 10 10) (|output_gate#110| state)) #b1) (= ((_ extract 11 11) (|output_gate#110| state)) #b1) (= ((_ extract 12 12) (|output_gate#110| state)) #b1) (= ((_ extract 13 13) (|output_gate#110| state)) #b1) (= ((_ extract 14 14) (|output_gate#110| state)) #b1) (= ((_ extract 15 15) (|output_gate#110| state)) #b1) (= ((_ extract 16 16) (|output_gate#110| state)) #b1) (= ((_ extract 17 17) (|output_gate#110| state)) #b1) (= ((_ extract 18 18) (|output_gate#110| state)) #b1) (= ((_ extract 19 19) (|output_gate#110| state)) #b1) (= ((_ extract 20 20) (|output_gate#110| state)) #b1) (= ((_ extract 21 21) (|output_gate#110| state)) #b1) (= ((_ extract 22 22) (|output_gate#110| state)) #b1) (= ((_ extract 23 23) (|output_gate#110| state)) #b1) (= ((_ extract 24 24) (|output_gate#110| state)) #b1) (= ((_ extract 25 25) (|output_gate#110| state)) #b1) (= ((_ extract 26 26) (|output_gate#110| state)) #b1) (= ((_ extract 27 27) (|output_gate#110| state)) #b1) (= ((_ extract 28 28) (|output_gate#110| state)) #b1) (= ((_ extract 29 29) (|output_gate#110| state)) #b1) (= ((_ extract 30 30) (|output_gate#110| state)) #b1) (= ((_ extract 31 31) (|output_gate#110| state)) #b1)))) ; $eq$output_gate_properties.vh:87$192_Y
 (define-fun |output_gate_a 2| ((state |output_gate_s|)) Bool (or (|output_gate#111| state) (not (= ((_ extract 0 0) (|output_gate#69| state)) #b1)))) ; mask_is_kept
-(define-fun |output_gate#112| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (= ((_ extract 1 1) (|output_gate#8| state)) #b1) (= ((_ extract 2 2) (|output_gate#8| state)) #b1) (= ((_ extract 3 3) (|output_gate#8| state)) #b1) (= ((_ extract 4 4) (|output_gate#8| state)) #b1) (= ((_ extract 5 5) (|output_gate#8| state)) #b1) (= ((_ extract 6 6) (|output_gate#8| state)) #b1) (= ((_ extract 7 7) (|output_gate#8| state)) #b1) (= ((_ extract 8 8) (|output_gate#8| state)) #b1) (= ((_ extract 9 9) (|output_gate#8| state)) #b1) (= ((_ extract 10 10) (|output_gate#8| state)) #b1) (= ((_ extract 11 11) (|output_gate#8| state)) #b1) (= ((_ extract 12 12) (|output_gate#8| state)) #b1) (= ((_ extract 13 13) (|output_gate#8| state)) #b1) (= ((_ extract 14 14) (|output_gate#8| state)) #b1) (= ((_ extract 15 15) (|output_gate#8| state)) #b1) (= ((_ extract 16 16) (|output_gate#8| state)) #b1) (= ((_ extract 17 17) (|output_gate#8| state)) #b1) (= ((_ extract 18 18) (|output_gate#8| state)) #b1) (= ((_ extract 19 19) (|output_gate#8| state)) #b1) (= ((_ extract 20 20) (|output_gate#8| state)) #b1) (= ((_ extract 21 21) (|output_gate#8| state)) #b1) (= ((_ extract 22 22) (|output_gate#8| state)) #b1) (= ((_ extract 23 23) (|output_gate#8| state)) #b1) (= ((_ extract 24 24) (|output_gate#8| state)) #b1) (= ((_ extract 25 25) (|output_gate#8| state)) #b1) (= ((_ extract 26 26) (|output_gate#8| state)) #b1) (= ((_ extract 27 27) (|output_gate#8| state)) #b1) (= ((_ extract 28 28) (|output_gate#8| state)) #b1) (= ((_ extract 29 29) (|output_gate#8| state)) #b1) (= ((_ extract 30 30) (|output_gate#8| state)) #b1) (= ((_ extract 31 31) (|output_gate#8| state)) #b1)))) ; $eq$output_gate_properties.vh:40$92_Y
-(define-fun |output_gate#113| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$93_Y
-(define-fun |output_gate#114| ((state |output_gate_s|)) Bool (and (or  (|output_gate#112| state) false) (or  (|output_gate#113| state) false))) ; $logic_and$output_gate_properties.vh:40$94_Y
-(define-fun |output_gate#115| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$95_Y
-(define-fun |output_gate#116| ((state |output_gate_s|)) Bool (and (or  (|output_gate#114| state) false) (or  (|output_gate#115| state) false))) ; $logic_and$output_gate_properties.vh:40$96_Y
-(define-fun |output_gate#117| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$97_Y
-(define-fun |output_gate#118| ((state |output_gate_s|)) Bool (and (or  (|output_gate#116| state) false) (or  (|output_gate#117| state) false))) ; $logic_and$output_gate_properties.vh:40$98_Y
+(define-fun |output_gate#112| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (= ((_ extract 1 1) (|output_gate#8| state)) #b1) (= ((_ extract 2 2) (|output_gate#8| state)) #b1) (= ((_ extract 3 3) (|output_gate#8| state)) #b1) (= ((_ extract 4 4) (|output_gate#8| state)) #b1) (= ((_ extract 5 5) (|output_gate#8| state)) #b1) (= ((_ extract 6 6) (|output_gate#8| state)) #b1) (= ((_ extract 7 7) (|output_gate#8| state)) #b1) (= ((_ extract 8 8) (|output_gate#8| state)) #b1) (= ((_ extract 9 9) (|output_gate#8| state)) #b1) (= ((_ extract 10 10) (|output_gate#8| state)) #b1) (= ((_ extract 11 11) (|output_gate#8| state)) #b1) (= ((_ extract 12 12) (|output_gate#8| state)) #b1) (= ((_ extract 13 13) (|output_gate#8| state)) #b1) (= ((_ extract 14 14) (|output_gate#8| state)) #b1) (= ((_ extract 15 15) (|output_gate#8| state)) #b1) (= ((_ extract 16 16) (|output_gate#8| state)) #b1) (= ((_ extract 17 17) (|output_gate#8| state)) #b1) (= ((_ extract 18 18) (|output_gate#8| state)) #b1) (= ((_ extract 19 19) (|output_gate#8| state)) #b1) (= ((_ extract 20 20) (|output_gate#8| state)) #b1) (= ((_ extract 21 21) (|output_gate#8| state)) #b1) (= ((_ extract 22 22) (|output_gate#8| state)) #b1) (= ((_ extract 23 23) (|output_gate#8| state)) #b1) (= ((_ extract 24 24) (|output_gate#8| state)) #b1) (= ((_ extract 25 25) (|output_gate#8| state)) #b1) (= ((_ extract 26 26) (|output_gate#8| state)) #b1) (= ((_ extract 27 27) (|output_gate#8| state)) #b1) (= ((_ extract 28 28) (|output_gate#8| state)) #b1) (= ((_ extract 29 29) (|output_gate#8| state)) #b1) (= ((_ extract 30 30) (|output_gate#8| state)) #b1) (= ((_ extract 31 31) (|output_gate#8| state)) #b1)))) ; $eq$output_gate_properties.vh:38$91_Y
+(define-fun |output_gate#113| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$92_Y
+(define-fun |output_gate#114| ((state |output_gate_s|)) Bool (and (or  (|output_gate#112| state) false) (or  (|output_gate#113| state) false))) ; $logic_and$output_gate_properties.vh:38$93_Y
+(define-fun |output_gate#115| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$94_Y
+(define-fun |output_gate#116| ((state |output_gate_s|)) Bool (and (or  (|output_gate#114| state) false) (or  (|output_gate#115| state) false))) ; $logic_and$output_gate_properties.vh:38$95_Y
+(define-fun |output_gate#117| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$96_Y
+(define-fun |output_gate#118| ((state |output_gate_s|)) Bool (and (or  (|output_gate#116| state) false) (or  (|output_gate#117| state) false))) ; $logic_and$output_gate_properties.vh:38$97_Y
 (define-fun |output_gate_a 3| ((state |output_gate_s|)) Bool (or (|output_gate#118| state) (not (= ((_ extract 0 0) (|output_gate#71| state)) #b1)))) ; no_clock_is_off
 (define-fun |output_gate_a 4| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#73| state)) #b1)))) ; nonsense_is_off
-(define-fun |output_gate#119| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#53| state))) ; $not$output_gate_properties.vh:90$194_Y
-(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#119| state))) ; $and$output_gate_properties.vh:90$195_Y
-(define-fun |output_gate#121| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#120| state)) #b1) (= ((_ extract 1 1) (|output_gate#120| state)) #b1) (= ((_ extract 2 2) (|output_gate#120| state)) #b1) (= ((_ extract 3 3) (|output_gate#120| state)) #b1) (= ((_ extract 4 4) (|output_gate#120| state)) #b1) (= ((_ extract 5 5) (|output_gate#120| state)) #b1) (= ((_ extract 6 6) (|output_gate#120| state)) #b1) (= ((_ extract 7 7) (|output_gate#120| state)) #b1) (= ((_ extract 8 8) (|output_gate#120| state)) #b1) (= ((_ extract 9 9) (|output_gate#120| state)) #b1) (= ((_ extract 10 10) (|output_gate#120| state)) #b1) (= ((_ extract 11 11) (|output_gate#120| state)) #b1) (= ((_ extract 12 12) (|output_gate#120| state)) #b1) (= ((_ extract 13 13) (|output_gate#120| state)) #b1) (= ((_ extract 14 14) (|output_gate#120| state)) #b1) (= ((_ extract 15 15) (|output_gate#120| state)) #b1) (= ((_ extract 16 16) (|output_gate#120| state)) #b1) (= ((_ extract 17 17) (|output_gate#120| state)) #b1) (= ((_ extract 18 18) (|output_gate#120| state)) #b1) (= ((_ extract 19 19) (|output_gate#120| state)) #b1) (= ((_ extract 20 20) (|output_gate#120| state)) #b1) (= ((_ extract 21 21) (|output_gate#120| state)) #b1) (= ((_ extract 22 22) (|output_gate#120| state)) #b1) (= ((_ extract 23 23) (|output_gate#120| state)) #b1) (= ((_ extract 24 24) (|output_gate#120| state)) #b1) (= ((_ extract 25 25) (|output_gate#120| state)) #b1) (= ((_ extract 26 26) (|output_gate#120| state)) #b1) (= ((_ extract 27 27) (|output_gate#120| state)) #b1) (= ((_ extract 28 28) (|output_gate#120| state)) #b1) (= ((_ extract 29 29) (|output_gate#120| state)) #b1) (= ((_ extract 30 30) (|output_gate#120| state)) #b1) (= ((_ extract 31 31) (|output_gate#120| state)) #b1)))) ; $eq$output_gate_properties.vh:90$196_Y
+(define-fun |output_gate#119| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#53| state))) ; $not$output_gate_properties.vh:88$193_Y
+(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#119| state))) ; $and$output_gate_properties.vh:88$194_Y
+(define-fun |output_gate#121| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#120| state)) #b1) (= ((_ extract 1 1) (|output_gate#120| state)) #b1) (= ((_ extract 2 2) (|output_gate#120| state)) #b1) (= ((_ extract 3 3) (|output_gate#120| state)) #b1) (= ((_ extract 4 4) (|output_gate#120| state)) #b1) (= ((_ extract 5 5) (|output_gate#120| state)) #b1) (= ((_ extract 6 6) (|output_gate#120| state)) #b1) (= ((_ extract 7 7) (|output_gate#120| state)) #b1) (= ((_ extract 8 8) (|output_gate#120| state)) #b1) (= ((_ extract 9 9) (|output_gate#120| state)) #b1) (= ((_ extract 10 10) (|output_gate#120| state)) #b1) (= ((_ extract 11 11) (|output_gate#120| state)) #b1) (= ((_ extract 12 12) (|output_gate#120| state)) #b1) (= ((_ extract 13 13) (|output_gate#120| state)) #b1) (= ((_ extract 14 14) (|output_gate#120| state)) #b1) (= ((_ extract 15 15) (|output_gate#120| state)) #b1) (= ((_ extract 16 16) (|output_gate#120| state)) #b1) (= ((_ extract 17 17) (|output_gate#120| state)) #b1) (= ((_ extract 18 18) (|output_gate#120| state)) #b1) (= ((_ extract 19 19) (|output_gate#120| state)) #b1) (= ((_ extract 20 20) (|output_gate#120| state)) #b1) (= ((_ extract 21 21) (|output_gate#120| state)) #b1) (= ((_ extract 22 22) (|output_gate#120| state)) #b1) (= ((_ extract 23 23) (|output_gate#120| state)) #b1) (= ((_ extract 24 24) (|output_gate#120| state)) #b1) (= ((_ extract 25 25) (|output_gate#120| state)) #b1) (= ((_ extract 26 26) (|output_gate#120| state)) #b1) (= ((_ extract 27 27) (|output_gate#120| state)) #b1) (= ((_ extract 28 28) (|output_gate#120| state)) #b1) (= ((_ extract 29 29) (|output_gate#120| state)) #b1) (= ((_ extract 30 30) (|output_gate#120| state)) #b1) (= ((_ extract 31 31) (|output_gate#120| state)) #b1)))) ; $eq$output_gate_properties.vh:88$195_Y
 (define-fun |output_gate_a 5| ((state |output_gate_s|)) Bool (or (|output_gate#121| state) (not (= ((_ extract 0 0) (|output_gate#69| state)) #b1)))) ; only_what_is_played
-(define-fun |output_gate#122| ((state |output_gate_s|)) Bool (and (or  (|output_gate#108| state) false) (or  (|output_gate#57| state) false))) ; $logic_and$output_gate_properties.vh:81$176_Y
-(define-fun |output_gate#123| ((state |output_gate_s|)) Bool (and (or  (|output_gate#122| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:81$178_Y
-(define-fun |output_gate#124| ((state |output_gate_s|)) Bool (and (or  (|output_gate#123| state) false) (or  (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:81$180_Y
+(define-fun |output_gate#122| ((state |output_gate_s|)) Bool (and (or  (|output_gate#108| state) false) (or  (|output_gate#57| state) false))) ; $logic_and$output_gate_properties.vh:79$175_Y
+(define-fun |output_gate#123| ((state |output_gate_s|)) Bool (and (or  (|output_gate#122| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:79$177_Y
+(define-fun |output_gate#124| ((state |output_gate_s|)) Bool (and (or  (|output_gate#123| state) false) (or  (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:79$179_Y
 (define-fun |output_gate_a 6| ((state |output_gate_s|)) Bool (or (|output_gate#124| state) (not (= ((_ extract 0 0) (|output_gate#83| state)) #b1)))) ; reset_is_off
 (define-fun |output_gate_a 7| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#92| state)) #b1)))) ; silent_is_off
 (define-fun |output_gate_a 8| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#94| state)) #b1)))) ; stopped_is_off
 (define-fun |output_gate_a 9| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#97| state)) #b1)))) ; underrun_is_off
 (define-fun |output_gate#125| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#98| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:113$41_Y
-(define-fun |output_gate#126| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#45| state) (|output_gate#125| state) (|output_gate#98| state))) ; $procmux$232_Y
+(define-fun |output_gate#126| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#45| state) (|output_gate#125| state) (|output_gate#98| state))) ; $procmux$231_Y
 (define-fun |output_gate#127| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#126| state))) ; $0\underruns_q[31:0]
 (define-fun |output_gate#128| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#89| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:97$30_Y
-(define-fun |output_gate#129| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#89| state) (|output_gate#128| state))) ; $procmux$261_Y
-(define-fun |output_gate#130| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#64| state) (|output_gate#65| state) (|output_gate#129| state))) ; $procmux$264_Y
+(define-fun |output_gate#129| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#89| state) (|output_gate#128| state))) ; $procmux$260_Y
+(define-fun |output_gate#130| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#64| state) (|output_gate#65| state) (|output_gate#129| state))) ; $procmux$263_Y
 (define-fun |output_gate#131| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#130| state))) ; $0\silence_q[31:0]
 (define-fun |output_gate#132| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#87| state) #b0000000000000001)) ; $sub$output_gate.v:126$43_Y
 (define-fun |output_gate#133| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#25| state) (|output_gate#132| state) #b1111010000100011)) ; $ternary$output_gate.v:126$44_Y
 (define-fun |output_gate#134| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#86| state) #b0000000000000000 (|output_gate#133| state))) ; $0\settle_left_q[15:0]
 (define-fun |output_gate#135| ((state |output_gate_s|)) Bool (distinct (|output_gate#84| state) #b00000000000000000000000000000001)) ; $ne$output_gate.v:107$38_Y
-(define-fun |output_gate#136| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (ite (|output_gate#135| state) #b1 #b0) #b0)) ; $procmux$240_Y
+(define-fun |output_gate#136| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (ite (|output_gate#135| state) #b1 #b0) #b0)) ; $procmux$239_Y
 (define-fun |output_gate#137| ((state |output_gate_s|)) Bool (distinct (|output_gate#47| state) #b00000)) ; $ne$output_gate.v:102$36_Y
-(define-fun |output_gate#138| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#137| state) #b1 (|output_gate#136| state))) ; $procmux$243_Y
+(define-fun |output_gate#138| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#137| state) #b1 (|output_gate#136| state))) ; $procmux$242_Y
 (define-fun |output_gate#139| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#86| state) #b0 (|output_gate#138| state))) ; $0\resting_q[0:0]
 (define-fun |output_gate#140| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#84| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:106$37_Y
-(define-fun |output_gate#141| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (|output_gate#140| state) (|output_gate#84| state))) ; $procmux$247_Y
-(define-fun |output_gate#142| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#137| state) #b00000000111011100110101100101000 (|output_gate#141| state))) ; $procmux$250_Y
+(define-fun |output_gate#141| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (|output_gate#140| state) (|output_gate#84| state))) ; $procmux$246_Y
+(define-fun |output_gate#142| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#137| state) #b00000000111011100110101100101000 (|output_gate#141| state))) ; $procmux$249_Y
 (define-fun |output_gate#143| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#142| state))) ; $0\rest_left_q[31:0]
 (define-fun |output_gate#144| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#70| state)) (ite (|output_gate#31| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:128$46_Y
 (define-fun |output_gate#145| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#144| state))) ; $0\moves_later_q[2:0]
 (define-fun |output_gate#146| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#63| state) #b0000000000000001)) ; $sub$output_gate.v:133$52_Y
 (define-fun |output_gate#147| ((state |output_gate_s|)) Bool (distinct (|output_gate#63| state) #b0000000000000000)) ; $ne$output_gate.v:133$51_Y
-(define-fun |output_gate#148| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) (|output_gate#146| state) (|output_gate#63| state))) ; $procmux$218_Y
+(define-fun |output_gate#148| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) (|output_gate#146| state) (|output_gate#63| state))) ; $procmux$217_Y
 (define-fun |output_gate#149| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#24| state) #b0000000000000001)) ; $sub$output_gate.v:132$50_Y
-(define-fun |output_gate#150| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#56| state) (|output_gate#149| state) (|output_gate#148| state))) ; $procmux$221_Y
-(define-fun |output_gate#151| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#78| state) (|output_gate#150| state) #b0000000000000000)) ; $procmux$224_Y
+(define-fun |output_gate#150| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#56| state) (|output_gate#149| state) (|output_gate#148| state))) ; $procmux$220_Y
+(define-fun |output_gate#151| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#78| state) (|output_gate#150| state) #b0000000000000000)) ; $procmux$223_Y
 (define-fun |output_gate#152| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#86| state) #b0000000000000000 (|output_gate#151| state))) ; $0\focus_left_q[15:0]
-(define-fun |output_gate#153| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#75| state) (|output_gate#74| state) (|output_gate#62| state))) ; $procmux$228_Y
+(define-fun |output_gate#153| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#75| state) (|output_gate#74| state) (|output_gate#62| state))) ; $procmux$227_Y
 (define-fun |output_gate#154| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#86| state) #b0000000000000000000000000000000000000000000000000000000000000000 (|output_gate#153| state))) ; $0\fault_time_q[63:0]
 (define-fun |output_gate#155| ((state |output_gate_s|)) (_ BitVec 9) (bvand (concat ((_ extract 8 4) (|output_gate#61| state)) #b0000) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (|output_gate#85| state))))))))))) ; $and$output_gate.v:101$33_Y
 (define-fun |output_gate#156| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#49| state) (|output_gate#155| state) (|output_gate#61| state))) ; $ternary$output_gate.v:101$34_Y
 (define-fun |output_gate#157| ((state |output_gate_s|)) (_ BitVec 9) (bvor (|output_gate#156| state) (concat (|output_gate#47| state) (concat (ite (|output_gate#45| state) #b1 #b0) (concat (ite (|output_gate#43| state) #b1 #b0) (concat (ite (|output_gate#40| state) #b1 #b0) (ite (|output_gate#39| state) #b1 #b0))))))) ; $or$output_gate.v:101$35_Y
 (define-fun |output_gate#158| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#86| state) #b000000000 (|output_gate#157| state))) ; $0\fault_q[8:0]
 (define-fun |output_gate#159| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#60| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:110$39_Y
-(define-fun |output_gate#160| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#75| state) (|output_gate#159| state) (|output_gate#60| state))) ; $procmux$236_Y
+(define-fun |output_gate#160| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#75| state) (|output_gate#159| state) (|output_gate#60| state))) ; $procmux$235_Y
 (define-fun |output_gate#161| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#160| state))) ; $0\fault_count_q[31:0]
 (define-fun |output_gate#162| ((state |output_gate_s|)) Bool (bvule (|output_gate#17| state) #b101)) ; $0\exists_1_q[0:0]
 (define-fun |output_gate#163| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#55| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:130$48_Y
 (define-fun |output_gate#164| ((state |output_gate_s|)) Bool (and (or  (|output_gate#56| state) false) (or  (|output_gate#78| state) false))) ; $logic_and$output_gate.v:130$47_Y
-(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#164| state) (|output_gate#163| state) (|output_gate#55| state))) ; $procmux$214_Y
+(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#164| state) (|output_gate#163| state) (|output_gate#55| state))) ; $procmux$213_Y
 (define-fun |output_gate#166| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#165| state))) ; $0\emissions_q[31:0]
 (define-fun |output_gate#167| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#33| state)) (ite (|output_gate#32| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:127$45_Y
 (define-fun |output_gate#168| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#167| state))) ; $0\on_later_q[2:0]
-(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b000 (|output_gate#17| state))) ; $procmux$269_Y
-(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#88| state) #b100 (|output_gate#17| state))) ; $procmux$273_Y
-(define-fun |output_gate#171| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b011 (|output_gate#17| state))) ; $procmux$276_Y
-(define-fun |output_gate#172| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b010 (|output_gate#17| state))) ; $procmux$279_Y
-(define-fun |output_gate#173| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b100 (|output_gate#172| state))) ; $procmux$282_Y
+(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b000 (|output_gate#17| state))) ; $procmux$268_Y
+(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#88| state) #b100 (|output_gate#17| state))) ; $procmux$272_Y
+(define-fun |output_gate#171| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b011 (|output_gate#17| state))) ; $procmux$275_Y
+(define-fun |output_gate#172| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b010 (|output_gate#17| state))) ; $procmux$278_Y
+(define-fun |output_gate#173| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b100 (|output_gate#172| state))) ; $procmux$281_Y
 (define-fun |output_gate#174| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#87| state)) #b1) (= ((_ extract 1 1) (|output_gate#87| state)) #b1) (= ((_ extract 2 2) (|output_gate#87| state)) #b1) (= ((_ extract 3 3) (|output_gate#87| state)) #b1) (= ((_ extract 4 4) (|output_gate#87| state)) #b1) (= ((_ extract 5 5) (|output_gate#87| state)) #b1) (= ((_ extract 6 6) (|output_gate#87| state)) #b1) (= ((_ extract 7 7) (|output_gate#87| state)) #b1) (= ((_ extract 8 8) (|output_gate#87| state)) #b1) (= ((_ extract 9 9) (|output_gate#87| state)) #b1) (= ((_ extract 10 10) (|output_gate#87| state)) #b1) (= ((_ extract 11 11) (|output_gate#87| state)) #b1) (= ((_ extract 12 12) (|output_gate#87| state)) #b1) (= ((_ extract 13 13) (|output_gate#87| state)) #b1) (= ((_ extract 14 14) (|output_gate#87| state)) #b1) (= ((_ extract 15 15) (|output_gate#87| state)) #b1)))) ; $eq$output_gate.v:117$42_Y
-(define-fun |output_gate#175| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#174| state) #b001 (|output_gate#17| state))) ; $procmux$285_Y
-(define-fun |output_gate#176| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b000 (|output_gate#175| state))) ; $procmux$288_Y
-(define-fun |output_gate#177| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#16| state) #b101 (|output_gate#17| state))) ; $procmux$291_Y
-(define-fun |output_gate#178| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#57| state) (|output_gate#177| state) (ite (|output_gate#25| state) (|output_gate#176| state) (ite (|output_gate#26| state) (|output_gate#173| state) (ite (|output_gate#18| state) (|output_gate#171| state) (ite (|output_gate#28| state) (|output_gate#170| state) (ite (|output_gate#30| state) (|output_gate#169| state) #b000))))))) ; $procmux$271_Y
-(define-fun |output_gate#179| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#75| state) #b000 (|output_gate#178| state))) ; $procmux$294_Y
+(define-fun |output_gate#175| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#174| state) #b001 (|output_gate#17| state))) ; $procmux$284_Y
+(define-fun |output_gate#176| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b000 (|output_gate#175| state))) ; $procmux$287_Y
+(define-fun |output_gate#177| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#16| state) #b101 (|output_gate#17| state))) ; $procmux$290_Y
+(define-fun |output_gate#178| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#57| state) (|output_gate#177| state) (ite (|output_gate#25| state) (|output_gate#176| state) (ite (|output_gate#26| state) (|output_gate#173| state) (ite (|output_gate#18| state) (|output_gate#171| state) (ite (|output_gate#28| state) (|output_gate#170| state) (ite (|output_gate#30| state) (|output_gate#169| state) #b000))))))) ; $procmux$270_Y
+(define-fun |output_gate#179| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#75| state) #b000 (|output_gate#178| state))) ; $procmux$293_Y
 (define-fun |output_gate#180| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#179| state))) ; $0\state_q[2:0]
 (define-fun |output_gate#181| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 1 1) (|output_gate#89| state)) #b1) (= ((_ extract 2 2) (|output_gate#89| state)) #b1) (= ((_ extract 3 3) (|output_gate#89| state)) #b1) (= ((_ extract 4 4) (|output_gate#89| state)) #b1) (= ((_ extract 5 5) (|output_gate#89| state)) #b1) (= ((_ extract 6 6) (|output_gate#89| state)) #b1) (= ((_ extract 7 7) (|output_gate#89| state)) #b1) (= ((_ extract 8 8) (|output_gate#89| state)) #b1) (= ((_ extract 9 9) (|output_gate#89| state)) #b1) (= ((_ extract 10 10) (|output_gate#89| state)) #b1) (= ((_ extract 11 11) (|output_gate#89| state)) #b1) (= ((_ extract 12 12) (|output_gate#89| state)) #b1) (= ((_ extract 13 13) (|output_gate#89| state)) #b1) (= ((_ extract 14 14) (|output_gate#89| state)) #b1) (= ((_ extract 15 15) (|output_gate#89| state)) #b1) (= ((_ extract 16 16) (|output_gate#89| state)) #b1) (= ((_ extract 17 17) (|output_gate#89| state)) #b1) (= ((_ extract 18 18) (|output_gate#89| state)) #b1) (= ((_ extract 19 19) (|output_gate#89| state)) #b1) (= ((_ extract 20 20) (|output_gate#89| state)) #b1) (= ((_ extract 21 21) (|output_gate#89| state)) #b1) (= ((_ extract 22 22) (|output_gate#89| state)) #b1) (= ((_ extract 23 23) (|output_gate#89| state)) #b1) (= ((_ extract 24 24) (|output_gate#89| state)) #b1) (= ((_ extract 25 25) (|output_gate#89| state)) #b1) (= ((_ extract 26 26) (|output_gate#89| state)) #b1) (= ((_ extract 27 27) (|output_gate#89| state)) #b1) (= ((_ extract 28 28) (|output_gate#89| state)) #b1) (= ((_ extract 29 29) (|output_gate#89| state)) #b1) (= ((_ extract 30 30) (|output_gate#89| state)) #b1) (= ((_ extract 31 31) (|output_gate#89| state)) #b1)))) ; $eq$output_gate.v:98$31_Y
-(define-fun |output_gate#182| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) #b1 (ite (|output_gate#181| state) #b1 #b0))) ; $procmux$254_Y
-(define-fun |output_gate#183| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#64| state) #b0 (|output_gate#182| state))) ; $procmux$257_Y
+(define-fun |output_gate#182| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) #b1 (ite (|output_gate#181| state) #b1 #b0))) ; $procmux$253_Y
+(define-fun |output_gate#183| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#64| state) #b0 (|output_gate#182| state))) ; $procmux$256_Y
 (define-fun |output_gate#184| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#86| state) #b1 (|output_gate#183| state))) ; $0\silent_q[0:0]
 (define-fun |output_gate#185| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#4| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:136$55_Y
 (define-fun |output_gate#186| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#4| state)) #b1) (= ((_ extract 1 1) (|output_gate#4| state)) #b1) (= ((_ extract 2 2) (|output_gate#4| state)) #b1) (= ((_ extract 3 3) (|output_gate#4| state)) #b1) (= ((_ extract 4 4) (|output_gate#4| state)) #b1) (= ((_ extract 5 5) (|output_gate#4| state)) #b1) (= ((_ extract 6 6) (|output_gate#4| state)) #b1) (= ((_ extract 7 7) (|output_gate#4| state)) #b1) (= ((_ extract 8 8) (|output_gate#4| state)) #b1) (= ((_ extract 9 9) (|output_gate#4| state)) #b1) (= ((_ extract 10 10) (|output_gate#4| state)) #b1) (= ((_ extract 11 11) (|output_gate#4| state)) #b1) (= ((_ extract 12 12) (|output_gate#4| state)) #b1) (= ((_ extract 13 13) (|output_gate#4| state)) #b1) (= ((_ extract 14 14) (|output_gate#4| state)) #b1) (= ((_ extract 15 15) (|output_gate#4| state)) #b1) (= ((_ extract 16 16) (|output_gate#4| state)) #b1) (= ((_ extract 17 17) (|output_gate#4| state)) #b1) (= ((_ extract 18 18) (|output_gate#4| state)) #b1) (= ((_ extract 19 19) (|output_gate#4| state)) #b1) (= ((_ extract 20 20) (|output_gate#4| state)) #b1) (= ((_ extract 21 21) (|output_gate#4| state)) #b1) (= ((_ extract 22 22) (|output_gate#4| state)) #b1) (= ((_ extract 23 23) (|output_gate#4| state)) #b1) (= ((_ extract 24 24) (|output_gate#4| state)) #b1) (= ((_ extract 25 25) (|output_gate#4| state)) #b1) (= ((_ extract 26 26) (|output_gate#4| state)) #b1) (= ((_ extract 27 27) (|output_gate#4| state)) #b1) (= ((_ extract 28 28) (|output_gate#4| state)) #b1) (= ((_ extract 29 29) (|output_gate#4| state)) #b1) (= ((_ extract 30 30) (|output_gate#4| state)) #b1) (= ((_ extract 31 31) (|output_gate#4| state)) #b1)))) ; $eq$output_gate.v:135$54_Y
-(define-fun |output_gate#187| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#186| state) #b00000000000000000000011111001111 (|output_gate#185| state))) ; $procmux$199_Y
-(define-fun |output_gate#188| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#78| state) (|output_gate#187| state) #b00000000000000000000000000000000)) ; $procmux$202_Y
+(define-fun |output_gate#187| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#186| state) #b00000000000000000000011111001111 (|output_gate#185| state))) ; $procmux$198_Y
+(define-fun |output_gate#188| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#78| state) (|output_gate#187| state) #b00000000000000000000000000000000)) ; $procmux$201_Y
 (define-fun |output_gate#189| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#188| state))) ; $0\alive_left_q[31:0]
 (define-fun |output_gate#190| ((state |output_gate_s|)) Bool (not (or  (|output_gate#86| state) false))) ; $logic_not$output_gate.v:165$58_Y
 (define-fun |output_gate#191| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (|output_gate#190| state) false))) ; $0\hv_enable_q[0:0]
 (define-fun |output_gate#192| ((state |output_gate_s|)) (_ BitVec 1) (bvxor (|output_gate#12| state) (ite (|output_gate#186| state) #b1 #b0))) ; $xor$output_gate.v:167$67_Y
 (define-fun |output_gate#193| ((state |output_gate_s|)) Bool (and (or  (|output_gate#191| state) false) (or  (= ((_ extract 0 0) (|output_gate#192| state)) #b1) false))) ; $0\hv_alive_q[0:0]
-(define-fun |output_gate#194| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#193| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$466
+(define-fun |output_gate#194| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#193| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$465
 (define-fun |output_gate#195| ((state |output_gate_s|)) Bool (or  (|output_gate#56| state) false  (|output_gate#147| state) false)) ; $logic_or$output_gate.v:168$72_Y
 (define-fun |output_gate#196| ((state |output_gate_s|)) Bool (and (or  (|output_gate#191| state) false) (or  (|output_gate#195| state) false))) ; $0\focus_q[0:0]
-(define-fun |output_gate#197| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#196| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$468
-(define-fun |output_gate#198| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#191| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$470
+(define-fun |output_gate#197| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#196| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$467
+(define-fun |output_gate#198| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#191| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$469
 (define-fun |output_gate#199| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#54| state) (|output_gate#48| state))) ; $and$output_gate.v:165$60_Y
 (define-fun |output_gate#200| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (= ((_ extract 2 2) (|output_gate#70| state)) #b1) false))) ; $logic_and$output_gate.v:165$57_Y
 (define-fun |output_gate#201| ((state |output_gate_s|)) Bool (and (or  (|output_gate#200| state) false) (or  (|output_gate#190| state) false))) ; $logic_and$output_gate.v:165$59_Y
 (define-fun |output_gate#202| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#201| state) (|output_gate#199| state) #b00000000000000000000000000000000)) ; $0\channel_q[31:0]
-(define-fun |output_gate#203| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#202| state))) ; $auto$rtlil.cc:3381:Mux$472
+(define-fun |output_gate#203| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#202| state))) ; $auto$rtlil.cc:3381:Mux$471
 (define-fun |output_gate_a| ((state |output_gate_s|)) Bool (and
   (|output_gate_a 0| state)
   (|output_gate_a 1| state)
@@ -330,33 +330,33 @@
 )
 (define-fun |output_gate_h| ((state |output_gate_s|)) Bool true)
 (define-fun |output_gate_t| ((state |output_gate_s|) (next_state |output_gate_s|)) Bool (and
-  (= (|output_gate#127| state) (|output_gate#98| next_state)) ; $procdff$341 \underruns_q
-  (= (ite (|output_gate#44| state) #b1 #b0) (|output_gate#95| next_state)) ; $procdff$387 \underrun_1_q
-  (= (|output_gate#5| state) (|output_gate#90| next_state)) ; $procdff$365 \silent_1_q
-  (= (|output_gate#131| state) (|output_gate#89| next_state)) ; $procdff$335 \silence_q
-  (= (|output_gate#134| state) (|output_gate#87| next_state)) ; $procdff$343 \settle_left_q
-  (= (|output_gate#139| state) (|output_gate#85| next_state)) ; $procdff$339 \resting_q
-  (= (|output_gate#143| state) (|output_gate#84| next_state)) ; $procdff$338 \rest_left_q
-  (= (ite (|output_gate#86| state) #b1 #b0) (|output_gate#81| next_state)) ; $procdff$362 \rst_1_q
-  (= (ite (|output_gate#37| state) #b1 #b0) (|output_gate#79| next_state)) ; $procdff$363 \permit_1_q
-  (= (|output_gate#145| state) (|output_gate#70| next_state)) ; $procdff$345 \moves_later_q
-  (= (|output_gate#48| state) (|output_gate#68| next_state)) ; $procdff$367 \mask_1_q
-  (= (|output_gate#152| state) (|output_gate#63| next_state)) ; $procdff$346 \focus_left_q
-  (= (|output_gate#154| state) (|output_gate#62| next_state)) ; $procdff$342 \fault_time_q
-  (= (|output_gate#158| state) (|output_gate#61| next_state)) ; $procdff$337 \fault_q
-  (= (|output_gate#161| state) (|output_gate#60| next_state)) ; $procdff$340 \fault_count_q
-  (= (ite (|output_gate#162| state) #b1 #b0) (|output_gate#59| next_state)) ; $procdff$366 \exists_1_q
-  (= (|output_gate#166| state) (|output_gate#55| next_state)) ; $procdff$347 \emissions_q
-  (= (|output_gate#54| state) (|output_gate#53| next_state)) ; $procdff$390 \drive_1_q
-  (= (ite (|output_gate#41| state) #b1 #b0) (|output_gate#51| next_state)) ; $procdff$364 \cool_1_q
-  (= (|output_gate#168| state) (|output_gate#33| next_state)) ; $procdff$344 \on_later_q
-  (= #b1 (|output_gate#22| next_state)) ; $procdff$361 \started_q
-  (= (|output_gate#46| state) (|output_gate#19| next_state)) ; $procdff$368 \limits_1_q
-  (= (|output_gate#180| state) (|output_gate#17| next_state)) ; $procdff$334 \state_q
-  (= (|output_gate#184| state) (|output_gate#5| next_state)) ; $procdff$336 \silent_q
-  (= (|output_gate#189| state) (|output_gate#4| next_state)) ; $procdff$348 \alive_left_q
-  (= (|output_gate#194| state) (|output_gate#3| next_state)) ; $procdff$360 \_witness_.anyinit_procdff_360
-  (= (|output_gate#197| state) (|output_gate#2| next_state)) ; $procdff$357 \_witness_.anyinit_procdff_357
-  (= (|output_gate#198| state) (|output_gate#1| next_state)) ; $procdff$354 \_witness_.anyinit_procdff_354
-  (= (|output_gate#203| state) (|output_gate#0| next_state)) ; $procdff$351 \_witness_.anyinit_procdff_351
+  (= (|output_gate#127| state) (|output_gate#98| next_state)) ; $procdff$340 \underruns_q
+  (= (ite (|output_gate#44| state) #b1 #b0) (|output_gate#95| next_state)) ; $procdff$386 \underrun_1_q
+  (= (|output_gate#5| state) (|output_gate#90| next_state)) ; $procdff$364 \silent_1_q
+  (= (|output_gate#131| state) (|output_gate#89| next_state)) ; $procdff$334 \silence_q
+  (= (|output_gate#134| state) (|output_gate#87| next_state)) ; $procdff$342 \settle_left_q
+  (= (|output_gate#139| state) (|output_gate#85| next_state)) ; $procdff$338 \resting_q
+  (= (|output_gate#143| state) (|output_gate#84| next_state)) ; $procdff$337 \rest_left_q
+  (= (ite (|output_gate#86| state) #b1 #b0) (|output_gate#81| next_state)) ; $procdff$361 \rst_1_q
+  (= (ite (|output_gate#37| state) #b1 #b0) (|output_gate#79| next_state)) ; $procdff$362 \permit_1_q
+  (= (|output_gate#145| state) (|output_gate#70| next_state)) ; $procdff$344 \moves_later_q
+  (= (|output_gate#48| state) (|output_gate#68| next_state)) ; $procdff$366 \mask_1_q
+  (= (|output_gate#152| state) (|output_gate#63| next_state)) ; $procdff$345 \focus_left_q
+  (= (|output_gate#154| state) (|output_gate#62| next_state)) ; $procdff$341 \fault_time_q
+  (= (|output_gate#158| state) (|output_gate#61| next_state)) ; $procdff$336 \fault_q
+  (= (|output_gate#161| state) (|output_gate#60| next_state)) ; $procdff$339 \fault_count_q
+  (= (ite (|output_gate#162| state) #b1 #b0) (|output_gate#59| next_state)) ; $procdff$365 \exists_1_q
+  (= (|output_gate#166| state) (|output_gate#55| next_state)) ; $procdff$346 \emissions_q
+  (= (|output_gate#54| state) (|output_gate#53| next_state)) ; $procdff$389 \drive_1_q
+  (= (ite (|output_gate#41| state) #b1 #b0) (|output_gate#51| next_state)) ; $procdff$363 \cool_1_q
+  (= (|output_gate#168| state) (|output_gate#33| next_state)) ; $procdff$343 \on_later_q
+  (= #b1 (|output_gate#22| next_state)) ; $procdff$360 \started_q
+  (= (|output_gate#46| state) (|output_gate#19| next_state)) ; $procdff$367 \limits_1_q
+  (= (|output_gate#180| state) (|output_gate#17| next_state)) ; $procdff$333 \state_q
+  (= (|output_gate#184| state) (|output_gate#5| next_state)) ; $procdff$335 \silent_q
+  (= (|output_gate#189| state) (|output_gate#4| next_state)) ; $procdff$347 \alive_left_q
+  (= (|output_gate#194| state) (|output_gate#3| next_state)) ; $procdff$359 \_witness_.anyinit_procdff_359
+  (= (|output_gate#197| state) (|output_gate#2| next_state)) ; $procdff$356 \_witness_.anyinit_procdff_356
+  (= (|output_gate#198| state) (|output_gate#1| next_state)) ; $procdff$353 \_witness_.anyinit_procdff_353
+  (= (|output_gate#203| state) (|output_gate#0| next_state)) ; $procdff$350 \_witness_.anyinit_procdff_350
 )) ; end of module output_gate

