@@ -90,6 +90,10 @@ def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
 
 
+def test_the_core_without_a_uart_has_no_warning_either():
+    assert verilator(TOP, RTL / f"{TOP}.v", parameters=BUILT_IN | {"UART": 0}) == (0, "")
+
+
 LIMITS = [name for name in BUILT_IN if name not in ("CLOCK_HZ", "SLOTS", "BUILD_HASH", "BOARD")]
 
 
