@@ -1,4 +1,4 @@
-; of e5af123b771596dea993c2ca7929c0905bf05be1013ffac8c326943e80e81d60, by python -m tests.rtl.proofs
+; of 28d71212f6471b7a0c8d94ef87b50c48f4dda8328f40c42dab53d90caee10bea, by python -m tests.rtl.proofs
 (declare-sort |output_gate_s| 0)
 (declare-fun |output_gate_is| (|output_gate_s|) Bool)
 (declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_350

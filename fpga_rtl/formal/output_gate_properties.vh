@@ -130,7 +130,7 @@ always @* if (started_q) begin
         if (moves_later_q[0]) assert (on_later_q[0] && age_1_q == SETTLED);
         if (moves_later_q[1]) assert (on_later_q[1] && age_2_q == SETTLED);
         if (moves_later_q[2]) assert (on_later_q[2] && age_3_q == SETTLED);
-        if (channel_q != 0)   assert (hv_enable_q && age_4_q == SETTLED);
+        if (channel_q != 0)   edges_once_settled: assert (hv_enable_q && age_4_q == SETTLED);
         if (on && age_q != 0)              assert (on_later_q[0] && age_q == longer(age_1_q));
         if (on_later_q[0] && age_1_q != 0) assert (on_later_q[1] && age_1_q == longer(age_2_q));
         if (on_later_q[1] && age_2_q != 0) assert (on_later_q[2] && age_2_q == longer(age_3_q));

@@ -61,9 +61,10 @@ class Netlist:
             return
         if mode == "DPRAM":
             memory = cell.own("memory")
-            yield f"reg [15:0] {memory} = 16'b{cell.text('INITVAL')};"
-            yield f"assign {cell.out('F')} = {memory}[{cell.bus(select)}];"
+            yield f"reg [15:0] {memory} = 16'd0;"
             assert cell.text("WCKMUX") == "WCK"
+            assert set(cell.text("INITVAL")) == {"0"}
+            yield f"assign {cell.out('F')} = {memory}[{cell.bus(['A', 'C', 'B', 'D'])}];"  # in the order of the write side
             write = f"{memory}[{cell.bus(['WAD3', 'WAD2', 'WAD1', 'WAD0'])}] <= {cell.pin('WD')}"
             yield f"always @(posedge {cell.pin('WCK')}) if ({cell.pin('WRE')}) {write};"
             return
