@@ -47,7 +47,7 @@ module frame_relay (
 
     wire       start = full_q && !turn_q && !busy_i;
     wire       run   = turn_q && !busy_i;
-    wire       last  = run && due_q;
+    wire       last  = due_q && !busy_i;  // due_q only while turn_q
 
     always @(posedge clk_i) begin
         if (word_valid_i && !word_number_i[7]) words[word_number_i[6:0]] <= word_i;

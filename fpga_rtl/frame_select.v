@@ -32,6 +32,7 @@ module frame_select (
     output wire         judge_o,              // it may have changed a clock ago, or is accepted: results hold only then
     output wire         accept_o,             // pulse
     output wire [7:0]   kind_o, sequence_o,
+    output wire         read_o, write_o, load_o, store_o, play_o,  // pulses: it is accepted, and of this kind
     output wire [15:0]  argument_o,
     output wire [6:0]   payload_words_o,
     output wire [191:0] words_o,              // first six of the payload, the first lowest
@@ -48,8 +49,10 @@ module frame_select (
     reg  [6:0]   payload_words_q;
     reg  [1:0]   taken_q;
     reg          returned_q, chosen_q, fast_q, lengths_q;
+    reg          is_read_q, is_write_q, is_load_q, is_store_q, is_play_q;
 
     wire         from_uart = uart_begin_i || uart_turn_i;
+    wire [7:0]   kind      = from_uart ? uart_kind_i : spi_kind_i;
     wire         choose    = taken_q != 2'b00 || from_uart || returned_q;
 
     wire         word_valid  = spi_word_valid_i || uart_word_valid_i;
@@ -61,7 +64,7 @@ module frame_select (
         play_word = 1'b0;
         if (word_valid) begin
             load_word = spi_load_word_i || uart_load_word_i;
-            play_word = kind_q == `TYPE_PLAY;
+            play_word = is_play_q;
         end
     end
 
@@ -70,16 +73,22 @@ module frame_select (
         returned_q <= uart_turn_i;
         chosen_q   <= choose;
         if (choose) begin
-            kind_q          <= from_uart ? uart_kind_i          : spi_kind_i;
+            kind_q          <= kind;
+            is_read_q       <= kind == `TYPE_READ;
+            is_write_q      <= kind == `TYPE_WRITE;
+            is_load_q       <= kind == `TYPE_LOAD;
+            is_store_q      <= kind == `TYPE_STORE;
+            is_play_q       <= kind == `TYPE_PLAY;
             sequence_q      <= from_uart ? uart_sequence_i      : spi_sequence_i;
             argument_q      <= from_uart ? uart_argument_i      : spi_argument_i;
             payload_words_q <= from_uart ? uart_payload_words_i : spi_payload_words_i;
         end
         if (word_valid && word_number < 8'd6) words_q[{word_number[2:0], 5'd0} +: 32] <= word_o;
         lengths_q <= play_word && word_number == 8'd2;
-        if (accept_o && kind_q == `TYPE_LOAD) fast_q <= spi_fast_i && !uart_turn_i;
+        if (load_o) fast_q <= spi_fast_i && !uart_turn_i;
         if (rst_i) begin
             kind_q          <= `TYPE_NOP;
+            {is_read_q, is_write_q, is_load_q, is_store_q, is_play_q} <= 5'd0;
             sequence_q      <= 8'd0;
             argument_q      <= 16'd0;
             words_q         <= 192'd0;
@@ -99,6 +108,11 @@ module frame_select (
 `endif
     assign accept_o        = spi_accept_i || uart_accept_i;
     assign kind_o          = kind_q;
+    assign read_o          = accept_o && is_read_q;
+    assign write_o         = accept_o && is_write_q;
+    assign load_o          = accept_o && is_load_q;
+    assign store_o         = accept_o && is_store_q;
+    assign play_o          = accept_o && is_play_q;
     assign sequence_o      = sequence_q;
     assign argument_o      = argument_q;
     assign payload_words_o = payload_words_q;

@@ -130,7 +130,8 @@ module haptic_core #(
         .word_valid_o(spi_word_valid), .word_number_o(spi_word_number), .word_o(spi_word), .load_word_o(spi_load_word)
     );
 
-    wire         judge, accept, load_word, play_word, lengths, fast, landing_was_busy, landing_was_live;
+    wire         judge, accept, read, write, load, store, play;
+    wire         load_word, play_word, lengths, fast, landing_was_busy, landing_was_live;
     wire [7:0]   kind, sequence_number;
     wire [15:0]  argument;
     wire [191:0] words;
@@ -148,7 +149,7 @@ module haptic_core #(
         .uart_landing_busy_i(uart_landing_busy), .uart_landing_live_i(uart_landing_live),
         .uart_word_valid_i(uart_word_valid), .uart_load_word_i(uart_load_word), .uart_word_number_i(uart_word_number),
         .uart_word_i(uart_word),
-        .judge_o(judge), .accept_o(accept), .kind_o(kind), .sequence_o(sequence_number), .argument_o(argument),
+        .judge_o(judge), .accept_o(accept), .read_o(read), .write_o(write), .load_o(load), .store_o(store), .play_o(play), .kind_o(kind), .sequence_o(sequence_number), .argument_o(argument),
         .payload_words_o(payload_words), .words_o(words), .landing_busy_o(landing_was_busy), .landing_live_o(landing_was_live),
         .fast_o(fast), .load_word_o(load_word), .play_word_o(play_word), .lengths_o(lengths),
         .word_number_o(word_number), .word_o(word)
@@ -160,7 +161,6 @@ module haptic_core #(
     wire [1:0]   done;                       // by UART (1), by SPI (0)
     wire [7:0]   done_result, done_sequence, spi_result, spi_last, uart_last;
     wire [31:0]  done_data, spi_data;
-    wire         play_accept = accept && kind == `TYPE_PLAY;
     frame_result frame_result (
         .clk_i(clk_i), .rst_i(rst_i), .accept_i(accept), .uart_i(from_uart),
         .kind_i(kind), .sequence_i(sequence_number), .page_i(argument[15:6]),
@@ -195,7 +195,7 @@ module haptic_core #(
         .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH), .BOARD(BOARD)
     ) register_file (
         .clk_i(clk_i), .rst_i(rst_i),
-        .judge_i(judge), .accept_i(accept), .read_i(accept && kind == `TYPE_READ), .write_i(accept && kind == `TYPE_WRITE),
+        .judge_i(judge), .accept_i(accept), .read_i(read), .write_i(write),
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
         .off_i(off), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
@@ -253,7 +253,7 @@ module haptic_core #(
     waveform_buffer #(.SLOTS(SLOTS), .BUFFER_BITS(BUFFER_BITS)) waveform_buffer (
         .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .look_i(kind == `TYPE_STORE),
         .write_i(load_word), .write_word_i(word_number), .write_data_i(word),
-        .load_i(accept && kind == `TYPE_LOAD), .store_i(accept && kind == `TYPE_STORE),
+        .load_i(load), .store_i(store),
         .argument_i(argument), .word0_i(words[31:0]), .word1_i(words[63:32]), .load_words_i(payload_words),
         .load_busy_i(landing_was_busy), .load_live_i(landing_was_live), .live_i(landing_live),
         .load_result_o(load_result), .store_result_o(store_result),
@@ -266,7 +266,7 @@ module haptic_core #(
     );
 
     play_check #(.BUFFER_BITS(BUFFER_BITS)) play_check (
-        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths), .accept_i(play_accept), .forget_i(stop || disarm || shut),
+        .clk_i(clk_i), .rst_i(rst_i), .judge_i(judge), .begin_i(lengths), .accept_i(play), .forget_i(stop || disarm || shut),
         .argument_i(argument), .first_i(words[15:0]), .asked_i(words[31:16]), .count_i(words[47:32]), .start_i(words[55:48]),
         .polarity_i(words[63:56]), .period_i(words[95:64]), .when_i(words[191:128]),
         .bit_period_i(bit_period), .emission_ticks_i(emission_ticks), .now_i(now),
@@ -280,7 +280,7 @@ module haptic_core #(
     play_queue #(.BUFFER_BITS(BUFFER_BITS)) play_queue (
         .clk_i(clk_i), .rst_i(rst_i), .select_i(spi_select || uart_begin),
         .write_i(play_word), .write_word_i(word_number[2:0]), .write_data_i(word),
-        .push_i(play_accept && play_good), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
+        .push_i(play && play_good), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
         .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),

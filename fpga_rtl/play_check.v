@@ -41,28 +41,37 @@ module play_check #(
     output wire [BUFFER_BITS-1:0] buffer_o,
     output wire [9:0]             length_o
 );
+    localparam [63:0] TIME_LEAD_TICKS = `TIME_LEAD_TICKS;  // below 32
     wire        scheduled = start_i == {6'd0, `START_TIME};
     wire        live      = argument_i == `PLAY_LANDING;
     wire [9:0]  held   = live ? 10'd1000 : slot_words_i;
-    wire [9:0]  length = asked_i == 16'd0 ? held - first_i[9:0] : asked_i[9:0];
-    wire        range_good = first_i < {6'd0, held} && {1'b0, first_i} + {1'b0, asked_i} <= {7'd0, held}
-                             && !(live && first_i != 16'd0);
+    wire [10:0] left   = {1'b0, held} - {1'b0, first_i[9:0]};  // words from the first on; negative: it is behind the end
+    wire [9:0]  length = asked_i == 16'd0 ? left[9:0] : asked_i[9:0];
+    wire        range_good = first_i[15:10] == 6'd0 && !left[10] && left[9:0] != 10'd0
+                             && asked_i[15:10] == 6'd0 && asked_i[9:0] <= left[9:0] && !(live && first_i != 16'd0);
 
     // length x BIT_PERIOD, then (count - 1) x period
     reg [5:0]  step_q;               // 63: done
     reg [15:0] bits_q;               // of the multiplier, highest first
     reg [47:0] product_q;
     reg [31:0] sounding_q;           // ticks from the first word to the end of the last
-    reg [48:0] span_q;               // ticks from the first word of all to where another play may begin
+    reg [32:0] rested_q;             // and to the end of the idle word behind it
+    reg [48:0] span_q;               // ticks from the first word of all to where another play may begin, but for the last
     reg [9:0]  length_q;
     reg        live_q, unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
     reg        open_q;               // from then on, until it is accepted
-    reg [63:0] lead_q, free_q;       // earliest time that can still be met, that is not taken
+    reg [64:0] ahead_q;              // ticks until its time; negative: it has passed
+    reg [63:0] free_q;               // earliest time that is not taken
     reg        late_q, overlap_q;
 
     wire [31:0] rest    = {16'd0, bit_period_i[31:16]};
     wire [47:0] doubled = {product_q[46:0], 1'b0};
     wire        second  = step_q >= 6'd12;
+    // and two ticks, so that the next can be fetched: each as the carry into a sum
+    /* verilator lint_off UNUSEDSIGNAL */
+    wire [49:0] span    = {1'b0, product_q, 1'b1} + {16'd0, rested_q, 1'b1};
+    wire [64:0] free    = {when_i, 1'b1} + {15'd0, span_q, 1'b1};
+    /* verilator lint_on UNUSEDSIGNAL */
 
     always @(posedge clk_i) begin
         if (begin_i) begin
@@ -76,16 +85,17 @@ module play_check #(
             product_q  <= 48'd0;
         end else if (step_q == 6'd28) begin
             step_q <= 6'd63;
-            span_q <= {1'b0, product_q} + {17'd0, sounding_q} + {17'd0, rest} + 49'd2;  // so that the next can be fetched
+            span_q <= span[49:1];
         end else if (step_q != 6'd63) begin
             step_q    <= step_q + 6'd1;
             bits_q    <= {bits_q[14:0], 1'b0};
             product_q <= doubled + (bits_q[15] ? {16'd0, second ? period_i : bit_period_i} : 48'd0);
         end
         if (step_q != 6'd63) begin
+            rested_q       <= {1'b0, sounding_q} + {1'b0, rest};
             long_q         <= sounding_q > emission_ticks_i;
             back_to_back_q <= period_i == sounding_q;
-            roomy_q        <= {1'b0, period_i} >= {1'b0, sounding_q} + {1'b0, rest};
+            roomy_q        <= {1'b0, period_i} >= rested_q;
         end
 
         if (judge_i) begin
@@ -99,18 +109,19 @@ module play_check #(
         if (begin_i)       open_q <= 1'b1;
         else if (accept_i) open_q <= 1'b0;
         if (open_q) begin
-            lead_q    <= now_i + `TIME_LEAD_TICKS;
-            late_q    <= when_i < lead_q;
+            ahead_q   <= {1'b0, when_i} - {1'b0, now_i};
+            late_q    <= ahead_q[64] || (ahead_q[63:5] == 59'd0 && ahead_q[4:0] < TIME_LEAD_TICKS[4:0]);
             overlap_q <= when_i < free_q;
         end
 
-        if (accept_i && good_o && scheduled) free_q <= when_i + {15'd0, span_q};
+        if (accept_i && good_o && scheduled) free_q <= free[64:1];
         if (forget_i) free_q <= 64'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
             bits_q         <= 16'd0;
             product_q      <= 48'd0;
             sounding_q     <= 32'd0;
+            rested_q       <= 33'd0;
             span_q         <= 49'd0;
             length_q       <= 10'd0;
             live_q         <= 1'b0;
@@ -118,11 +129,12 @@ module play_check #(
             empty_q        <= 1'b0;
             range_good_q   <= 1'b0;
             start_good_q   <= 1'b0;
+            rested_q       <= {1'b0, sounding_q} + {1'b0, rest};
             long_q         <= 1'b0;
             back_to_back_q <= 1'b0;
             roomy_q        <= 1'b0;
             open_q         <= 1'b0;
-            lead_q         <= 64'd0;
+            ahead_q        <= 65'd0;
             free_q         <= 64'd0;
             late_q         <= 1'b0;
             overlap_q      <= 1'b0;

@@ -97,16 +97,16 @@ module register_file #(
     wire [31:0] word2 = words_i[95:64];
     wire [31:0] word3 = words_i[127:96];
 
-    // of each link
-    reg [31:0] spi_errors_q, uart_errors_q, spi_gaps_q, uart_gaps_q;
-    reg [31:0] spi_high_q, uart_high_q;  // half of the time whose LOW was read last
-    reg [1:0]  unlocked_q;         // by the frame before
+    reg [1:0]  unlocked_q;         // by the frame before, of each link
 
     localparam ADDRESS_BITS = $clog2(`REGISTER_COUNT);
     wire [15:0] register = {{16-ADDRESS_BITS{1'b0}}, address_i[ADDRESS_BITS-1:0]};  // where known_q
     wire        change;            // the register is a setting, and takes word0
 
     // generated: settings
+    localparam SETTINGS = 11, KEPT_BITS = 4;
+    reg [31:0] kept [0:SETTINGS-1];  // for a READ, by their place in this list
+    reg [SETTINGS-1:0] written_q;
     reg [31:0] idle_word_q;
     reg [31:0] channel_mask_q;
     reg [31:0] bit_period_q;
@@ -162,19 +162,31 @@ module register_file #(
     // end of settings
 
     wire [31:0] bit_ticks     = {16'd0, bit_period_q[31:16]};
-    wire [31:0] frame_errors  = uart_i ? uart_errors_q : spi_errors_q;
-    wire [31:0] sequence_gaps = uart_i ? uart_gaps_q : spi_gaps_q;
-    wire [31:0] held          = uart_i ? uart_high_q : spi_high_q;
+    wire        hold;
+    wire [31:0] own;               // of this link
+    wire [31:0] frame_errors = own, sequence_gaps = own, held = own;
+    link_counters link_counters (
+        .clk_i(clk_i), .rst_i(rst_i), .accept_i(accept_i), .uart_i(uart_i), .gap_i(gap_i), .refused_i(refused_i),
+        .hold_i(hold), .high_i(high),
+        .which_i(register == `REGISTER_FRAME_ERRORS ? 2'd0 : register == `REGISTER_SEQUENCE_GAPS ? 2'd1 : 2'd2), .value_o(own)
+    );
 
     reg [31:0] value;              // of the register
     reg [31:0] high;               // the other half of a time
     reg        low;                // whose LOW the register is
-    reg        setting, in_range;  // it is a setting; word0 is a value for it
+    reg        setting;            // it is a setting, which takes words from least to most without a bit of barred
+    reg [31:0] least, most, barred;
+    reg [KEPT_BITS-1:0] place;     // of the setting
+    reg        in_range;
     always @* begin
         value    = 32'd0;
         high     = 32'd0;
         low      = 1'b0;
         setting  = 1'b0;
+        least    = 32'd0;
+        most     = 32'hFFFFFFFF;
+        barred   = 32'd0;
+        place    = {KEPT_BITS{1'b0}};
         in_range = 1'b1;
         if (judge_i) case (register)
             // generated: read
@@ -187,58 +199,72 @@ module register_file #(
             `REGISTER_PARAMETERS: value = PARAMETERS;
             `REGISTER_EDGE_WINDOW_TICKS: value = EDGE_WINDOW_TICKS;
             `REGISTER_IDLE_WORD: begin
-                value    = idle_word_q;
-                setting  = 1'b1;
+                value   = 32'd0;
+                setting = 1'b1;
             end
             `REGISTER_CHANNEL_MASK: begin
-                value    = channel_mask_q;
-                setting  = 1'b1;
-                in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;
+                value   = CHANNEL_MASK_MAX;
+                setting = 1'b1;
+                place   = 1;
+                barred  = ~CHANNEL_MASK_MAX;
             end
             `REGISTER_BIT_PERIOD: begin
-                value    = bit_period_q;
-                setting  = 1'b1;
-                in_range = word0 >= BIT_PERIOD_LOW && word0 <= BIT_PERIOD_HIGH;
+                value   = BIT_PERIOD_RESET;
+                setting = 1'b1;
+                place   = 2;
+                least   = BIT_PERIOD_LOW;
+                most    = BIT_PERIOD_HIGH;
             end
             `REGISTER_RAMP_SAMPLES: begin
-                value    = {14'd0, ramp_samples_q};
-                setting  = 1'b1;
-                in_range = word0 != 32'd0 && word0 <= `RAMP_SAMPLES_MAX;
+                value   = RAMP_SAMPLES_RESET;
+                setting = 1'b1;
+                place   = 3;
+                least   = 32'd1;
+                most    = `RAMP_SAMPLES_MAX;
             end
             `REGISTER_HEARTBEAT_TICKS: begin
-                value    = heartbeat_ticks_q;
-                setting  = 1'b1;
-                in_range = word0 != 32'd0 && word0 <= HEARTBEAT_TICKS_MAX;
+                value   = HEARTBEAT_TICKS_MAX;
+                setting = 1'b1;
+                place   = 4;
+                least   = 32'd1;
+                most    = HEARTBEAT_TICKS_MAX;
             end
             `REGISTER_PULSE_TICKS: begin
-                value    = {16'd0, pulse_ticks_q};
-                setting  = 1'b1;
-                in_range = word0 >= PULSE_TICKS_MIN && word0 <= bit_ticks;
+                value   = PULSE_TICKS_MIN;
+                setting = 1'b1;
+                place   = 5;
+                least   = PULSE_TICKS_MIN;
+                most    = bit_ticks;
             end
             `REGISTER_CHANNEL_EDGES: begin
-                value    = {8'd0, channel_edges_q};
-                setting  = 1'b1;
-                in_range = word0 <= CHANNEL_EDGES_MAX;
+                value   = CHANNEL_EDGES_MAX;
+                setting = 1'b1;
+                place   = 6;
+                most    = CHANNEL_EDGES_MAX;
             end
             `REGISTER_TOTAL_EDGES: begin
-                value    = {3'd0, total_edges_q};
-                setting  = 1'b1;
-                in_range = word0 <= TOTAL_EDGES_MAX;
+                value   = TOTAL_EDGES_MAX;
+                setting = 1'b1;
+                place   = 7;
+                most    = TOTAL_EDGES_MAX;
             end
             `REGISTER_EMISSION_TICKS: begin
-                value    = emission_ticks_q;
-                setting  = 1'b1;
-                in_range = word0 <= EMISSION_TICKS_MAX;
+                value   = EMISSION_TICKS_MAX;
+                setting = 1'b1;
+                place   = 8;
+                most    = EMISSION_TICKS_MAX;
             end
             `REGISTER_DUTY_SHARE: begin
-                value    = {15'd0, duty_share_q};
-                setting  = 1'b1;
-                in_range = word0 <= DUTY_SHARE_MAX;
+                value   = DUTY_SHARE_MAX;
+                setting = 1'b1;
+                place   = 9;
+                most    = DUTY_SHARE_MAX;
             end
             `REGISTER_DUTY_TICKS: begin
-                value    = duty_ticks_q;
-                setting  = 1'b1;
-                in_range = word0 <= DUTY_TICKS_MAX;
+                value   = DUTY_TICKS_MAX;
+                setting = 1'b1;
+                place   = 10;
+                most    = DUTY_TICKS_MAX;
             end
             `REGISTER_FAULT: value = {16'd0, fault_i};
             `REGISTER_FAULT_CHANNELS: value = fault_channels_i;
@@ -274,29 +300,41 @@ module register_file #(
             // end of read
             default: ;
         endcase
-        if (judge_i && register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q) in_range = 1'b0;
+        if (judge_i && setting) begin
+            if (written_q[place]) value = kept[place];
+            in_range = word0 >= least && word0 <= most && (word0 & barred) == 32'd0
+                       && !(register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q);
+        end
+    end
+    assign hold = read_i && known_q && low;
+
+    always @(posedge clk_i) begin
+        if (change) kept[place] <= word0;
     end
 
     // Address and words rest long before their frame ends: what they mean is found out a clock early
-    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, known_q, idle_q;
+    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, takes_q, known_q, idle_q;
 
+    wire command = address_i == `REGISTER_CONTROL;
+    wire known   = address_i < `REGISTER_COUNT;
     always @(posedge clk_i) begin
         if (judge_i) begin
-            known_q    <= address_i < `REGISTER_COUNT;
-            control_q  <= address_i == `REGISTER_CONTROL;
+            known_q    <= known;
+            control_q  <= command;
             idle_q     <= register == `REGISTER_BIT_PERIOD;
-            arm_q      <= word0 == `CONTROL_ARM;
-            disarm_q   <= word0 == `CONTROL_DISARM;
-            clear_q    <= word0 == `CONTROL_CLEAR;
-            stop_q     <= word0 == `CONTROL_STOP;
-            unlock_q   <= word0 == `CONTROL_UNLOCK;
-            trigger_q  <= word0 == `CONTROL_TRIGGER;
+            arm_q      <= command && word0 == `CONTROL_ARM;
+            disarm_q   <= command && word0 == `CONTROL_DISARM;
+            clear_q    <= command && word0 == `CONTROL_CLEAR;
+            stop_q     <= command && word0 == `CONTROL_STOP;
+            unlock_q   <= command && word0 == `CONTROL_UNLOCK;
+            trigger_q  <= command && word0 == `CONTROL_TRIGGER;
             key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
             setting_q  <= setting;
+            takes_q    <= setting && known && in_range;
             in_range_q <= in_range;
         end
         if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
-                    in_range_q} <= 12'd0;
+                    in_range_q, takes_q} <= 13'd0;
     end
 
     wire unlocked = unlocked_q[uart_i];
@@ -310,33 +348,16 @@ module register_file #(
         else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
     end
 
-    wire command  = write_i && control_q;
     wire free     = idle_q ? quiet_i : off_i;            // BIT_PERIOD is written while nothing plays or waits, all others while disarmed
-    assign change = write_i && known_q && setting_q && free && in_range_q;
+    assign change = write_i && takes_q && free;
 
     always @(posedge clk_i) begin
-        if (read_i && known_q && low) begin
-            if (uart_i) uart_high_q <= high;
-            else        spi_high_q  <= high;
-        end
-        if (refused_i != 2'b00) begin
-            if (refused_i[0]) spi_errors_q  <= spi_errors_q + 32'd1;
-            if (refused_i[1]) uart_errors_q <= uart_errors_q + 32'd1;
-            unlocked_q <= unlocked_q & ~refused_i;
-        end
-        if (accept_i) begin
-            if (gap_i && !uart_i) spi_gaps_q  <= spi_gaps_q + 32'd1;
-            if (gap_i && uart_i)  uart_gaps_q <= uart_gaps_q + 32'd1;
-            unlocked_q[uart_i] <= command && unlock_q && key_good_q;
-        end
+        if (refused_i != 2'b00) unlocked_q <= unlocked_q & ~refused_i;
+        if (accept_i) unlocked_q[uart_i] <= write_i && unlock_q && key_good_q;
+        if (change) written_q[place] <= 1'b1;
         if (rst_i) begin
-            spi_errors_q      <= 32'd0;
-            uart_errors_q     <= 32'd0;
-            spi_gaps_q        <= 32'd0;
-            uart_gaps_q       <= 32'd0;
-            spi_high_q        <= 32'd0;
-            uart_high_q       <= 32'd0;
-            unlocked_q        <= 2'b00;
+            unlocked_q <= 2'b00;
+            written_q  <= {SETTINGS{1'b0}};
         end
     end
 
@@ -356,7 +377,7 @@ module register_file #(
     reg arm, disarm, clear, stop, trigger;
     always @* begin
         {arm, disarm, clear, stop, trigger} = 5'd0;
-        if (command) begin
+        if (write_i) begin
             arm     = arm_q && arm_good;
             disarm  = disarm_q;
             clear   = clear_q;

@@ -79,13 +79,28 @@ module safety_island #(
         end
     endgenerate
 
-    function [31:0] least(input [31:0] asked, input [31:0] limit);
-        least = asked > limit ? limit : asked;
-    endfunction
+    // What a limit has at most
+    localparam HEARTBEAT_BITS = $clog2((HEARTBEAT_TICKS_MAX | 32'd1) + 32'd1);
+    localparam EDGE_BITS      = $clog2((CHANNEL_EDGES_MAX | 32'd1) + 32'd1);
+    localparam TOTAL_BITS     = $clog2((TOTAL_EDGES_MAX | 32'd1) + 32'd1);
+    localparam EMISSION_BITS  = $clog2((EMISSION_TICKS_MAX | 32'd1) + 32'd1);
+    localparam DUTY_BITS      = $clog2((DUTY_TICKS_MAX | 32'd1) + 32'd1);
+
+    wire most_heartbeat = heartbeat_ticks_i > HEARTBEAT_TICKS_MAX;
+    wire most_edges     = channel_edges_i > CHANNEL_EDGES_MAX;
+    wire most_total     = total_edges_i > TOTAL_EDGES_MAX;
+    wire most_emission  = emission_ticks_i > EMISSION_TICKS_MAX;
+    wire most_share     = duty_share_i > DUTY_SHARE_MAX[16:0];
+    wire most_duty      = duty_ticks_i > DUTY_TICKS_MAX;
+    wire least_pulse    = pulse_ticks_i < PULSE_TICKS_MIN[15:0];
 
     reg [1:0]  run_permit_q, temperature_ok_q;
     reg        link_q;                     // that armed
-    reg [31:0] heartbeat_ticks_q, channel_edges_q, total_edges_q, emission_ticks_q, duty_ticks_q;
+    reg [HEARTBEAT_BITS-1:0] heartbeat_ticks_q;
+    reg [EDGE_BITS-1:0]      channel_edges_q;
+    reg [TOTAL_BITS-1:0]     total_edges_q;
+    reg [EMISSION_BITS-1:0]  emission_ticks_q;
+    reg [DUTY_BITS-1:0]      duty_ticks_q;
     reg [15:0] pulse_ticks_q;
     reg [16:0] duty_share_q;
 
@@ -99,25 +114,25 @@ module safety_island #(
         run_permit_q      <= {run_permit_q[0], run_permit_i};
         temperature_ok_q  <= {temperature_ok_q[0], temperature_ok_i};
         if (off_o) begin                   // what is asked for while anything is on does not count
-            heartbeat_ticks_q <= least(heartbeat_ticks_i, HEARTBEAT_TICKS_MAX);
-            channel_edges_q   <= least(channel_edges_i, CHANNEL_EDGES_MAX);
-            total_edges_q     <= least(total_edges_i, TOTAL_EDGES_MAX);
-            emission_ticks_q  <= least(emission_ticks_i, EMISSION_TICKS_MAX);
-            duty_share_q      <= duty_share_i > DUTY_SHARE_MAX[16:0] ? DUTY_SHARE_MAX[16:0] : duty_share_i;
-            duty_ticks_q      <= least(duty_ticks_i, DUTY_TICKS_MAX);
-            pulse_ticks_q     <= pulse_ticks_i < PULSE_TICKS_MIN[15:0] ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
+            heartbeat_ticks_q <= most_heartbeat ? HEARTBEAT_TICKS_MAX[HEARTBEAT_BITS-1:0] : heartbeat_ticks_i[HEARTBEAT_BITS-1:0];
+            channel_edges_q   <= most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] : channel_edges_i[EDGE_BITS-1:0];
+            total_edges_q     <= most_total ? TOTAL_EDGES_MAX[TOTAL_BITS-1:0] : total_edges_i[TOTAL_BITS-1:0];
+            emission_ticks_q  <= most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] : emission_ticks_i[EMISSION_BITS-1:0];
+            duty_share_q      <= most_share ? DUTY_SHARE_MAX[16:0] : duty_share_i;
+            duty_ticks_q      <= most_duty ? DUTY_TICKS_MAX[DUTY_BITS-1:0] : duty_ticks_i[DUTY_BITS-1:0];
+            pulse_ticks_q     <= least_pulse ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
         end
         if (arm) link_q <= link_i;
         if (rst_i) begin
             link_q            <= 1'b0;
             run_permit_q      <= 2'b00;
             temperature_ok_q  <= 2'b00;
-            heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX;
-            channel_edges_q   <= CHANNEL_EDGES_MAX;
-            total_edges_q     <= TOTAL_EDGES_MAX;
-            emission_ticks_q  <= EMISSION_TICKS_MAX;
+            heartbeat_ticks_q <= HEARTBEAT_TICKS_MAX[HEARTBEAT_BITS-1:0];
+            channel_edges_q   <= CHANNEL_EDGES_MAX[EDGE_BITS-1:0];
+            total_edges_q     <= TOTAL_EDGES_MAX[TOTAL_BITS-1:0];
+            emission_ticks_q  <= EMISSION_TICKS_MAX[EMISSION_BITS-1:0];
             duty_share_q      <= DUTY_SHARE_MAX[16:0];
-            duty_ticks_q      <= DUTY_TICKS_MAX;
+            duty_ticks_q      <= DUTY_TICKS_MAX[DUTY_BITS-1:0];
             pulse_ticks_q     <= PULSE_TICKS_MIN[15:0];
         end
     end
@@ -126,7 +141,10 @@ module safety_island #(
     wire [31:0] culprits;
     wire        culprits_known = fault[`FAULT_SHORT_PULSE] || fault[`FAULT_CHANNEL_EDGES];
 
-    stage_limits #(.EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS)) stage_limits (
+    stage_limits #(
+        .EDGE_WINDOW_TICKS(EDGE_WINDOW_TICKS), .PULSE_TICKS_MIN(PULSE_TICKS_MIN), .CHANNEL_EDGES_MAX(CHANNEL_EDGES_MAX),
+        .TOTAL_EDGES_MAX(TOTAL_EDGES_MAX), .EMISSION_TICKS_MAX(EMISSION_TICKS_MAX), .DUTY_TICKS_MAX(DUTY_TICKS_MAX)
+    ) stage_limits (
         .clk_i(clk_i), .rst_i(rst_i), .channel_i(channel_o), .active_i(playing_i || ramp_up_o || ramp_down_o),
         .emission_i(playing_i), .start_i(start_i), .clear_i(clear_i),
         .pulse_ticks_i(pulse_ticks_q), .channel_edges_i(channel_edges_q), .total_edges_i(total_edges_q),
@@ -137,7 +155,7 @@ module safety_island #(
     output_gate #(.ALIVE_HALF_TICKS(ALIVE_HALF_TICKS), .HV_SETTLE_TICKS(HV_SETTLE_TICKS), .REST_TICKS(EDGE_WINDOW_TICKS)) output_gate (
         .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i),
         .arm_i(arm), .disarm_i(disarm_i), .clear_i(clear_i),
-        .heartbeat_i(heartbeat), .heartbeat_ticks_i(heartbeat_ticks_q),
+        .heartbeat_i(heartbeat), .heartbeat_ticks_i({{32-HEARTBEAT_BITS{1'b0}}, heartbeat_ticks_q}),
         .run_permit_i(run_permit), .temperature_good_i(temperature_ok), .underrun_i(underrun_i), .limits_i(limits),
         .ramp_done_i(ramp_done_i), .settled_i(settled_i), .channel_mask_i(channel_mask_i & CHANNEL_MASK_MAX),
         .bit_ticks_i(bit_ticks_i), .drive_i(drive_i), .now_i(now_i), .ended_i(ended_i),
@@ -152,6 +170,9 @@ module safety_island #(
     assign temperature_ok_o = temperature_ok;
     assign fault_o          = fault;
     assign fault_channels_o = culprits_known ? culprits : 32'd0;
+`ifdef FORMAL
+    `include "safety_island_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -35,12 +35,15 @@ module spi_link (
     output wire [31:0] word_o,
     output wire        load_word_o
 );
-    wire active, release_frame, partial;
+    wire stay, release_frame, partial;
+    reg  busy_q;                     // of the clocks behind select_o, to that of the verdict
+    always @(posedge clk_i) busy_q <= (stay || release_frame) && !rst_i;
+
 
     spi_peripheral spi_peripheral (
         .clk_i(clk_i), .rst_i(rst_i),
         .spi_sck_i(spi_sck_i), .spi_cs_n_i(spi_cs_n_i), .spi_mosi_i(spi_mosi_i), .spi_miso_o(spi_miso_o),
-        .select_o(select_o), .active_o(active), .release_o(release_frame), .partial_o(partial),
+        .select_o(select_o), .stay_o(stay), .release_o(release_frame), .partial_o(partial),
         .byte_valid_o(byte_valid_o), .byte_o(byte_o), .answer_i(answer_i), .answer_take_o(take_o)
     );
 
@@ -54,7 +57,7 @@ module spi_link (
         .word_valid_o(word_valid_o), .word_number_o(word_number_o), .word_o(word_o), .load_word_o(load_word_o)
     );
 
-    assign busy_o = select_o || active || release_frame || accept_o || refuse_o;
+    assign busy_o = select_o || busy_q;
 endmodule
 
 `default_nettype wire

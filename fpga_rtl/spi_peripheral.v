@@ -26,7 +26,7 @@ module spi_peripheral (
     input  wire       spi_mosi_i,
     output wire       spi_miso_o,
     output wire       select_o,       // pulse: chip select fell
-    output wire       active_o,       // from then on, till it is seen to have risen
+    output wire       stay_o,         // in the next clock it is low and was seen to have fallen, or release_o comes
     output wire       release_o,      // pulse: it rose, after one SCK edge at least and after the last byte
     output wire       partial_o,      // with release_o: bits left that make no byte
     output wire       byte_valid_o,   // pulse
@@ -152,7 +152,7 @@ module spi_peripheral (
 
     assign spi_miso_o    = launched_q ? miso_q : answer_even_q[7];
     assign select_o      = select;
-    assign active_o      = !idle_q;
+    assign stay_o        = !idle || (leave && begun_sync_q);
     assign release_o     = release_q;
     assign partial_o     = partial_q;
     assign byte_valid_o  = byte_valid_q;

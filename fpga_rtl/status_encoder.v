@@ -34,6 +34,7 @@ module status_encoder (
     reg [31:0]  data_q;
     reg [191:0] snapshot_q;
     reg [5:0]   count_q;             // bytes taken, held at 36
+    reg [31:0]  turn_q;              // one bit: the byte that was taken last
     reg [7:0]   next_q;              // next byte of the snapshot
     reg [7:0]   last_q;              // byte that came in last
 
@@ -46,6 +47,23 @@ module status_encoder (
         .clk_i(clk_i), .rst_i(rst_i), .clear_i(select_i),
         .valid_i(take_i && in_snapshot), .byte_i(next_q), .crc_o(crc)
     );
+
+    // byte n + 1 of the status at place n
+    wire [255:0] status = {8'd0, snapshot_q[191:32], data_q, snapshot_q[31:0], sequence_q, result_q, SYNC[15:8]};
+
+`ifdef SYNTHESIS
+    wire look = 1'b1;                // on an FPGA it costs nothing to choose what nobody takes
+`else
+    wire look = take_i;
+`endif
+    reg [7:0] following;
+    always @* begin : choose
+        integer place;
+        following = 8'd0;
+        place     = 0;
+        if (look) for (place = 0; place < 32; place = place + 1)
+            following = following | (status[8*place +: 8] & {8{turn_q[place]}});
+    end
 
     always @* begin
         case (count_q)
@@ -61,45 +79,14 @@ module status_encoder (
         if (byte_valid_i) last_q <= byte_i;
         if (take_i && in_status) begin
             count_q <= count_q + 6'd1;
-            case (count_q[4:0])      // byte taken
-                5'd0:    next_q <= SYNC[15:8];
-                5'd1:    next_q <= result_q;
-                5'd2:    next_q <= sequence_q;
-                5'd3:    next_q <= snapshot_q[7:0];
-                5'd4:    next_q <= snapshot_q[15:8];
-                5'd5:    next_q <= snapshot_q[23:16];
-                5'd6:    next_q <= snapshot_q[31:24];
-                5'd7:    next_q <= data_q[7:0];
-                5'd8:    next_q <= data_q[15:8];
-                5'd9:    next_q <= data_q[23:16];
-                5'd10:   next_q <= data_q[31:24];
-                5'd11:   next_q <= snapshot_q[39:32];
-                5'd12:   next_q <= snapshot_q[47:40];
-                5'd13:   next_q <= snapshot_q[55:48];
-                5'd14:   next_q <= snapshot_q[63:56];
-                5'd15:   next_q <= snapshot_q[71:64];
-                5'd16:   next_q <= snapshot_q[79:72];
-                5'd17:   next_q <= snapshot_q[87:80];
-                5'd18:   next_q <= snapshot_q[95:88];
-                5'd19:   next_q <= snapshot_q[103:96];
-                5'd20:   next_q <= snapshot_q[111:104];
-                5'd21:   next_q <= snapshot_q[119:112];
-                5'd22:   next_q <= snapshot_q[127:120];
-                5'd23:   next_q <= snapshot_q[135:128];
-                5'd24:   next_q <= snapshot_q[143:136];
-                5'd25:   next_q <= snapshot_q[151:144];
-                5'd26:   next_q <= snapshot_q[159:152];
-                5'd27:   next_q <= snapshot_q[167:160];
-                5'd28:   next_q <= snapshot_q[175:168];
-                5'd29:   next_q <= snapshot_q[183:176];
-                5'd30:   next_q <= snapshot_q[191:184];
-                default: next_q <= 8'd0;
-            endcase
+            turn_q  <= {turn_q[30:0], 1'b0};
+            next_q  <= following;
         end
         selected_q <= select_i;
         if (select_i) begin
             count_q    <= 6'd0;
             next_q     <= SYNC[7:0];
+            turn_q     <= 32'd1;
             snapshot_q <= {ignored_i, chunks_i, queued_i, emissions_i, timestamp_i, triggers_i, fault_i, state_i};
         end
         if (selected_q) begin
@@ -114,6 +101,7 @@ module status_encoder (
             data_q     <= 32'd0;
             snapshot_q <= 192'd0;
             count_q    <= 6'd0;
+            turn_q     <= 32'd0;
             next_q     <= 8'd0;
             last_q     <= 8'd0;
         end

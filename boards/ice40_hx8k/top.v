@@ -79,7 +79,7 @@ module top #(
         .DUTY_SHARE_MAX(DUTY_SHARE_MAX),
         .DUTY_TICKS_MAX(DUTY_TICKS_MAX),
         // end of built_in
-        .BOARD("HX8K"), .BAUD(1_000_000), .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH)
+        .BOARD("HX8K"), .UART(32'd0), .CLOCK_HZ(CLOCK_HZ), .SLOTS(SLOTS), .BUILD_HASH(BUILD_HASH)
     ) core (
         .clk_i(clk), .rst_i(!configured), .clock_lost_i(!locked),
         .spi_sck_i(spi_sck), .spi_cs_n_i(spi_cs_n), .spi_mosi_i(spi_mosi), .spi_miso_o(spi_miso),

@@ -75,7 +75,10 @@ def codes(registers: Iterable[Register]) -> list[str]:
 def setting_lines(registers: Iterable[Register]) -> list[str]:
     """Flip-flops of the settings: what is written, what they are after reset, what leaves."""
     kept = settings(registers)
-    lines = [f"reg {vector(register.bits)}{signal(register)}_q;" for register in kept]
+    bits = max(1, (len(kept) - 1).bit_length())
+    lines = [f"localparam SETTINGS = {len(kept)}, KEPT_BITS = {bits};"]
+    lines += [f"reg {vector(32)}kept [0:SETTINGS-1];  // for a READ, by their place in this list", "reg [SETTINGS-1:0] written_q;"]
+    lines += [f"reg {vector(register.bits)}{signal(register)}_q;" for register in kept]
     lines += ["always @(posedge clk_i) begin", "    if (change) begin", "        case (register)"]
     for register in kept:
         label = "default" if register is kept[-1] else f"`REGISTER_{register.name}"
@@ -86,8 +89,8 @@ def setting_lines(registers: Iterable[Register]) -> list[str]:
     return lines + [f"assign {signal(register)}_o = {signal(register)}_q;" for register in kept]
 
 
-def read_case(register: Register) -> list[str]:
-    """What a READ of a register gives, and whether a WRITE may change it."""
+def read_case(register: Register, registers: Iterable[Register]) -> list[str]:
+    """What a READ of one of these registers gives; of a setting also which words it takes, and its value until it is written."""
     name, label = signal(register), f"`REGISTER_{register.name}:"
     match register.kind:
         case Kind.COMMAND:
@@ -104,21 +107,24 @@ def read_case(register: Register) -> list[str]:
             return [f"{label} value = held;"]
         case Kind.LIVE | Kind.COUNTER:
             return [f"{label} value = {_padded(f'{name}_i', register.bits)};"]
-    lines = [f"{label} begin", f"    value    = {_padded(f'{name}_q', register.bits)};", "    setting  = 1'b1;"]
-    condition = _condition(register)
-    return [*lines, *([f"    in_range = {condition};"] if condition else []), "end"]
+    place = settings(registers).index(register)
+    lines = [
+        f"value   = {_verilog(register.reset)};",
+        "setting = 1'b1;",
+        *([f"place   = {place};"] if place else []),
+        *_bounds(register),
+    ]
+    return [f"{label} begin", *(f"    {line}" for line in lines), "end"]
 
 
-def _condition(register: Register) -> str:
-    """Verilog for: word0 is a value for this setting; empty if every word is."""
+def _bounds(register: Register) -> list[str]:
+    """Verilog for the words that a setting takes: what is not said is no bound."""
     if register.kind is Kind.MASK:
-        return f"(word0 & ~{_verilog(register.high or 0)}) == 32'd0"
-    conditions = []
-    if register.low != 0:
-        conditions.append("word0 != 32'd0" if register.low == 1 else f"word0 >= {_verilog(register.low)}")
+        return [f"barred  = ~{_verilog(register.high or 0)};"]
+    lines = [f"least   = {_verilog(register.low)};"] if register.low != 0 else []
     if register.high is not None or register.bits < 32:
-        conditions.append(f"word0 <= {_verilog(register.used_bits if register.high is None else register.high)}")
-    return " && ".join(conditions)
+        lines.append(f"most    = {_verilog(register.used_bits if register.high is None else register.high)};")
+    return lines
 
 
 def _limits(register: Register) -> str:

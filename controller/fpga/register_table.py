@@ -68,7 +68,7 @@ def rewritten(folder: Path, registers: Iterable[Register] = Register) -> dict[Pa
             "inputs": [f"input  wire {vector(wire_bits(register))}{signal(register)}_i," for register in inputs(registers)],
             "outputs": [f"output wire {vector(register.bits)}{signal(register)}_o," for register in settings(registers)],
             "settings": setting_lines(registers),
-            "read": [line for register in registers for line in read_case(register)],
+            "read": [line for register in registers for line in read_case(register, registers)],
         },
         "haptic_core.v": {
             "parameters": parameters,

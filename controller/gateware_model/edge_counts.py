@@ -1,7 +1,8 @@
 """Edges of each channel and of all channels within a sliding window, counted in parts: the memory of `stage_limits.v`.
 
 The window is divided into parts. The edges of the current part and of the 15 parts before it count, so that a limit covers every
-window, wherever it begins. The parts of different channels begin at different ticks, because the Verilog visits one channel a tick.
+window, wherever it begins. The parts of different channels begin at different ticks, because the Verilog visits one channel a tick:
+channel n in each tick T with T modulo 32 = n.
 """
 
 from __future__ import annotations
@@ -17,14 +18,21 @@ Ticks = NDArray[np.int64]
 
 PARTS: Final = 16  # the current one and those before it
 ALL: Final = CHANNELS  # index of the edges of all channels, after those of each
-_FETCH_TICKS = 3  # the parts of channel 0 begin this much later than those of all; those of each further channel one tick later
-_PHASES: Ticks = np.array([*range(_FETCH_TICKS, _FETCH_TICKS + CHANNELS), 0])
+COUNTED_TICKS: Final = 2  # from a change to the first turn of its channel that sees it
+# A channel's part ends with its turn in the last round of a part, one tick later for each further channel
+_PHASES: Ticks = np.array([*range(1 - COUNTED_TICKS - CHANNELS, 1 - COUNTED_TICKS), 0])
 _PLACES = np.arange(CHANNELS + 1)
 
 
 def part_ticks(window_ticks: int) -> int:
     """Ticks of a part: a multiple of 32, so that 15 parts are at least `window_ticks`."""
     return -(-window_ticks // (CHANNELS * (PARTS - 1))) * CHANNELS
+
+
+def turn(tick: int, channel: int) -> int:
+    """Tick in which a change of `channel` in `tick` is counted: the first turn of the channel that sees it."""
+    first = tick + COUNTED_TICKS
+    return first + (channel - first) % CHANNELS
 
 
 class EdgeCounts(NamedTuple):

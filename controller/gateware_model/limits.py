@@ -14,14 +14,15 @@ from numpy.typing import NDArray
 
 from controller.fpga.registers import CHANNELS
 from controller.gateware_model.activity_limits import ActivityLimits
-from controller.gateware_model.edge_counts import ALL, NO_EDGES, EdgeCounts, Ticks, part_ticks
+from controller.gateware_model.edge_counts import ALL, COUNTED_TICKS, NO_EDGES, EdgeCounts, Ticks, part_ticks, turn
 from controller.gateware_model.limit_settings import CHANNEL_EDGES, SHORT_PULSE, TOTAL_EDGES, LimitSettings
 
 Words = NDArray[np.uint32]
 
-EDGE_TICKS = 2  # from a change to its cause: short pulse, edges of one channel
+PULSE_TICKS = 2  # from a change to its cause: short pulse
 TOTAL_TICKS = 3  # the same for the edges of all channels
-CHANNEL_EDGES_MAX = 2**24 - 1  # a larger setting counts as this
+TURN_TICKS = 3  # from the turn of a channel to its cause: edges of one channel
+LATEST_TICKS = COUNTED_TICKS + CHANNELS - 1 + TURN_TICKS  # from a change to its last cause
 
 
 class _State(NamedTuple):
@@ -123,7 +124,7 @@ class StageLimits:
 
     def settle(self, tick: int) -> None:
         """Drop plans before `tick`, which will not be replaced or asked for any more."""
-        while len(self._plans) > 1 and self._plans[1].ticks[0] + TOTAL_TICKS < tick:
+        while len(self._plans) > 1 and self._plans[1].ticks[0] + LATEST_TICKS < tick:
             self._channels = self.channels(tick) if self._plans[0].channels else self._channels
             self._settled = self._plans.pop(0).after
         self._activity.settle(tick)
@@ -160,14 +161,14 @@ class StageLimits:
         for tick, change, too_close in zip(ticks.tolist(), changes.tolist(), close.tolist(), strict=True):
             recent = recent if too_close else 0
             if recent & change:
-                _note(plan, tick, SHORT_PULSE, recent & change)
+                _note(plan, tick + PULSE_TICKS, SHORT_PULSE, recent & change)
             recent |= change
         return last, recent
 
     def _check_edges(self, plan: _Plan, ticks: Ticks, changes: Words, counts: EdgeCounts) -> EdgeCounts:
         """Record excess edges, within which no part begins; the counts afterwards."""
         before, total = counts.live[:CHANNELS], int(counts.live[ALL])
-        limit = min(self._settings.channel_edges, CHANNEL_EDGES_MAX)
+        limit = self._settings.channel_edges
         bits = np.unpackbits(changes.astype("<u4", copy=False).view(np.uint8), bitorder="little").reshape(-1, CHANNELS)
         eights = np.add.reduceat(bits.view(np.uint64), np.arange(0, len(bits), 255))  # eight byte sums at once: ten times faster
         made = eights.view(np.uint8).sum(axis=0, dtype=np.int64)
@@ -179,14 +180,11 @@ class StageLimits:
                 plan.causes[tick + TOTAL_TICKS] = plan.causes.get(tick + TOTAL_TICKS, 0) | TOTAL_EDGES
         if (after > limit).any():
             too_many = bits.astype(bool) & (before + bits.cumsum(axis=0) > limit)
-            words = np.packbits(too_many, axis=1, bitorder="little").view("<u4")[:, 0]
-            for at in words.nonzero()[0].tolist():
-                _note(plan, int(ticks[at]), CHANNEL_EDGES, int(words[at]))
-            edges[:CHANNELS] = np.maximum(np.minimum(after, limit), before) - before  # excess edges are not counted
+            for at, channel in np.argwhere(too_many).tolist():
+                _note(plan, turn(int(ticks[at]), channel) + TURN_TICKS, CHANNEL_EDGES, 1 << channel)
         return counts.after(edges)
 
 
-def _note(plan: _Plan, tick: int, cause: int, channels: int) -> None:
-    at = tick + EDGE_TICKS
+def _note(plan: _Plan, at: int, cause: int, channels: int) -> None:
     plan.causes[at] = plan.causes.get(at, 0) | cause
     plan.channels[at] = plan.channels.get(at, 0) | channels

@@ -61,9 +61,10 @@ class Netlist:
             return
         if mode == "DPRAM":
             memory = cell.own("memory")
-            yield f"reg [15:0] {memory} = 16'b{cell.text('INITVAL')};"
-            yield f"assign {cell.out('F')} = {memory}[{cell.bus(select)}];"
+            yield f"reg [15:0] {memory} = 16'd0;"
             assert cell.text("WCKMUX") == "WCK"
+            assert set(cell.text("INITVAL")) == {"0"}
+            yield f"assign {cell.out('F')} = {memory}[{cell.bus(['A', 'C', 'B', 'D'])}];"  # in the order of the write side
             write = f"{memory}[{cell.bus(['WAD3', 'WAD2', 'WAD1', 'WAD0'])}] <= {cell.pin('WD')}"
             yield f"always @(posedge {cell.pin('WCK')}) if ({cell.pin('WRE')}) {write};"
             return
@@ -121,12 +122,13 @@ class Netlist:
                 yield f"assign {cell.out(to)} = {cell.pin(of)};"
 
     def pad(self, cell):
-        """A pin; one that is never enabled is not driven."""
+        """A pin, which is an input or an output for good: nextpnr enables the driver of any other whose enable has no net."""
         pad = self.pads[cell.net("B")]
-        if cell.net("I") and (cell.text("DIR") == "OUTPUT" or (cell.text("DIR") == "BIDIR" and cell.net("T"))):
-            assert cell.text("DIR") == "OUTPUT", "no pin of the gateware is ever let go of"
+        assert cell.text("DIR") in {"INPUT", "OUTPUT"}, pad
+        if cell.text("DIR") == "OUTPUT":
+            assert not cell.net("T")
             yield f"OB {cell.own('pad')} (.I({cell.pin('I')}), .O({pad}));"
-        if cell.net("O"):
+        elif cell.net("O"):
             yield f"assign {cell.out('O')} = {pad};"
 
     def block_ram(self, cell):

@@ -15,6 +15,7 @@ from routed_netlist import Netlist, function, verilog
 from test_board_top import ULX3S, WORDS, arm, channels_of, opened, session_on, signal_pins
 
 from controller.board.fpga_part import load_part
+from controller.errors import FaultError
 from controller.fpga.bitstream_build import Design, place, synthesise
 from controller.fpga.exchange import Refused
 from controller.fpga.frames import pack_nop
@@ -40,13 +41,14 @@ def session(folder, monkeypatch, library):
             host.play(slot, 1, 0.0, stop=False)
             host.trigger()
             pi.board.run(ULX3S.waveform.duration_ms * 1e-3 * PS + 200_000)
-        damaged = iter([True])
+        damaged, sequence = iter([True]), host.exchange.sequence
         pi.damage = lambda frame: bytes([*frame[:-1], frame[-1] ^ next(damaged, False)])
         with pytest.raises(Refused):
-            host.exchange.send_short(pack_nop(host.exchange.sent, 0, host.exchange.sequence))
+            host.exchange.send_short(pack_nop(host.exchange.sent, pack_nop(host.exchange.sent, 0, sequence), sequence + 1))
         pi.board.drive(signal_pins()["temperature good"], 0)  # off at once, and told
         pi.board.run(1_000_000)
-        host.heartbeat()
+        with pytest.raises(FaultError, match="temperature input went low"):
+            host.heartbeat()
         pi.board.oscillate(False)
         pi.board.run(1_000_000)
     times, pins = pi.board.take()

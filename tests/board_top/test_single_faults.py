@@ -280,7 +280,6 @@ AT_THE_START = {
 }
 IN_EVERY_RUN = (
     "run permit low, or its wire off",
-    "temperature low, or its wire off",
     "oscillator stopped",
     "cable to the host off, or the host without supply",
 )

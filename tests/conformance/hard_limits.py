@@ -10,6 +10,7 @@ import numpy as np
 
 FAULT_EDGES = 3  # of one channel
 FAULT_TICKS = 3  # from a change to the outputs low
+DECIDED_TICKS = 36  # from an edge of a channel that is too many to its cause, at most: there may be more of them meanwhile
 DUTY_SLACK_TICKS = 40  # what moves on the pins, and what the gateware calls active
 
 
@@ -32,7 +33,8 @@ def broken_limits(capture, parameters, word_ticks):
         short = edges[1:][np.diff(edges) < parameters.pulse_ticks_min]
         if not all(np.any((off >= tick) & (off <= tick + FAULT_TICKS)) for tick in short):
             found.append(f"channel {channel} had a short pulse that was not the last")
-        if most_within(edges, parameters.edge_window_ticks) > parameters.channel_edges_max + FAULT_EDGES:
+        most = parameters.channel_edges_max + FAULT_EDGES + DECIDED_TICKS // parameters.pulse_ticks_min
+        if most_within(edges, parameters.edge_window_ticks) > most:
             found.append(f"channel {channel} had {most_within(edges, parameters.edge_window_ticks)} edges in a window")
     every = np.repeat(ticks, ones(changes))
     if most_within(every, parameters.edge_window_ticks) > parameters.total_edges_max + 32 * FAULT_EDGES:

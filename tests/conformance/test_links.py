@@ -2,6 +2,7 @@
 keeps the outputs on. What the scripts do is done to the model and to the compiled Verilog, and compared change by change."""
 
 import zlib
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from pin_script import (
     FRAME_TICKS,
     JUDGED_TICKS,
     LINES,
+    MODEL,
     RAMP_TICKS,
     SETTLE_TICKS,
     UART,
@@ -20,6 +22,7 @@ from pin_script import (
 )
 
 from controller.fpga import frames
+from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Register, Result, Start, State
 from controller.fpga.status import parse_status
@@ -295,3 +298,36 @@ def test_every_line_moves_in_these_comparisons(rtl):
     run.wait_for_the_uart(UART_FRAME_TICKS)
     _, capture = both(run, rtl)
     assert all(getattr(capture, name).size for name in LINES)
+
+
+class WithoutUart(BuildParameters):
+    """Of a board whose top.v has no UART."""
+
+    def verilog(self):
+        return super().verilog() | {"UART": 0}
+
+
+@pytest.mark.slow
+def test_gateware_without_a_uart_is_that_of_a_uart_on_which_nothing_comes(rtl):
+    """What comes on its pin is not even an error, and its line rests."""
+
+    def script(noise):
+        run = settled(200_000)
+        if noise:
+            run.uart(run.uart_frame(frames.pack_control, Control.DISARM), bytes(range(256)))
+        run.upload(0, WORDS)
+        run.arm()
+        for start in (Start.NOW, Start.TRIGGER):
+            run.send(frames.pack_play, 0, length=0, count=1, start=start)
+            run.trigger()
+            run.wait(20_000)
+        run.send(frames.pack_read, Register.FRAME_ERRORS)
+        run.wait(60_000)
+        run.status()
+        return run
+
+    answers, capture = script(noise=False).perform(MODEL)
+    others, other_capture = script(noise=True).perform(lambda parameters: rtl(WithoutUart(**asdict(parameters))))
+    assert_same((answers, capture), (others, other_capture))
+    assert capture.uart_ticks.size == 0
+    assert capture.focus_ticks.size > 0

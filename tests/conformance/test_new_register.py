@@ -173,7 +173,7 @@ def test_the_verilog_of_the_register_file_reads_it(tree, tmp_path):
     if not shutil.which("iverilog"):
         pytest.skip("no Icarus: apt-get install iverilog")
     (tmp_path / "bench.v").write_text(BENCH)
-    sources = [tmp_path / "bench.v", tree / "fpga_rtl" / "register_file.v"]
+    sources = [tmp_path / "bench.v", *(tree / "fpga_rtl" / name for name in ("register_file.v", "link_counters.v"))]
     subprocess.run(["iverilog", "-g2005", f"-I{tree / 'fpga_rtl'}", "-o", tmp_path / "bench", *sources], check=True)
     said = subprocess.run(["vvp", "-n", tmp_path / "bench"], capture_output=True, text=True, check=True).stdout
     assert said.splitlines()[:6] == ["0 1000 1000", "7", "5000 5000", "0 777 6", "0 4321", "5"]

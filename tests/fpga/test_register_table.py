@@ -62,9 +62,11 @@ def test_each_kind_has_its_verilog(folder):
     assert "`define REGISTER_HEAT_TIME_LOW 16'd5\n`define REGISTER_COUNT 16'd6\n" in texts["registers.vh"]
     for line in (
         "`REGISTER_IDENTITY: value = `IDENTITY_MAGIC;",
-        "value    = {14'd0, words_q};",
-        "in_range = word0 != 32'd0 && word0 <= 32'd262143;",
-        "in_range = (word0 & ~CHANNEL_MASK_MAX) == 32'd0;",
+        "value   = 32'd5000;",
+        "least   = 32'd1;",
+        "most    = 32'd262143;",
+        "place   = 1;",
+        "barred  = ~CHANNEL_MASK_MAX;",
         "`REGISTER_ON: value = {31'd0, on_i};",
         "`REGISTER_HEAT_TIME_LOW: begin value = heat_time_i[31:0]; high = heat_time_i[63:32]; low = 1'b1; end",
         "input  wire        on_i,",

@@ -27,8 +27,9 @@ from model_host import (
 
 from controller.fpga import frames
 from controller.fpga.registers import DUTY_FULL, Control, Fault, Register, Result, Start, State
-from controller.gateware_model.edge_counts import PARTS, part_ticks
+from controller.gateware_model.edge_counts import PARTS, part_ticks, turn
 from controller.gateware_model.gateware import Permit
+from controller.gateware_model.limits import TURN_TICKS
 from controller.gateware_model.pins import modulate, ramp_bits
 
 RAMP_TICKS = RAMP_SAMPLES * BIT_TICKS
@@ -226,7 +227,8 @@ def test_a_channel_with_more_edges_in_a_window_than_its_stage_takes_is_named(hos
     assert (status.faults, status.emissions) == (Fault.CHANNEL_EDGES, 1)
     assert host.read(Register.FAULT_CHANNELS) == 1 << 9
     over = 51 - 28 - RAMP_EDGES // 16  # the first edge too many of this emission, whose first word has none
-    assert capture.ticks[-1] == start + BIT_TICKS * over + 3
+    seen = turn(start + BIT_TICKS * over, 9)
+    assert capture.ticks[-1] == seen + TURN_TICKS + 1
     assert (capture.words[-1], capture.hv[-1]) == (0, 0)
     host.control(Control.CLEAR)
     assert host.read(Register.FAULT_CHANNELS) == 0

@@ -1,6 +1,6 @@
 """The stage limits of the model against a reference that goes tick by tick, with plans that are replaced."""
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_right
 from dataclasses import asdict
 
 import numpy as np
@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from limits_reference import NO_LIMITS, Inputs, limits_reference
 
-from controller.gateware_model.edge_counts import part_ticks
+from controller.gateware_model.edge_counts import part_ticks, turn
 from controller.gateware_model.limit_settings import CHANNEL_EDGES, DUTY, LONG_EMISSION, SHORT_PULSE, TOTAL_EDGES, LimitSettings
-from controller.gateware_model.limits import EDGE_TICKS, TOTAL_TICKS, StageLimits
+from controller.gateware_model.limits import LATEST_TICKS, TOTAL_TICKS, TURN_TICKS, StageLimits
 
 WINDOW_TICKS = 60
 DAY_TICKS = 720  # more than 16 parts of 32
@@ -23,7 +23,7 @@ plans = st.tuples(
 limits = st.builds(
     LimitSettings,
     pulse_ticks=st.integers(0, 12),
-    channel_edges=st.integers(0, 12) | st.just(2**32 - 1),
+    channel_edges=st.integers(0, 12) | st.just(2**24 - 1),
     total_edges=st.integers(0, 200) | st.just(2**32 - 1),
     emission_ticks=st.integers(0, 40),
     duty_share=st.sampled_from([0, 65536, 70000]) | st.integers(0, 65536),
@@ -88,20 +88,16 @@ def test_every_tick_is_as_in_the_reference(limit_settings, shown, turns, data):
 
 def test_planned_words_that_never_come_do_not_count():
     """A fault cuts an emission after its first edges: its remaining plan is dropped, and the cut itself is checked."""
-    limits_ = StageLimits(LimitSettings(channel_edges=3, total_edges=4), 1000)
+    limits_ = StageLimits(LimitSettings(channel_edges=3, total_edges=40), 1000)
     limits_.show(np.arange(10, 100, 10), np.array([1, 0, 1, 0, 1, 0, 1, 0, 1], np.uint32))
-    assert limits_.next_change(0) == 42
+    assert limits_.next_change(0) == 67
     limits_.show(np.array([25]), np.array([0], np.uint32))
     assert limits_.next_change(0) is None
     limits_.show(np.array([300, 310]), np.array([1, 0], np.uint32))
-    assert (limits_.cause(312), limits_.next_change(0)) == (CHANNEL_EDGES, 312)
-    assert limits_.channels(312) == 1
+    assert (limits_.cause(323), limits_.next_change(0)) == (CHANNEL_EDGES, 323)
+    assert (limits_.channels(322), limits_.channels(323)) == (0, 1)
     limits_.show(np.array([300, 1000 + 16 * part_ticks(1000)]), np.array([1, 0], np.uint32))
     assert limits_.next_change(0) is None, "the second edge is beyond all parts of the first"
-
-
-def most_within(ticks, window_ticks):
-    return max((bisect_left(ticks, tick + window_ticks) - at for at, tick in enumerate(ticks)), default=0)
 
 
 @settings(deadline=None, max_examples=40)
@@ -113,24 +109,27 @@ def most_within(ticks, window_ticks):
     st.sampled_from([60, 479, 480, 481, 700]),
 )
 def test_no_interval_of_a_window_has_more_edges_than_the_limit_wherever_it_begins(gaps, start, channel_edges, total_edges, window):
-    """Of the edges that cause no fault, by the reference; an excess edge is the last before the outputs are off."""
+    """Or else the edge that is too many has its cause, by the reference, within the ticks that are promised."""
     inputs, word = [Inputs() for _ in range(start)], 0
     for wait, following in gaps:
         inputs += [Inputs(word) for _ in range(wait)]
         word = following
-    inputs.append(Inputs(word))
+    inputs += [Inputs(word) for _ in range(LATEST_TICKS + 1)]
     seen = limits_reference(inputs, NO_LIMITS | {"channel_edges": channel_edges, "total_edges": total_edges}, window)
     edges = {channel: [] for channel in range(32)}
     every = []
-    for tick in range(1, len(inputs) - TOTAL_TICKS):
+    for tick in range(1, len(inputs) - LATEST_TICKS):
         change = inputs[tick].word ^ inputs[tick - 1].word
         every += [tick] * change.bit_count()
-        if not seen[tick + EDGE_TICKS].cause & CHANNEL_EDGES:
-            for channel in edges:
-                edges[channel] += [tick] * (change >> channel & 1)
-        if not seen[tick + TOTAL_TICKS].cause & TOTAL_EDGES:
-            assert len(every) - bisect_right(every, tick - window) <= total_edges or not change
-    assert max(most_within(ticks, window) for ticks in edges.values()) <= channel_edges
+        if change and len(every) - bisect_right(every, tick - window) > total_edges:
+            assert seen[tick + TOTAL_TICKS].cause & TOTAL_EDGES
+        for channel, ticks in edges.items():
+            if change >> channel & 1:
+                ticks.append(tick)
+                if len(ticks) - bisect_right(ticks, tick - window) > channel_edges:
+                    at = turn(tick, channel) + TURN_TICKS
+                    assert at <= tick + LATEST_TICKS
+                    assert seen[at].cause & CHANNEL_EDGES
 
 
 def test_twice_the_limit_across_the_end_of_a_window_is_too_many():
@@ -139,15 +138,16 @@ def test_twice_the_limit_across_the_end_of_a_window_is_too_many():
         for end in (window, 2 * window, 15 * part_ticks(window), 16 * part_ticks(window)):
             limits_ = StageLimits(LimitSettings(channel_edges=20, total_edges=20), window)
             limits_.show(np.arange(end - 20, end + 20), np.arange(1, 41, dtype=np.uint32) & 1)
-            assert limits_.next_change(0) == end + 2
-            assert limits_.cause(end + 2) == CHANNEL_EDGES
+            assert limits_.next_change(0) == end + 3
+            assert limits_.cause(end + 3) == TOTAL_EDGES
+            assert limits_.cause(end + 3 + 32) == CHANNEL_EDGES
 
 
 @pytest.mark.parametrize(
     ("less", "cause", "at"),
     [
         ({"pulse_ticks": 11}, SHORT_PULSE, 22),
-        ({"channel_edges": 1}, CHANNEL_EDGES, 22),
+        ({"channel_edges": 1}, CHANNEL_EDGES, 35),
         ({"total_edges": 3}, TOTAL_EDGES, 23),
         ({"emission_ticks": 29}, LONG_EMISSION, 40),
         ({"duty_ticks": 29, "duty_share": 0}, DUTY, 41),

@@ -54,7 +54,9 @@ from controller.fpga.registers import (
     State,
 )
 from controller.fpga.status import parse_status
+from controller.gateware_model.edge_counts import turn
 from controller.gateware_model.gateware import Permit
+from controller.gateware_model.limits import LATEST_TICKS, TURN_TICKS
 from controller.gateware_model.player import FETCH_TICKS
 
 SHORT = 20  # words of most waveforms here
@@ -541,7 +543,7 @@ TOGGLING = np.array([0xFFFFFFFF, 1] * (SHORT // 2), np.uint32)  # never all low,
 
 @cocotb.test(timeout_time=10, timeout_unit="ms")
 @cocotb.parametrize(limit=["CHANNEL_EDGES", "TOTAL_EDGES", "DUTY_TICKS"])
-async def a_limit_of_the_stages_shuts_the_outputs_within_four_clocks(dut, limit):
+async def a_limit_of_the_stages_shuts_the_outputs_within_its_clocks(dut, limit):
     most = {"CHANNEL_EDGES": 61, "TOTAL_EDGES": 1500, "DUTY_TICKS": 1000}[limit]
     window = PARAMETERS.edge_window_ticks
     panel = await Panel.after_reset(dut)
@@ -564,7 +566,9 @@ async def a_limit_of_the_stages_shuts_the_outputs_within_four_clocks(dut, limit)
         cause, expected = Fault.TOTAL_EDGES, edges[int(np.argmax(made > most))][0]
     else:
         made = np.cumsum([changed >> 13 & 1 for _, changed in edges])
-        cause, expected = Fault.CHANNEL_EDGES, edges[int(np.argmax(made > most))][0]
+        first = edges[int(np.argmax(made > most))][0]
+        cause, expected = Fault.CHANNEL_EDGES, turn(first, 13) + TURN_TICKS
+        assert expected <= first + LATEST_TICKS
         assert not any(changed & ~(1 << 13) for _, changed in edges)
     assert expected < off_tick <= expected + 4
     assert panel.words[-1] == (off_tick, 0)

@@ -240,6 +240,7 @@ class Bench:
         dut.gap_i.value = gap
         await clocks(dut)
         dut.refused_i.value = dut.accept_i.value = dut.gap_i.value = 0
+        await clocks(dut, 2)  # no frame ends so soon behind another
         self.reference.unlocked = False
         self.reference.frame_errors += refused
         self.reference.gaps += gap and not refused

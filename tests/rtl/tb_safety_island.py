@@ -19,6 +19,7 @@ SETTLE_TICKS = 9
 ALL = 0xFFFFFFFF
 ASKED = dict.fromkeys(BUILT_IN, ALL) | {"pulse_ticks": 0, "duty_share": 0x1FFFF}
 DRIVE_TICKS = 3
+DECIDED_TICKS = 38  # from drive_i to a fault: pins, and 36 ticks at most until edges are too many
 
 
 async def armed(dut, **asked):
@@ -38,13 +39,13 @@ def fault(dut):
     return Fault(int(dut.fault_o.value))
 
 
-async def toggled(dut, channels, every, most=1000):
-    """Edges of these channels, one every so many clocks, that it took to a fault."""
-    for edges in range(1, most):
-        dut.drive_i.value = channels * (edges % 2)
+async def toggled(dut, channels, every, edges=1000):
+    """Edges of these channels, one every so many clocks, that it took to a fault; None if so many took it to none."""
+    for edge in range(1, edges + 1):
+        dut.drive_i.value = channels * (edge % 2)
         await clocks(dut, every)
         if fault(dut):
-            return edges
+            return edge
     return None
 
 
@@ -52,7 +53,11 @@ async def toggled(dut, channels, every, most=1000):
 async def asked_for_more_edges_it_gives_those_built_in_and_asked_for_fewer_those(dut):
     for asked, given in ((ALL, 40), (41, 40), (40, 40), (12, 12)):
         await armed(dut, channel_edges=asked)
-        assert await toggled(dut, 0x2, 5) == given + 1
+        assert await toggled(dut, 0x2, 5, edges=given) is None
+        await clocks(dut, DECIDED_TICKS)
+        assert not fault(dut)
+        dut.drive_i.value = 0x2 * ((given + 1) % 2)
+        await clocks(dut, DECIDED_TICKS)
         assert fault(dut) == Fault.CHANNEL_EDGES
         assert dut.fault_channels_o.value == 0x2
     for asked, given in ((ALL, 300), (160, 160)):
@@ -66,14 +71,14 @@ async def what_is_asked_for_while_anything_is_on_does_not_count(dut):
     await armed(dut, channel_edges=12)
     dut.channel_edges_i.value = 40
     await clocks(dut, 50)
-    assert await toggled(dut, 0x2, 5) == 13
+    assert await toggled(dut, 0x2, DECIDED_TICKS) == 13
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")
 async def asked_for_shorter_pulses_it_takes_those_built_in(dut):
     for asked, ticks, bad in ((0, 3, False), (0, 2, True), (2, 2, True), (5, 3, True), (5, 5, False)):
         await armed(dut, pulse_ticks=asked)
-        await toggled(dut, 0x8, ticks, most=6)
+        await toggled(dut, 0x8, ticks, edges=5)
         await clocks(dut, 4)
         assert fault(dut) == (Fault.SHORT_PULSE if bad else Fault(0)), (asked, ticks)
 

@@ -90,6 +90,10 @@ def test_verilator_warns_of_nothing(module):
     assert verilator(module, RTL / f"{module}.v") == (0, "")
 
 
+def test_the_core_without_a_uart_has_no_warning_either():
+    assert verilator(TOP, RTL / f"{TOP}.v", parameters=BUILT_IN | {"UART": 0}) == (0, "")
+
+
 LIMITS = [name for name in BUILT_IN if name not in ("CLOCK_HZ", "SLOTS", "BUILD_HASH", "BOARD")]
 
 
@@ -102,7 +106,7 @@ def test_no_module_has_a_limit_of_its_own():
             if name in LIMITS:
                 assert default == "32'd0", f"{module}: {name} = {default}"
                 found += 1
-    assert found == 3 * len(LIMITS)  # core and register file have each; island, gate and stage_limits those of them they need
+    assert found == 3 * len(LIMITS) + 5  # core and register file have each; island, gate and stage_limits those of them they need
 
 
 def test_other_defaults_are_the_simulated_boards():
