@@ -68,6 +68,44 @@ PROOFS = {
             "a fault by a limit that is cleared": Bug("{`FAULT_CAUSES{resting_q}}", "{`FAULT_CAUSES{1'b0}}", "rest_is_kept"),
         },
     ),
+    "stage_limits": Proof(
+        "stage_limits.v",
+        {
+            "channels that are forgotten with the next change": Bug(
+                "recent_q <= kept | change_q;", "recent_q <= change_q;", "own_change_is_recent"
+            ),
+            "a pulse a tick shorter": Bug("since_q  <= 16'd1;", "since_q  <= 16'd2;", "ticks_are_counted"),
+            "an emission a tick longer": Bug("age_q >= emission_ticks_i", "age_q > emission_ticks_i", "long_emission_is_seen"),
+            "a part of a tick that is not looked at": Bug("level_q[15:0] != 16'd0", "1'b0", "duty_is_seen"),
+            "a bucket that flows over into nothing": Bug("else if (!level[LEVEL_BITS]) ", "else ", "bucket_holds_the_sum"),
+            "a bit that counts every change": Bug(
+                "low_bit[k-1].into & low_bit[k-1].count_q;", "low_bit[k-1].into;", "low_bits_count"
+            ),
+            "an account without its carry": Bug("low_1_q < account[LOW_BITS-1:0];", "1'b0;", "no_edge_is_lost"),
+            "parts kept of all channels but one": Bug("if (made_last_q)", "if (made_last_q && made_turn_q != 5'd7)", "end_is_kept"),
+            "a part that counts before it is known": Bug(
+                "parts_full_q || part_q == 4'd15;", "1'b1;", "every_part_has_an_end|window_is_long"
+            ),
+            "fifteen parts that are less than a window": Bug("/ 32'd480", "/ 32'd512", "window_is_long"),
+            "a channel that is never too busy": Bug(
+                "too_many = new_q &&", "too_many = new_q && made_turn_q != 5'd7 &&", "edges_are_seen"
+            ),
+        },
+    ),
+    "safety_island": Proof(
+        "safety_island.v",
+        {
+            "the host's edges": Bug("most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] :", "", "edges_are_clamped"),
+            "the host's pulses": Bug("least_pulse ? PULSE_TICKS_MIN[15:0] :", "", "pulse_is_clamped"),
+            "the host's duty": Bug("most_share ? DUTY_SHARE_MAX[16:0] :", "", "duty_is_clamped"),
+            "the host's patience": Bug("most_heartbeat ? HEARTBEAT_TICKS_MAX[HEARTBEAT_BITS-1:0] :", "", "heartbeat_is_clamped"),
+            "the host's emissions": Bug("most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] :", "", "emission_is_clamped"),
+            "every channel": Bug("channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i", "no_stage_no_move"),
+            "limits that change while armed": Bug("if (off_o) begin", "begin", "limits_rest"),
+            "the other link": Bug("heard_i && !off_o && link_i == link_q", "heard_i && !off_o", "one_link_feeds"),
+            "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
+        },
+    ),
 }
 WITHOUT_YOSYS = {"output_gate": {"for_all_time": 3, "any_state": None}}  # depth of the induction; None: two clocks from any state
 
