@@ -154,6 +154,38 @@ PROOFS = {
             "no word for a frame that is cut": Bug("release_i && !open_q", "1'b0", "refuses_or_takes"),
         },
     ),
+    "waveform_player": Proof(
+        "waveform_player.v",
+        {
+            "an emission without its last word": Bug(
+                "head_length_i - 10'd1", "head_length_i - 10'd2", "length_is_kept|ends_with_the_last_word"
+            ),
+            "a fraction of a tick forgotten": Bug(
+                "goes_on && next_fraction[16] ? 16'd1 : 16'd2", "16'd2", "hold_counts_ticks|word_has_its_time|word_is_no_longer"
+            ),
+            "a word that has not arrived, unseen": Bug("playing_q && live_q && missing_i", "1'b0", "missing_is_underrun"),
+            "no idle word behind an emission": Bug(
+                "if (playing_q || ramping_i) resting_q", "if (ramping_i) resting_q", "idle_is_a_bit_long|rest_is_whole|idle_is_owed"
+            ),
+            "idle word over the played one": Bug("(~plays_q & idle_word_i &", "(idle_word_i &", "word_is_read_and_masked"),
+            "a fault that leaves it playing": Bug(
+                "        if (fault_i) begin\n            playing_q   <= 1'b0;\n", "        if (fault_i) begin\n", "fault_ends_it"
+            ),
+        },
+    ),
+    "idle_ramp": Proof(
+        "idle_ramp.v",
+        {
+            "a level that falls on its way up": Bug(
+                "{SAMPLES_BITS-1{!up_i}}", "{SAMPLES_BITS-1{up_i}}", "level_only_(rises|falls)"
+            ),
+            "an end at the wrong end": Bug("(up_i ? top_q : bottom_q)", "top_q", "done_is_the_end"),
+            "an error off by one where full scale is even": Bug("{less, odd}", "{less, 1'b1}", "error_is_carried_on"),
+            "errors without bounds": Bug(
+                "excess[VALUE_BITS-1] == negative", "1'b0", "beyond_is_found|error_is_carried_on|errors_are_bounded"
+            ),
+        },
+    ),
     "stage_limits": Proof(
         "stage_limits.v",
         {
