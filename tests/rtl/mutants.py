@@ -23,6 +23,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
@@ -330,6 +331,7 @@ class Verdicts:
 
     def __init__(self, file, resume, texts):
         self._file, self._texts = file, {module: digest(text) for module, text in texts.items()}
+        self._lock = threading.Lock()
         self._all = digest("".join(self._texts.values()))
         kept = json.loads(file.read_text()) if resume and file and file.exists() else {}
         self.of = {
@@ -345,11 +347,13 @@ class Verdicts:
     def add(self, mutant, verdict, by="", seconds=0.0):
         name = {"module": mutant.module, "line": mutant.line, "operator": mutant.operator, "code": mutant.before}
         tree = {"of": self._texts[mutant.module], "tree": self._all}
-        self.of[mutant.name] = name | {"to": mutant.text, "verdict": verdict, "by": by, "seconds": round(seconds, 2)} | tree
-        if self._file:
-            new = self._file.with_suffix(".new")
-            new.write_text(json.dumps(self.of, indent=0))
-            new.replace(self._file)
+        record = name | {"to": mutant.text, "verdict": verdict, "by": by, "seconds": round(seconds, 2)} | tree
+        with self._lock:  # of the threads that wait for one mutant each
+            self.of[mutant.name] = record
+            if self._file:
+                new = self._file.with_suffix(".new")
+                new.write_text(json.dumps(self.of, indent=0))
+                new.replace(self._file)
 
 
 def run(mutants: list[Mutant], texts, verdicts, jobs, folder, *, killers=KILLERS, say=print):
