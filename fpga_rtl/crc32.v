@@ -26,6 +26,10 @@ module crc32 (
     end
 
     assign crc_o = crc_q;
+
+`ifdef FORMAL
+    `include "crc32_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

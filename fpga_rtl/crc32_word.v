@@ -39,6 +39,10 @@ module crc32_word (
     end
 
     assign crc_o = ~crc_q;
+
+`ifdef FORMAL
+    `include "crc32_word_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -138,6 +138,10 @@ module frame_decoder (
     assign word_number_o   = word_number_q;
     assign word_o          = recent_q;
     assign load_word_o     = in_payload && is_load && sync_good_q && length_good && argument_q < {12'd0, `CHUNKS};
+
+`ifdef FORMAL
+    `include "frame_decoder_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

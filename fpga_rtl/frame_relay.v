@@ -95,6 +95,10 @@ module frame_relay (
     assign accept_o       = last;
     assign landing_busy_o = landing_busy_q;
     assign landing_live_o = landing_live_q;
+
+`ifdef FORMAL
+    `include "frame_relay_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -89,6 +89,9 @@ module idle_ramp #(
 
     assign bit_o  = !negative;
     assign done_o = done;
+`ifdef FORMAL
+    `include "idle_ramp_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -95,7 +95,7 @@ module output_gate #(
             silent_q  <= 1'b0;
         end else if (!silent_q) begin
             silence_q <= silence_q - 32'd1;
-            silent_q  <= silence_q == 32'd1;
+            silent_q  <= silence_q[31:1] == 31'd0;  // 0, which no host can ask for, is silence too and not 2^32 ticks
         end
 
         fault_q <= (clear_i ? fault_q & OF_LIMITS[`FAULT_CAUSES-1:0] & {`FAULT_CAUSES{resting_q}} : fault_q) | cause;

@@ -56,22 +56,20 @@ module play_check #(
     reg [47:0] product_q;
     reg [31:0] sounding_q;           // ticks from the first word to the end of the last
     reg [32:0] rested_q;             // and to the end of the idle word behind it
-    reg [48:0] span_q;               // ticks from the first word of all to where another play may begin, but for the last
+    // Two ticks more, so that the next can be fetched: each the carry into a sum, from a bit below it
+    /* verilator lint_off UNUSEDSIGNAL */
+    reg [49:0] span_q;               // ticks from the first word of all to where another play may begin, but for the last
+    reg [64:0] free_q;               // earliest time that is not taken
+    /* verilator lint_on UNUSEDSIGNAL */
     reg [9:0]  length_q;
     reg        live_q, unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
     reg        open_q;               // from then on, until it is accepted
     reg [64:0] ahead_q;              // ticks until its time; negative: it has passed
-    reg [63:0] free_q;               // earliest time that is not taken
     reg        late_q, overlap_q;
 
     wire [31:0] rest    = {16'd0, bit_period_i[31:16]};
     wire [47:0] doubled = {product_q[46:0], 1'b0};
     wire        second  = step_q >= 6'd12;
-    // and two ticks, so that the next can be fetched: each as the carry into a sum
-    /* verilator lint_off UNUSEDSIGNAL */
-    wire [49:0] span    = {1'b0, product_q, 1'b1} + {16'd0, rested_q, 1'b1};
-    wire [64:0] free    = {when_i, 1'b1} + {15'd0, span_q, 1'b1};
-    /* verilator lint_on UNUSEDSIGNAL */
 
     always @(posedge clk_i) begin
         if (begin_i) begin
@@ -85,7 +83,7 @@ module play_check #(
             product_q  <= 48'd0;
         end else if (step_q == 6'd28) begin
             step_q <= 6'd63;
-            span_q <= span[49:1];
+            span_q <= {1'b0, product_q, 1'b1} + {16'd0, rested_q, 1'b1};
         end else if (step_q != 6'd63) begin
             step_q    <= step_q + 6'd1;
             bits_q    <= {bits_q[14:0], 1'b0};
@@ -111,18 +109,18 @@ module play_check #(
         if (open_q) begin
             ahead_q   <= {1'b0, when_i} - {1'b0, now_i};
             late_q    <= ahead_q[64] || (ahead_q[63:5] == 59'd0 && ahead_q[4:0] < TIME_LEAD_TICKS[4:0]);
-            overlap_q <= when_i < free_q;
+            overlap_q <= when_i < free_q[64:1];
         end
 
-        if (accept_i && good_o && scheduled) free_q <= free[64:1];
-        if (forget_i) free_q <= 64'd0;
+        if (accept_i && good_o && scheduled) free_q <= {when_i, 1'b1} + {15'd0, span_q[49:1], 1'b1};
+        if (forget_i) free_q <= 65'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
             bits_q         <= 16'd0;
             product_q      <= 48'd0;
             sounding_q     <= 32'd0;
             rested_q       <= 33'd0;
-            span_q         <= 49'd0;
+            span_q         <= 50'd0;
             length_q       <= 10'd0;
             live_q         <= 1'b0;
             unnamed_q      <= 1'b0;
@@ -135,7 +133,7 @@ module play_check #(
             roomy_q        <= 1'b0;
             open_q         <= 1'b0;
             ahead_q        <= 65'd0;
-            free_q         <= 64'd0;
+            free_q         <= 65'd0;
             late_q         <= 1'b0;
             overlap_q      <= 1'b0;
         end

@@ -177,6 +177,10 @@ module play_queue #(
     assign read_result_o  = {1'b0, address_i[5:3]} >= count_q || address_i[2:0] > 3'd5 ? `RESULT_BAD_RANGE
                           : moved_q || fetch_q || fetched_q ? `RESULT_BUSY : `RESULT_OK;
     assign read_data_o    = data_q;
+
+`ifdef FORMAL
+    `include "play_queue_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

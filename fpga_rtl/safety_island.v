@@ -170,6 +170,9 @@ module safety_island #(
     assign temperature_ok_o = temperature_ok;
     assign fault_o          = fault;
     assign fault_channels_o = culprits_known ? culprits : 32'd0;
+`ifdef FORMAL
+    `include "safety_island_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

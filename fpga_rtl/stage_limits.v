@@ -279,6 +279,9 @@ module stage_limits #(
     assign cause_o      = {duty_q, late_q, total_edges_q, edges_q, short_q};
     assign channels_o   = channels_q;
     assign duty_level_o = {{31-DUTY_BITS{1'b0}}, level_q[LEVEL_BITS-1:16]};
+`ifdef FORMAL
+    `include "stage_limits_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

@@ -49,7 +49,7 @@ module status_encoder (
     );
 
     // byte n + 1 of the status at place n
-    wire [255:0] status = {8'd0, snapshot_q[191:32], data_q, snapshot_q[31:0], sequence_q, result_q, SYNC[15:8]};
+    reg [255:0] status;
 
 `ifdef SYNTHESIS
     wire look = 1'b1;                // on an FPGA it costs nothing to choose what nobody takes
@@ -59,8 +59,10 @@ module status_encoder (
     reg [7:0] following;
     always @* begin : choose
         integer place;
+        status    = 256'd0;
         following = 8'd0;
         place     = 0;
+        if (look) status = {8'd0, snapshot_q[191:32], data_q, snapshot_q[31:0], sequence_q, result_q, SYNC[15:8]};
         if (look) for (place = 0; place < 32; place = place + 1)
             following = following | (status[8*place +: 8] & {8{turn_q[place]}});
     end

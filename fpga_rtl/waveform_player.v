@@ -287,6 +287,9 @@ module waveform_player #(
     assign missed_o        = missed_count_q;
     assign trigger_time_o  = trigger_time_q;
     assign emission_time_o = emission_time_q;
+`ifdef FORMAL
+    `include "waveform_player_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

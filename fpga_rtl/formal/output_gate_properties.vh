@@ -14,10 +14,25 @@ function [16:0] longer(input [16:0] age);
     longer = age == SETTLED ? SETTLED : age + 17'd1;
 endfunction
 
+// Of the host and the limits, since reset:
+reg        allowed_q;                        // armed, and no cause of a fault since
+reg        disarmed_q;                       // disarmed, and not armed since
+reg [31:0] fed_ticks_q, unfed_q;             // heartbeat_ticks_i of the last heartbeat, clocks since
+reg        fed_q;                            // there was one
+reg [31:0] since_limit_q;                    // clocks since a limit has shut, up to REST_TICKS
+reg        arm_1_q, disarm_1_q, clear_1_q, underrun_1_q, shut_1_q;
+reg [15:0] all_faults_1_q;
+reg [31:0] drive_1_q, fault_count_1_q;
+reg [63:0] now_1_q;
+
+// What the gate takes for granted; safety_island makes arm_i and heartbeat_i so
+always @* begin
+    if (arm_i) assume (off_o && fault_o == 0 && run_permit_i && temperature_good_i && heartbeat_i);
+    assume (!clock_lost_i || rst_i);         // as the boards' tops do
+end
 `ifndef ANY_STATE
 initial assume (rst_i);
 `endif
-always @* assume (!clock_lost_i || rst_i);   // as the boards' tops do
 
 always @* if (clock_lost_i)
     no_clock_is_off:       assert (channel_o == 0 && !hv_enable_o && !hv_alive_o && !focus_o);
@@ -40,16 +55,37 @@ always @(posedge clk_i) begin
     age_3_q <= rst_i || !stays ? 0 : age_2_q;
     age_4_q <= rst_i || !stays ? 0 : age_3_q;
     up_q    <= rst_i || !hv_enable_o ? 0 : longer(up_q);
+    arm_1_q         <= arm_i;
+    disarm_1_q      <= disarm_i;
+    clear_1_q       <= clear_i;
+    underrun_1_q    <= underrun_i;
+    shut_1_q        <= shut_o;
+    all_faults_1_q  <= fault_o;
+    drive_1_q       <= drive_i;
+    fault_count_1_q <= fault_count_o;
+    now_1_q         <= now_i;
+    allowed_q   <= !rst_i && (arm_i || (allowed_q && run_permit_i && temperature_good_i && alive_o && limits_i == 0 && !underrun_i));
+    disarmed_q  <= !rst_i && !arm_i && (disarmed_q || (disarm_i && !off_o));
+    fed_q       <= !rst_i && (fed_q || heartbeat_i);
+    fed_ticks_q <= heartbeat_i ? heartbeat_ticks_i : fed_ticks_q;
+    unfed_q     <= heartbeat_i ? 1 : unfed_q == 32'hFFFFFFFF ? unfed_q : unfed_q + 1;
+    since_limit_q <= rst_i ? REST_TICKS : live && limits_i != 0 ? 0 : since_limit_q == REST_TICKS ? REST_TICKS : since_limit_q + 1;
 end
+
+wire any = channel_o != 0 || hv_enable_o || hv_alive_o || focus_o;
 
 always @* if (started_q) begin
     // off with the next clock
-    if (rst_1_q)           reset_is_off:      assert (channel_o == 0 && !hv_enable_o && state_q == OFF);
-    if (!permit_1_q)       stopped_is_off:    assert (channel_o == 0 && !hv_enable_o);
-    if (!cool_1_q)         hot_is_off:        assert (channel_o == 0 && !hv_enable_o);
-    if (silent_1_q)        silent_is_off:     assert (channel_o == 0 && !hv_enable_o);
-    if (limits_1_q != 0)   beyond_is_off:     assert (channel_o == 0 && !hv_enable_o);
-    if (!exists_1_q)       nonsense_is_off:   assert (channel_o == 0 && !hv_enable_o);
+    if (rst_1_q)           reset_is_off:      assert (!any && state_q == OFF && fault_o == 0 && !alive_o);
+    if (!permit_1_q)       stopped_is_off:    assert (!any);
+    if (!cool_1_q)         hot_is_off:        assert (!any);
+    if (silent_1_q)        silent_is_off:     assert (!any);
+    if (limits_1_q != 0)   beyond_is_off:     assert (!any);
+    if (underrun_1_q)      underrun_is_off:   assert (!any);
+    if (!exists_1_q)       nonsense_is_off:   assert (!any);
+    // and the mask and the word of the clock before decide about each channel
+    mask_is_kept:          assert ((channel_o & ~mask_1_q) == 0);
+    only_what_is_played:   assert ((channel_o & ~drive_1_q) == 0);
 `ifndef ANY_STATE
     // and the cause is kept if anything was on
     if (hv_1_q && !rst_1_q) begin
@@ -57,23 +93,44 @@ always @* if (started_q) begin
         if (!cool_1_q)     heat_is_kept:      assert (fault_o[`FAULT_OVER_TEMPERATURE]);
         if (silent_1_q)    silence_is_kept:   assert (fault_o[`FAULT_HOST_SILENT]);
         limits_are_kept:   assert ((limits_1_q & ~fault_o[`FAULT_DUTY:`FAULT_SHORT_PULSE]) == 0);
+        if (underrun_1_q)  underrun_is_kept:  assert (fault_o[`FAULT_UNDERRUN]);
     end
+    if (!rst_1_q) begin
+        if (!clear_1_q)    only_a_command_clears: assert ((all_faults_1_q & ~fault_o) == 0);
+        if (shut_1_q)      a_fault_is_counted:    assert (fault_count_o == fault_count_1_q + 32'd1 && fault_time_o == now_1_q);
+        if (!shut_1_q)     only_a_fault_counts:   assert (fault_count_o == fault_count_1_q && (fault_o & ~all_faults_1_q) == 0);
+        if (disarm_1_q && !arm_1_q) disarm_is_obeyed:      assert (state_q == OFF || state_q == STOPPING || state_q == RAMP_DOWN);
+    end
+    // on only if armed since the last fault, fed since, and without a fault
+    if (any)               on_once_armed:     assert (allowed_q);
+    if (any)               on_without_fault:  assert (fault_o == 0);
+    if (disarmed_q)        disarmed_for_good: assert (state_q == OFF || state_q == STOPPING || state_q == RAMP_DOWN);
+    if (any)               on_while_fed:      assert (fed_q && (unfed_q <= fed_ticks_q + 33'd1 || unfed_q <= 2));
+    // the fault of a limit stays for REST_TICKS, whatever is commanded
+    if (since_limit_q < REST_TICKS) a_limit_rests: assert (fault_o[`FAULT_DUTY:`FAULT_SHORT_PULSE] != 0);
     if (resting_1_q && !rst_1_q) rest_is_kept: assert ((faults_1_q & ~fault_o[`FAULT_DUTY:`FAULT_SHORT_PULSE]) == 0);
     // never a channel without its supply, and settled
     no_channel_alone:      assert (channel_o == 0 || hv_enable_o);
-    mask_is_kept:          assert ((channel_o & ~mask_1_q) == 0);
+    no_sign_of_life_alone: assert (hv_enable_o || (!hv_alive_o && !focus_o));
     supply_has_settled:    assert (channel_o == 0 || up_q >= SETTLED);
 
     // what induction must know of the inside
     if (!clock_lost_i) begin
         assert (age_q <= SETTLED && age_1_q <= SETTLED && age_2_q <= SETTLED && age_3_q <= SETTLED && age_4_q <= SETTLED);
         assert (up_q <= SETTLED);
-        if (state_q == SETTLING) assert (age_q < SETTLED && settle_left_q == SETTLED - 17'd1 - age_q);
+        rest_has_its_time: assert (resting_q == (since_limit_q < REST_TICKS) && since_limit_q <= REST_TICKS);
+        if (resting_q) rest_is_counted: assert (rest_left_q == REST_TICKS - since_limit_q);
+        if (live) assert (fault_q == 0 && allowed_q);
+        if (!silent_q) assert (fed_q && unfed_q != 0);
+        if (!silent_q) silence_is_counted: assert (unfed_q == 1 ? silence_q == fed_ticks_q : {1'b0, silence_q} + unfed_q == {1'b0, fed_ticks_q} + 33'd1);
+        if (!silent_q) silent_in_time: assert (unfed_q <= fed_ticks_q || unfed_q == 1);
+        if (live) assert (fed_q && unfed_q != 0 && (unfed_q <= fed_ticks_q + 33'd1 || unfed_q <= 2));
+        if (state_q == SETTLING) settling_is_counted: assert (age_q < SETTLED && settle_left_q == SETTLED - 17'd1 - age_q);
         if (moves)            moves_once_settled: assert (age_q == SETTLED);
         if (moves_later_q[0]) assert (on_later_q[0] && age_1_q == SETTLED);
         if (moves_later_q[1]) assert (on_later_q[1] && age_2_q == SETTLED);
         if (moves_later_q[2]) assert (on_later_q[2] && age_3_q == SETTLED);
-        if (channel_q != 0)   assert (hv_enable_q && age_4_q == SETTLED);
+        if (channel_q != 0)   edges_once_settled: assert (hv_enable_q && age_4_q == SETTLED);
         if (on && age_q != 0)              assert (on_later_q[0] && age_q == longer(age_1_q));
         if (on_later_q[0] && age_1_q != 0) assert (on_later_q[1] && age_1_q == longer(age_2_q));
         if (on_later_q[1] && age_2_q != 0) assert (on_later_q[2] && age_2_q == longer(age_3_q));

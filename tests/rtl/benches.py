@@ -3,16 +3,17 @@
 Each runs from a random initial state, in a process of its own, so that the tests go on meanwhile.
 """
 
+import os
 import sys
 from functools import partial
 from pathlib import Path
 
 import panel
-from cocotb_tools.runner import get_runner
+from cocotb_tools.runner import get_results, get_runner
 
 from controller.fpga.frames import FRAME_BYTES
 
-RTL = Path(__file__).parent.parent.parent / "fpga_rtl"
+RTL = Path(os.environ.get("HAPTIC_PANEL_TEST_RTL", Path(__file__).parent.parent.parent / "fpga_rtl"))  # or a folder of mutants.py
 
 # Which the wheel's verilated.mk sets without asking the environment; the flag for GCC's precompiled headers, used by the
 # largest designs, it leaves empty
@@ -93,17 +94,18 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
     """Build a module, with sources `beside` the gateware's, and run its bench; `which` of its tests, as the runner names them."""
     runner = get_runner(simulator)
     verilator = simulator == "verilator"
+    packages = sorted(RTL.glob("*.sv"))
     runner.build(
-        sources=[*sorted(RTL.glob("*.v")), *beside],
+        sources=[*packages, *sorted(RTL.glob("*.v")), *beside],
         includes=[RTL],
         hdl_toplevel=module,
         parameters=parameters,
         timescale=("1ns", "1ps"),
         build_dir=folder,
-        build_args=VERILATOR_ARGUMENTS if verilator else ["-g2005"],
+        build_args=VERILATOR_ARGUMENTS + ["-Wno-fatal"] * bool(packages) if verilator else ["-g2005"],
         log_file=folder / "build.log",
     )
-    runner.test(
+    results = runner.test(
         hdl_toplevel=module,
         test_module=f"tb_{module}",
         build_dir=folder,
@@ -112,6 +114,8 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
         **which,
     )
+    if get_results(results)[1]:  # the runner itself looks only where pytest has started it
+        sys.exit(1)
 
 
 OTHER_RATES = [(80_000_000, 3_000_000), (80_000_000, 1_000_000), (12_000_000, 1_500_000)]

@@ -63,9 +63,165 @@ PROOFS = {
             ),
             "any other code for a state": Bug("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
             "outputs that wait for the clock": Bug("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
-            "channels with the supply": Bug("open && moves_later_q[2] &&", "open &&", "supply_has_settled"),
-            "one clock of settling": Bug("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", "supply_has_settled|moves_once_settled"),
+            "channels with the supply": Bug("open && moves_later_q[2] &&", "open &&", "supply_has_settled|edges_once_settled"),
+            "one clock of settling": Bug("settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1", "moves_once_settled"),
+            "a settling that begins late": Bug(
+                "settling ? settle_left_q - 1'b1", "settling ? settle_left_q", "settling_is_counted"
+            ),
             "a fault by a limit that is cleared": Bug("{`FAULT_CAUSES{resting_q}}", "{`FAULT_CAUSES{1'b0}}", "rest_is_kept"),
+            "a rest of a clock less": Bug("rest_left_q != 32'd1", "rest_left_q != 32'd2", "rest_is_counted|rest_has_its_time"),
+            "a channel without a stage": Bug("drive_i & channel_mask_i", "drive_i", "mask_is_kept"),
+            "a level that nobody plays": Bug("drive_i & channel_mask_i", "channel_mask_i", "only_what_is_played"),
+            "an underrun that goes on": Bug("live && underrun_i;\n    assign", "1'b0;\n    assign", "underrun_is_off"),
+            "a fault that heals": Bug(": fault_q) | cause", ": {`FAULT_CAUSES{1'b0}}) | cause", "only_a_command_clears"),
+            "a fault that is not kept": Bug(": fault_q) | cause", ": fault_q)", "a_fault_is_counted|.*_(is|are)_kept"),
+            "a fault that counts twice": Bug("fault_count_q + 32'd1", "fault_count_q + 32'd2", "a_fault_is_counted"),
+            "a host that is never silent": Bug("silence_q[31:1] == 31'd0;", "1'b0;", "silent_in_time"),
+            "2^32 ticks for a heartbeat of none": Bug(
+                "silence_q[31:1] == 31'd0;", "silence_q == 32'd1;", "silence_is_counted|on_while_fed"
+            ),
+            "a ramp up that goes on disarmed": Bug("if (disarm_i) state_q <= RAMP_DOWN; else", "", "disarm_is_obeyed"),
+            "a ramp down that ends armed": Bug(
+                "RAMP_DOWN: if (ramp_done_i) state_q <= OFF", "RAMP_DOWN: if (ramp_done_i) state_q <= ON", "disarmed_for_good"
+            ),
+            "signs of life of a closed gate": Bug(
+                "hv_alive_q  <= open && !rst_i && (", "hv_alive_q  <= (", "no_sign_of_life_alone"
+            ),
+        },
+    ),
+    "crc32": Proof(
+        "crc32.v",
+        {
+            "another polynomial": Bug("32'hEDB88320", "32'hEDB88321", "divides"),
+            "a register that begins at zero": Bug("32'hFFFFFFFF", "32'd0", "divides"),
+            "a byte of seven bits": Bug("bit_number < 8", "bit_number < 7", "divides"),
+        },
+    ),
+    "crc32_word": Proof(
+        "crc32_word.v",
+        {
+            "another polynomial": Bug("parities(32'hEDB88320)", "parities(32'hEDB88321)", "divides"),
+            "a word that counts always": Bug("if (valid_i) crc_q", "if (1'b1) crc_q", "divides"),
+            "a word of 31 bits": Bug("shift < 32", "shift < 31", "divides"),
+        },
+    ),
+    "play_queue": Proof(
+        "play_queue.v",
+        {
+            "a word into a full queue": Bug("write_i && !full_q", "write_i", "word_is_its|memory_is_its"),
+            "a full queue of nine": Bug("full_q <= count_q == 4'd8", "full_q <= count_q == 4'd9", "never_overflows|full_in_time"),
+            "a head that is fetched one word early": Bug(
+                "index_q <= 3'd0;\n        end", "index_q <= 3'd1;\n        end", "fetches_in_order"
+            ),
+            "a head that stays when it was taken": Bug("head_q          <= head_q + 3'd1;", "", "in_order|counts_all|tail_follows"),
+            "the buffer of the play before": Bug(
+                "buffer_q[tail_q] <= buffer_i", "buffer_q[head_q] <= buffer_i", "buffer_is_its|memory_is_its"
+            ),
+            "plays that are shown when they are dropped": Bug(
+                "if (drop_i || rst_i) begin\n            valid_q   <= 1'b0;", "if (drop_i || rst_i) begin\n", "shows_what_is"
+            ),
+        },
+    ),
+    "frame_decoder": Proof(
+        "frame_decoder.v",
+        {
+            "any CRC": Bug(
+                "accept_q <= sync_good_q && whole && crc == `CRC_RESIDUE",
+                "accept_q <= sync_good_q && whole",
+                "accepts_only_good_frames",
+            ),
+            "any second byte of the sync word": Bug(
+                "sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC", "sync_good_q", "sync_is_whole"
+            ),
+            "bits left over": Bug("length_good && !partial_i &&", "length_good &&", "accepts_only_good_frames"),
+            "a byte more": Bug("{1'b0, length_q} + 17'd12", "{1'b0, length_q} + 17'd13", "accepts_(only|all)_good_frames"),
+            "a count that wraps": Bug("if (count_q != 10'h3FF) count_q", "count_q", "counts_bytes"),
+            "half a word of a LOAD": Bug(" && length_q[1:0] == 2'b00", "", "accepts_only_good_frames"),
+            "words beyond the payload": Bug("word_number_q < {1'b0, length_q[8:2]}", "1'b1", "words_in_order"),
+            "words of another byte order": Bug("{byte_i, recent_q[31:8]}", "{recent_q[23:0], byte_i}", "recent_bytes_are_its"),
+            "chunks there are none of": Bug(" && argument_q < {12'd0, `CHUNKS}", "", "only_loads_are_kept"),
+        },
+    ),
+    "frame_relay": Proof(
+        "frame_relay.v",
+        {
+            "a frame that is done twice": Bug("else if (last) full_q <= 1'b0;", "", "only_what_is_owed"),
+            "a turn that goes on into a frame of the SPI": Bug("= turn_q && !busy_i", "= turn_q", "only_in_a_pause"),
+            "a beginning while the SPI is busy": Bug("!turn_q && !busy_i", "!turn_q", "only_in_a_pause"),
+            "a frame that overwrites the one that waits": Bug("select_i && !full_q", "select_i", "rests_meanwhile"),
+            "accepted before play_check is done": Bug("+ 8'd39", "+ 8'd30", "accepts_when_checked|counts_its_clocks"),
+            "a word too few": Bug("step_q <= {1'b0, payload_words_i}", "step_q < {1'b0, payload_words_i}", "words_in_order"),
+            "no word for a frame that is cut": Bug("release_i && !open_q", "1'b0", "refuses_or_takes"),
+        },
+    ),
+    "waveform_player": Proof(
+        "waveform_player.v",
+        {
+            "an emission without its last word": Bug(
+                "head_length_i - 10'd1", "head_length_i - 10'd2", "length_is_kept|ends_with_the_last_word"
+            ),
+            "a fraction of a tick forgotten": Bug(
+                "goes_on && next_fraction[16] ? 16'd1 : 16'd2", "16'd2", "hold_counts_ticks|word_has_its_time|word_is_no_longer"
+            ),
+            "a word that has not arrived, unseen": Bug("playing_q && live_q && missing_i", "1'b0", "missing_is_underrun"),
+            "no idle word behind an emission": Bug(
+                "if (playing_q || ramping_i) resting_q", "if (ramping_i) resting_q", "idle_is_a_bit_long|rest_is_whole|idle_is_owed"
+            ),
+            "idle word over the played one": Bug("(~plays_q & idle_word_i &", "(idle_word_i &", "word_is_read_and_masked"),
+            "a fault that leaves it playing": Bug(
+                "        if (fault_i) begin\n            playing_q   <= 1'b0;\n", "        if (fault_i) begin\n", "fault_ends_it"
+            ),
+        },
+    ),
+    "idle_ramp": Proof(
+        "idle_ramp.v",
+        {
+            "a level that falls on its way up": Bug(
+                "{SAMPLES_BITS-1{!up_i}}", "{SAMPLES_BITS-1{up_i}}", "level_only_(rises|falls)"
+            ),
+            "an end at the wrong end": Bug("(up_i ? top_q : bottom_q)", "top_q", "done_is_the_end"),
+            "an error off by one where full scale is even": Bug("{less, odd}", "{less, 1'b1}", "error_is_carried_on"),
+            "errors without bounds": Bug(
+                "excess[VALUE_BITS-1] == negative", "1'b0", "beyond_is_found|error_is_carried_on|errors_are_bounded"
+            ),
+        },
+    ),
+    "stage_limits": Proof(
+        "stage_limits.v",
+        {
+            "channels that are forgotten with the next change": Bug(
+                "recent_q <= kept | change_q;", "recent_q <= change_q;", "own_change_is_recent"
+            ),
+            "a pulse a tick shorter": Bug("since_q  <= 16'd1;", "since_q  <= 16'd2;", "ticks_are_counted"),
+            "an emission a tick longer": Bug("age_q >= emission_ticks_i", "age_q > emission_ticks_i", "long_emission_is_seen"),
+            "a part of a tick that is not looked at": Bug("level_q[15:0] != 16'd0", "1'b0", "duty_is_seen"),
+            "a bucket that flows over into nothing": Bug("else if (!level[LEVEL_BITS]) ", "else ", "bucket_holds_the_sum"),
+            "a bit that counts every change": Bug(
+                "low_bit[k-1].into & low_bit[k-1].count_q;", "low_bit[k-1].into;", "low_bits_count"
+            ),
+            "an account without its carry": Bug("low_1_q < account[LOW_BITS-1:0];", "1'b0;", "no_edge_is_lost"),
+            "parts kept of all channels but one": Bug("if (made_last_q)", "if (made_last_q && made_turn_q != 5'd7)", "end_is_kept"),
+            "a part that counts before it is known": Bug(
+                "parts_full_q || part_q == 4'd15;", "1'b1;", "every_part_has_an_end|window_is_long"
+            ),
+            "fifteen parts that are less than a window": Bug("/ 32'd480", "/ 32'd512", "window_is_long"),
+            "a channel that is never too busy": Bug(
+                "too_many = new_q &&", "too_many = new_q && made_turn_q != 5'd7 &&", "edges_are_seen"
+            ),
+        },
+    ),
+    "safety_island": Proof(
+        "safety_island.v",
+        {
+            "the host's edges": Bug("most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] :", "", "edges_are_clamped"),
+            "the host's pulses": Bug("least_pulse ? PULSE_TICKS_MIN[15:0] :", "", "pulse_is_clamped"),
+            "the host's duty": Bug("most_share ? DUTY_SHARE_MAX[16:0] :", "", "duty_is_clamped"),
+            "the host's patience": Bug("most_heartbeat ? HEARTBEAT_TICKS_MAX[HEARTBEAT_BITS-1:0] :", "", "heartbeat_is_clamped"),
+            "the host's emissions": Bug("most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] :", "", "emission_is_clamped"),
+            "every channel": Bug("channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i", "no_stage_no_move"),
+            "limits that change while armed": Bug("if (off_o) begin", "begin", "limits_rest"),
+            "the other link": Bug("heard_i && !off_o && link_i == link_q", "heard_i && !off_o", "one_link_feeds"),
+            "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
         },
     ),
 }

