@@ -17,21 +17,27 @@ module link_counters (
     reg [31:0] memory [0:7];           // by {which, link}
     reg [7:0]  written_q;              // since reset; 0 before
     reg [3:0]  due_q;                  // to be counted: gaps by UART, SPI, refusals by UART, SPI
+    reg        fetched_q;              // one of them is to be written with the next clock without hold_i
+    reg [1:0]  which_q;
+    reg [31:0] count_q;                // as it was
 
-    wire       count   = due_q != 4'd0 && !accept_i;
-    wire [1:0] lowest  = due_q[0] ? 2'd0 : due_q[1] ? 2'd1 : due_q[2] ? 2'd2 : 2'd3;
-    wire [2:0] address = count ? {1'b0, lowest} : {which_i, uart_i};
-    wire [31:0] value  = written_q[address] ? memory[address] : 32'd0;
+    wire       fetch  = due_q != 4'd0 && !fetched_q;
+    wire [1:0] lowest = due_q[0] ? 2'd0 : due_q[1] ? 2'd1 : due_q[2] ? 2'd2 : 2'd3;
+    wire       write  = hold_i || fetched_q;
+    wire [2:0] address = hold_i ? {2'd2, uart_i} : {1'b0, which_q};
+    wire [2:0] asked  = {which_i, uart_i};
 
     always @(posedge clk_i) begin
-        if (hold_i || count) memory[hold_i ? {2'd2, uart_i} : address] <= hold_i ? high_i : value + 32'd1;
+        if (write) memory[address] <= hold_i ? high_i : count_q + 32'd1;
     end
 
     always @(posedge clk_i) begin
-        if (hold_i) written_q[{2'd2, uart_i}] <= 1'b1;
-        if (count) begin
-            written_q[address] <= 1'b1;
-            due_q[lowest]      <= 1'b0;
+        if (write) written_q[address] <= 1'b1;
+        if (!hold_i) fetched_q <= fetch;
+        if (fetch) begin
+            which_q       <= lowest;
+            count_q       <= written_q[{1'b0, lowest}] ? memory[{1'b0, lowest}] : 32'd0;
+            due_q[lowest] <= 1'b0;
         end
         if (refused_i[0])                 due_q[0] <= 1'b1;
         if (refused_i[1])                 due_q[1] <= 1'b1;
@@ -40,10 +46,13 @@ module link_counters (
         if (rst_i) begin
             written_q <= 8'd0;
             due_q     <= 4'd0;
+            fetched_q <= 1'b0;
+            which_q   <= 2'd0;
+            count_q   <= 32'd0;
         end
     end
 
-    assign value_o = value;
+    assign value_o = written_q[asked] ? memory[asked] : 32'd0;
 endmodule
 
 `default_nettype wire

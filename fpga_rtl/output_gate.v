@@ -54,6 +54,8 @@ module output_gate #(
     localparam [15:0] OF_LIMITS = 16'b11111 << `FAULT_SHORT_PULSE;  // causes that come from limits_i
     localparam        SETTLE_BITS = $clog2(HV_SETTLE_TICKS + 32'd2);
     localparam [31:0] LAST_SETTLE = HV_SETTLE_TICKS == 32'd0 ? 32'd0 : HV_SETTLE_TICKS - 32'd1;
+    localparam        ALIVE_BITS  = ALIVE_HALF_TICKS > 32'd1 ? $clog2(ALIVE_HALF_TICKS) : 1;
+    localparam [31:0] LAST_ALIVE  = ALIVE_HALF_TICKS - 32'd1;
 
     reg [2:0]  state_q;
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
@@ -65,28 +67,28 @@ module output_gate #(
     reg [63:0] fault_time_q;
     reg [SETTLE_BITS-1:0] settle_left_q;
     reg [2:0]  on_later_q, moves_later_q;  // state, until it is in step with drive_i
+    reg        live_q;                     // anything of these is on, or hv_enable_q: known a clock early, as all faults wait for it
     reg [31:0] channel_q;
     reg        hv_enable_q;
     reg        focus_q;
     reg [15:0] focus_left_q;
     reg [31:0] emissions_q;
-    reg [31:0] alive_left_q;
+    reg [ALIVE_BITS-1:0] alive_left_q;
     reg        hv_alive_q;
 
-    wire       host_silent = silent_q;
     wire       settling    = state_q == SETTLING;
     wire       moves       = state_q == RAMP_UP || state_q == ON || state_q == STOPPING || state_q == RAMP_DOWN;
     wire       on          = settling || moves;
     wire       exists      = on || state_q == OFF;
-    wire       live        = on || on_later_q != 3'd0 || hv_enable_q;
-    wire [`FAULT_CAUSES-1:0] cause;
-    assign cause[`FAULT_NO_PERMIT]        = live && !run_permit_i;
-    assign cause[`FAULT_HOST_SILENT]      = live && host_silent;
-    assign cause[`FAULT_OVER_TEMPERATURE] = live && !temperature_good_i;
-    assign cause[`FAULT_UNDERRUN]         = live && underrun_i;
-    assign cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i & {5{live}};
-    wire       shut = |cause;
-    wire       stays = exists && !shut;
+    wire [`FAULT_CAUSES-1:0] wrong;
+    assign wrong[`FAULT_NO_PERMIT]        = !run_permit_i;
+    assign wrong[`FAULT_HOST_SILENT]      = silent_q;
+    assign wrong[`FAULT_OVER_TEMPERATURE] = !temperature_good_i;
+    assign wrong[`FAULT_UNDERRUN]         = underrun_i;
+    assign wrong[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i;
+    wire [`FAULT_CAUSES-1:0] cause = wrong & {`FAULT_CAUSES{live_q}};
+    wire       shut  = |cause;
+    wire       stays = exists && wrong == {`FAULT_CAUSES{1'b0}};  // live or not: of nothing, nothing stays
     wire       open  = on_later_q[2] && stays;
 
     always @(posedge clk_i) begin
@@ -110,7 +112,7 @@ module output_gate #(
             fault_count_q <= fault_count_q + 32'd1;
             fault_time_q  <= now_i;
         end
-        if (live && underrun_i) underruns_q <= underruns_q + 32'd1;
+        if (live_q && underrun_i) underruns_q <= underruns_q + 32'd1;
 
         case (state_q)
             OFF:       if (arm_i) state_q <= SETTLING;
@@ -126,14 +128,15 @@ module output_gate #(
         settle_left_q <= settling ? settle_left_q - 1'b1 : LAST_SETTLE[SETTLE_BITS-1:0];
         on_later_q    <= {on_later_q[1:0], on} & {3{stays}};
         moves_later_q <= {moves_later_q[1:0], moves} & {3{stays}};
+        live_q        <= (arm_i && !shut) || (stays && (on || on_later_q != 3'd0));
 
         if (ended_i && open) emissions_q <= emissions_q + 32'd1;
         if (!open)                        focus_left_q <= 16'd0;
         else if (ended_i)                 focus_left_q <= bit_ticks_i - 16'd1;
         else if (focus_left_q != 16'd0)   focus_left_q <= focus_left_q - 16'd1;
-        if (!open)                        alive_left_q <= 32'd0;
-        else if (alive_left_q == 32'd0)   alive_left_q <= ALIVE_HALF_TICKS - 1;
-        else                              alive_left_q <= alive_left_q - 32'd1;
+        if (!open)                                     alive_left_q <= {ALIVE_BITS{1'b0}};
+        else if (alive_left_q == {ALIVE_BITS{1'b0}})   alive_left_q <= LAST_ALIVE[ALIVE_BITS-1:0];
+        else                                           alive_left_q <= alive_left_q - 1'b1;
 
         if (rst_i) begin
             state_q      <= OFF;
@@ -148,9 +151,10 @@ module output_gate #(
             settle_left_q <= {SETTLE_BITS{1'b0}};
             on_later_q    <= 3'b000;
             moves_later_q <= 3'b000;
+            live_q        <= 1'b0;
             focus_left_q  <= 16'd0;
             emissions_q   <= 32'd0;
-            alive_left_q  <= 32'd0;
+            alive_left_q  <= {ALIVE_BITS{1'b0}};
         end
     end
 
@@ -164,7 +168,7 @@ module output_gate #(
         end else begin
             channel_q   <= open && moves_later_q[2] && !rst_i ? drive_i & channel_mask_i : 32'd0;
             hv_enable_q <= open && !rst_i;
-            hv_alive_q  <= open && !rst_i && (hv_alive_q ^ (alive_left_q == 32'd0));
+            hv_alive_q  <= open && !rst_i && (hv_alive_q ^ (alive_left_q == {ALIVE_BITS{1'b0}}));
             focus_q     <= open && !rst_i && (ended_i || focus_left_q != 16'd0);
         end
     end
@@ -174,7 +178,7 @@ module output_gate #(
     assign settling_o  = settling;
     assign ramp_up_o   = state_q == RAMP_UP;
     assign ramp_down_o = state_q == RAMP_DOWN;
-    assign alive_o     = !host_silent;
+    assign alive_o     = !silent_q;
     assign shut_o      = shut;
     assign stopping_o  = state_q == STOPPING;
     assign fault_o     = {{16-`FAULT_CAUSES{1'b0}}, fault_q};

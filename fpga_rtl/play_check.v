@@ -9,7 +9,7 @@ module play_check #(
     input  wire                   clk_i,
     input  wire                   rst_i,
     input  wire                   judge_i,          // slot and words may have changed a clock ago, or are accepted: results hold only then
-    input  wire                   begin_i,          // pulse: words 0 to 2 of the frame are there
+    input  wire                   begin_i,          // pulse: words 0 to 2 of the frame are there; argument, slot and word 0 for 2 clocks
     input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY
     input  wire                   forget_i,         // pulse: nothing scheduled counts any more
     input  wire [15:0]            argument_i,
@@ -42,13 +42,13 @@ module play_check #(
     output wire [9:0]             length_o
 );
     localparam [63:0] TIME_LEAD_TICKS = `TIME_LEAD_TICKS;  // below 32
-    wire        scheduled = start_i == {6'd0, `START_TIME};
-    wire        live      = argument_i == `PLAY_LANDING;
-    wire [9:0]  held   = live ? 10'd1000 : slot_words_i;
-    wire [10:0] left   = {1'b0, held} - {1'b0, first_i[9:0]};  // words from the first on; negative: it is behind the end
-    wire [9:0]  length = asked_i == 16'd0 ? left[9:0] : asked_i[9:0];
-    wire        range_good = first_i[15:10] == 6'd0 && !left[10] && left[9:0] != 10'd0
-                             && asked_i[15:10] == 6'd0 && asked_i[9:0] <= left[9:0] && !(live && first_i != 16'd0);
+    // What is asked rests long before its frame ends: what it means is found out in two clocks, from register to register
+    reg         live_q, scheduled_q;
+    reg [10:0]  left_q;              // words from the first on; negative: it is behind the end
+    wire [9:0]  held   = live_q ? 10'd1000 : slot_words_i;
+    wire [9:0]  length = asked_i == 16'd0 ? left_q[9:0] : asked_i[9:0];
+    wire        range_good = first_i[15:10] == 6'd0 && !left_q[10] && left_q[9:0] != 10'd0
+                             && asked_i[15:10] == 6'd0 && asked_i[9:0] <= left_q[9:0] && !(live_q && first_i != 16'd0);
 
     // length x BIT_PERIOD, then (count - 1) x period
     reg [5:0]  step_q;               // 63: done
@@ -62,7 +62,7 @@ module play_check #(
     reg [64:0] free_q;               // earliest time that is not taken
     /* verilator lint_on UNUSEDSIGNAL */
     reg [9:0]  length_q;
-    reg        live_q, unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
+    reg        unnamed_q, empty_q, range_good_q, start_good_q, long_q, back_to_back_q, roomy_q;
     reg        open_q;               // from then on, until it is accepted
     reg [64:0] ahead_q;              // ticks until its time; negative: it has passed
     reg        late_q, overlap_q;
@@ -97,10 +97,12 @@ module play_check #(
         end
 
         if (judge_i) begin
+            live_q       <= argument_i == `PLAY_LANDING;
+            scheduled_q  <= start_i == {6'd0, `START_TIME};
+            left_q       <= {1'b0, held} - {1'b0, first_i[9:0]};
             length_q     <= length;
-            live_q       <= live;
-            unnamed_q    <= !live && !slot_good_i;
-            empty_q      <= !live && slot_words_i == 10'd0;
+            unnamed_q    <= !live_q && !slot_good_i;
+            empty_q      <= !live_q && slot_words_i == 10'd0;
             range_good_q <= range_good;
             start_good_q <= start_i <= {6'd0, `START_TIME} && polarity_i <= 8'd1;
         end
@@ -112,7 +114,7 @@ module play_check #(
             overlap_q <= when_i < free_q[64:1];
         end
 
-        if (accept_i && good_o && scheduled) free_q <= {when_i, 1'b1} + {15'd0, span_q[49:1], 1'b1};
+        if (accept_i && good_o && scheduled_q) free_q <= {when_i, 1'b1} + {15'd0, span_q[49:1], 1'b1};
         if (forget_i) free_q <= 65'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
@@ -123,6 +125,8 @@ module play_check #(
             span_q         <= 50'd0;
             length_q       <= 10'd0;
             live_q         <= 1'b0;
+            scheduled_q    <= 1'b0;
+            left_q         <= 11'd0;
             unnamed_q      <= 1'b0;
             empty_q        <= 1'b0;
             range_good_q   <= 1'b0;
@@ -148,7 +152,7 @@ module play_check #(
             unnamed_q, faulted_i, !armed_i, empty_q, !live_q && slot_checking_i, !live_q && !slot_intact_i,
             live_q && !arriving_i, live_q && !fast_i, live_q && queued_i != 4'd0,
             !range_good_q, !start_good_q, long_q, count_i != 16'd1 && !back_to_back_q && !roomy_q,
-            full_i, scheduled && late_q, scheduled && overlap_q
+            full_i, scheduled_q && late_q, scheduled_q && overlap_q
         };
         casez (against)
             16'b1???_????_????_????: result = `RESULT_BAD_SLOT;

@@ -164,11 +164,12 @@ module register_file #(
     wire [31:0] bit_ticks     = {16'd0, bit_period_q[31:16]};
     wire        hold;
     wire [31:0] own;               // of this link
+    reg  [1:0]  which_q;
     wire [31:0] frame_errors = own, sequence_gaps = own, held = own;
     link_counters link_counters (
         .clk_i(clk_i), .rst_i(rst_i), .accept_i(accept_i), .uart_i(uart_i), .gap_i(gap_i), .refused_i(refused_i),
         .hold_i(hold), .high_i(high),
-        .which_i(register == `REGISTER_FRAME_ERRORS ? 2'd0 : register == `REGISTER_SEQUENCE_GAPS ? 2'd1 : 2'd2), .value_o(own)
+        .which_i(which_q), .value_o(own)
     );
 
     reg [31:0] value;              // of the register
@@ -332,9 +333,10 @@ module register_file #(
             setting_q  <= setting;
             takes_q    <= setting && known && in_range;
             in_range_q <= in_range;
+            which_q    <= register == `REGISTER_FRAME_ERRORS ? 2'd0 : register == `REGISTER_SEQUENCE_GAPS ? 2'd1 : 2'd2;
         end
         if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
-                    in_range_q, takes_q} <= 13'd0;
+                    in_range_q, takes_q, which_q} <= 15'd0;
     end
 
     wire unlocked = unlocked_q[uart_i];

@@ -69,7 +69,7 @@ always @(posedge clk_i) begin
     fed_q       <= !rst_i && (fed_q || heartbeat_i);
     fed_ticks_q <= heartbeat_i ? heartbeat_ticks_i : fed_ticks_q;
     unfed_q     <= heartbeat_i ? 1 : unfed_q == 32'hFFFFFFFF ? unfed_q : unfed_q + 1;
-    since_limit_q <= rst_i ? REST_TICKS : live && limits_i != 0 ? 0 : since_limit_q == REST_TICKS ? REST_TICKS : since_limit_q + 1;
+    since_limit_q <= rst_i ? REST_TICKS : live_q && limits_i != 0 ? 0 : since_limit_q == REST_TICKS ? REST_TICKS : since_limit_q + 1;
 end
 
 wire any = channel_o != 0 || hv_enable_o || hv_alive_o || focus_o;
@@ -120,11 +120,12 @@ always @* if (started_q) begin
         assert (up_q <= SETTLED);
         rest_has_its_time: assert (resting_q == (since_limit_q < REST_TICKS) && since_limit_q <= REST_TICKS);
         if (resting_q) rest_is_counted: assert (rest_left_q == REST_TICKS - since_limit_q);
-        if (live) assert (fault_q == 0 && allowed_q);
+        live_is_anything_on: assert (live_q == (on || on_later_q != 3'd0 || hv_enable_q));
+        if (live_q) assert (fault_q == 0 && allowed_q);
         if (!silent_q) assert (fed_q && unfed_q != 0);
         if (!silent_q) silence_is_counted: assert (unfed_q == 1 ? silence_q == fed_ticks_q : {1'b0, silence_q} + unfed_q == {1'b0, fed_ticks_q} + 33'd1);
         if (!silent_q) silent_in_time: assert (unfed_q <= fed_ticks_q || unfed_q == 1);
-        if (live) assert (fed_q && unfed_q != 0 && (unfed_q <= fed_ticks_q + 33'd1 || unfed_q <= 2));
+        if (live_q) assert (fed_q && unfed_q != 0 && (unfed_q <= fed_ticks_q + 33'd1 || unfed_q <= 2));
         if (state_q == SETTLING) settling_is_counted: assert (age_q < SETTLED && settle_left_q == SETTLED - 17'd1 - age_q);
         if (moves)            moves_once_settled: assert (age_q == SETTLED);
         if (moves_later_q[0]) assert (on_later_q[0] && age_1_q == SETTLED);

@@ -31,7 +31,7 @@ MODEL = """        counts, most = self.telemetry.counts, self.registers.read(Reg
 """
 FAULT = """    TEST_PERIOD = 9, "The bit period was that of the test."
 """
-FAULT_VERILOG = """    assign cause[`FAULT_TEST_PERIOD] = live && bit_ticks_i == 16'd110;
+FAULT_VERILOG = """    assign wrong[`FAULT_TEST_PERIOD] = bit_ticks_i == 16'd110;
 """
 FAULT_MODEL = """        if self._registers.bit_ticks == 110:
             cause |= Fault.TEST_PERIOD
@@ -47,7 +47,7 @@ PLACES = (  # file, what is written there, before which line
     ("controller/fpga/build_parameters.py", "            tests_built=4321,\n", r"        \)\n\n    def verilog"),
     ("tests/conformance/pin_script.py", "    tests_built=1234,\n", r"\)\n\nBIT_TICKS = "),
     ("controller/fpga/registers.py", FAULT, r"\n    @property\n    def sentence"),
-    ("fpga_rtl/output_gate.v", FAULT_VERILOG, r"    wire       shut = "),
+    ("fpga_rtl/output_gate.v", FAULT_VERILOG, r"    wire \[`FAULT_CAUSES-1:0\] cause = "),
     ("controller/gateware_model/gate.py", FAULT_MODEL, r"        return cause \| Fault\.HOST_SILENT"),
     ("controller/gateware_model/gate.py", FAULT_FORESEEN, r"        limit = self\.limits\.next_change\(now\)\n"),
 )

@@ -59,7 +59,7 @@ PROOFS = {
         "output_gate.v",
         {
             "causes that count only in a state": Bug(
-                "on || on_later_q != 3'd0 || hv_enable_q", "on", "(stopped|hot|silent|beyond)_is_off"
+                "(on || on_later_q != 3'd0);", "on;", "(stop|heat|silence|limits|underrun)_(is|are)_kept|live_is_anything_on"
             ),
             "any other code for a state": Bug("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
             "outputs that wait for the clock": Bug("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),
@@ -72,7 +72,7 @@ PROOFS = {
             "a rest of a clock less": Bug("rest_left_q != 32'd1", "rest_left_q != 32'd2", "rest_is_counted|rest_has_its_time"),
             "a channel without a stage": Bug("drive_i & channel_mask_i", "drive_i", "mask_is_kept"),
             "a level that nobody plays": Bug("drive_i & channel_mask_i", "channel_mask_i", "only_what_is_played"),
-            "an underrun that goes on": Bug("live && underrun_i;\n    assign", "1'b0;\n    assign", "underrun_is_off"),
+            "an underrun that goes on": Bug("= underrun_i;\n    assign", "= 1'b0;\n    assign", "underrun_is_off"),
             "a fault that heals": Bug(": fault_q) | cause", ": {`FAULT_CAUSES{1'b0}}) | cause", "only_a_command_clears"),
             "a fault that is not kept": Bug(": fault_q) | cause", ": fault_q)", "a_fault_is_counted|.*_(is|are)_kept"),
             "a fault that counts twice": Bug("fault_count_q + 32'd1", "fault_count_q + 32'd2", "a_fault_is_counted"),

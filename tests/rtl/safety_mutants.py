@@ -27,8 +27,8 @@ class Change(NamedTuple):
 MUTANTS = {
     "silence is not counted": Change("output_gate", "silence_q <= silence_q - 32'd1;", "silence_q <= silence_q;"),
     "any link feeds": Change("safety_island", "heard_i && !off_o && link_i == link_q", "heard_i && !off_o"),
-    "permit ignored": Change("output_gate", "live && !run_permit_i;", "1'b0;"),
-    "heat ignored": Change("output_gate", "live && !temperature_good_i;", "1'b0;"),
+    "permit ignored": Change("output_gate", "= !run_permit_i;", "= 1'b0;"),
+    "heat ignored": Change("output_gate", "= !temperature_good_i;", "= 1'b0;"),
     "the pipeline is not flushed": Change(
         "output_gate", "on_later_q    <= {on_later_q[1:0], on} & {3{stays}};", "on_later_q    <= {on_later_q[1:0], on};"
     ),
@@ -40,8 +40,8 @@ MUTANTS = {
     "a buffer in use is loaded": Change("waveform_buffer", "= chunk_good_q && !load_busy_i &&", "= chunk_good_q &&"),
     "pulses are not watched": Change("safety_island", ".pulse_ticks_i(pulse_ticks_q)", ".pulse_ticks_i(16'd0)"),
     "one clock is a trigger": Change("trigger_input", "high = trigger_q[3:1] == 3'b111;", "high = trigger_q[1];"),
-    "underrun ignored": Change("output_gate", "live && underrun_i;\n    assign", "1'b0;\n    assign"),
-    "limits ignored": Change("output_gate", "limits_i & {5{live}};", "5'd0;"),
+    "underrun ignored": Change("output_gate", "= underrun_i;\n    assign", "= 1'b0;\n    assign"),
+    "limits ignored": Change("output_gate", "= limits_i;", "= 5'd0;"),
     "the host sets the limit": Change("safety_island", "most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] :", ""),
     "every channel has a stage": Change("safety_island", "channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i"),
     "the supply does not settle": Change("output_gate", "settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1"),

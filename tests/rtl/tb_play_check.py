@@ -8,7 +8,9 @@ from clocked import after_reset, clocks, reset, settled
 
 from controller.fpga.registers import PLAY_LANDING, Result, Start
 
+REST_TICKS = 2  # argument, slot and word 0 rest before words 0 to 2 are there
 BEGIN_TO_ACCEPT = 29  # ticks from words 0 to 2 to the first in which the frame may be accepted: 28 between
+ASK_TICKS = REST_TICKS + BEGIN_TO_ACCEPT
 LEAD = 28  # a time is met if it is so many ticks, or more, behind the tick in which its frame is accepted
 NAMES = [
     "argument", "first", "asked", "count", "start", "polarity", "period", "when", "bit_period", "emission_ticks",
@@ -124,12 +126,17 @@ class Bench:
         for name in NAMES:
             getattr(self.dut, f"{name}_i").value = int(getattr(play, name))
 
-    async def ask(self, play, wait=BEGIN_TO_ACCEPT):
-        """A whole PLAY frame: its lengths are known in one tick, it is accepted `wait` ticks later."""
+    async def begin(self, play):
+        """Words 0 to 2 of a frame are there, and what it names has rested."""
         self.show(play)
+        await self.step(REST_TICKS)
         self.dut.begin_i.value = 1
         await self.step()
         self.dut.begin_i.value = 0
+
+    async def ask(self, play, wait=BEGIN_TO_ACCEPT):
+        """A whole PLAY frame: its lengths are known in one tick, it is accepted `wait` ticks later."""
+        await self.begin(play)
         await self.step(wait - 1)
         self.dut.accept_i.value = 1
         await settled()
@@ -248,10 +255,10 @@ async def a_time_is_far_enough_ahead_to_be_met(dut):
     for now in (0, (1 << 32) - 100, (1 << 63) + 5):
         bench = await Bench.ready(dut, now)
         for late in (1, 2, 1000):
-            play = replace(GOOD, start=Start.TIME, when=max(0, bench.tick + BEGIN_TO_ACCEPT + LEAD - late))
+            play = replace(GOOD, start=Start.TIME, when=max(0, bench.tick + ASK_TICKS + LEAD - late))
             assert await bench.ask(play) is Result.TOO_LATE
         for early in (0, 1000, 1 << 33):
-            play = replace(GOOD, start=Start.TIME, when=bench.tick + BEGIN_TO_ACCEPT + LEAD + early)
+            play = replace(GOOD, start=Start.TIME, when=bench.tick + ASK_TICKS + LEAD + early)
             assert await bench.ask(play) is Result.OK
             await bench.forget()
         for start in (Start.NOW, Start.TRIGGER):
@@ -296,17 +303,11 @@ async def what_is_scheduled_does_not_overlap(dut):
 async def a_frame_that_never_ended_leaves_nothing_behind(dut):
     bench = await Bench.ready(dut)
     for cut in (0, 1, 10, 11, 12, 27, 28, 29):
-        bench.show(replace(GOOD, asked=0, count=0xFFFF, period=0xFFFF_FFFF))
-        dut.begin_i.value = 1
-        await bench.step()
-        dut.begin_i.value = 0
+        await bench.begin(replace(GOOD, asked=0, count=0xFFFF, period=0xFFFF_FFFF))
         await bench.step(cut)
         assert await bench.ask(replace(GOOD, count=3, period=110)) is Result.OK
         assert await bench.ask(replace(GOOD, count=3, period=109)) is Result.BAD_PERIOD
-        bench.show(GOOD)
-        dut.begin_i.value = 1
-        await bench.step()
-        dut.begin_i.value = 0
+        await bench.begin(GOOD)
         await bench.step(cut)
         await reset(dut)
         bench.tick += 1
@@ -342,7 +343,7 @@ def random_play(tick, free_from):
     )
     ticks, rest = play.ticks & 0xFFFF_FFFF, play.rest
     periods = [ticks, ticks, ticks + rest, ticks + rest, ticks + rest - 1, ticks + 1, random.getrandbits(32)]
-    early = tick + BEGIN_TO_ACCEPT + LEAD
+    early = tick + ASK_TICKS + LEAD
     whens = [early, early - 1, free_from, free_from, max(free_from - 1, 0), free_from + random.randrange(9), random.getrandbits(50)]
     return replace(
         play,
