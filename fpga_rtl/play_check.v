@@ -10,7 +10,7 @@ module play_check #(
     input  wire                   rst_i,
     input  wire                   judge_i,          // slot and words may have changed a clock ago, or are accepted: results hold only then
     input  wire                   begin_i,          // pulse: words 0 to 2 of the frame are there; argument, slot and word 0 for 2 clocks
-    input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY
+    input  wire                   accept_i,         // pulse: the frame is accepted, and a PLAY; its words rest for a clock more
     input  wire                   forget_i,         // pulse: nothing scheduled counts any more
     input  wire [15:0]            argument_i,
     input  wire [15:0]            first_i, asked_i, // words of the waveform; 0: to its end
@@ -66,6 +66,7 @@ module play_check #(
     reg        open_q;               // from then on, until it is accepted
     reg [64:0] ahead_q;              // ticks until its time; negative: it has passed
     reg        late_q, overlap_q;
+    reg        taken_q;              // a clock ago a play with a time was accepted
 
     wire [31:0] rest    = {16'd0, bit_period_i[31:16]};
     wire [47:0] doubled = {product_q[46:0], 1'b0};
@@ -114,7 +115,8 @@ module play_check #(
             overlap_q <= when_i < free_q[64:1];
         end
 
-        if (accept_i && good_o && scheduled_q) free_q <= {when_i, 1'b1} + {15'd0, span_q[49:1], 1'b1};
+        taken_q <= accept_i && good_o && scheduled_q && !forget_i;
+        if (taken_q)  free_q <= {when_i, 1'b1} + {15'd0, span_q[49:1], 1'b1};
         if (forget_i) free_q <= 65'd0;
         if (rst_i) begin
             step_q         <= 6'd63;
@@ -140,6 +142,7 @@ module play_check #(
             free_q         <= 65'd0;
             late_q         <= 1'b0;
             overlap_q      <= 1'b0;
+            taken_q        <= 1'b0;
         end
     end
 

@@ -227,9 +227,11 @@ module stage_limits #(
     endfunction
 
     // Time
-    reg [AGE_BITS-1:0]   age_q;                  // ticks the emission has sounded before this one
+    reg [AGE_BITS-1:0]   age_q;                  // ticks the emission has sounded before this one, unless it begins with this
+    reg                  begins_q;
     reg [LEVEL_BITS-1:0] level_q;                // 16.16 ticks of activity
-    wire        late    = emission_i && age_q >= emission_ticks_i;
+    wire [AGE_BITS-1:0] age = begins_q ? {AGE_BITS{1'b0}} : age_q;
+    wire        late    = emission_i && age >= emission_ticks_i;
     wire [17:0] flow    = {1'b0, active_i, 16'd0} - {1'b0, duty_share_i};
     wire [LEVEL_BITS:0] level = {1'b0, level_q} + {{LEVEL_BITS-17{flow[17]}}, flow};
     wire        part_tick = level_q[15:0] != 16'd0;
@@ -257,8 +259,9 @@ module stage_limits #(
         if (clear_i || channels_q == 32'd0) channels_q <= short_pulse | edge_too_many;
 
         late_q <= late;
-        if (start_i || !emission_i) age_q <= {AGE_BITS{1'b0}};
-        else if (!late)             age_q <= age_q + 1'b1;
+        begins_q <= start_i;
+        if (!emission_i) age_q <= {AGE_BITS{1'b0}};
+        else             age_q <= late ? age : age + 1'b1;
         duty_q  <= active_i && duty_left[DUTY_BITS+2];  // negative
         if (level[LEVEL_BITS] && flow[17])               level_q <= {LEVEL_BITS{1'b0}};
         else if (!level[LEVEL_BITS])                     level_q <= level[LEVEL_BITS-1:0];
@@ -270,6 +273,7 @@ module stage_limits #(
             all_q         <= {TOTAL_BITS{1'b0}};
             all_base_q    <= {TOTAL_BITS{1'b0}};
             age_q         <= {AGE_BITS{1'b0}};
+            begins_q      <= 1'b0;
             level_q       <= {LEVEL_BITS{1'b0}};
             {duty_q, late_q, total_edges_q, edges_q, short_q} <= 5'd0;
             channels_q    <= 32'd0;

@@ -101,23 +101,23 @@ module waveform_player #(
     wire repeating = endless_q || count_q[15:1] != 15'd0;
     wire halted    = stop_i || disarm_i;     // nothing begins in this clock; what begins with a fault ends with it
     wire room      = armed_i && !playing_q && !delayed_q && !resting_q;
-    wire free      = room && !halted;
-    reg  by_trigger, begins;
+    reg  by_trigger, wants;                  // the head: begins unless halted
+    wire begins    = wants && !halted;
     wire missed    = head_i && missed_q;
     wire delay     = head_delayed_i;
 
     wire boundary  = playing_q && hold_over_q;
     wire last      = boundary && last_q;
-    wire due       = repeating && !delayed_q && elapsed_over_q && !begins && !halted;
-    wire released  = delayed_q && elapsed_over_q && !halted;
-    wire from_head = begins && !delay;
-    wire start     = due || released || from_head;
+    wire due       = repeating && !delayed_q && elapsed_over_q && !wants;
+    wire released  = delayed_q && elapsed_over_q;
+    wire starts    = due || released || (wants && !delay);  // unless halted
+    wire start     = starts && !halted;
     always @* begin
         by_trigger = 1'b0;
-        begins     = 1'b0;
+        wants      = 1'b0;
         if (head_i) begin
             by_trigger = head_start_i == `START_TRIGGER && trigger_i;
-            begins     = free && (by_trigger || (head_start_i == `START_TIME && due_q)
+            wants      = room && (by_trigger || (head_start_i == `START_TIME && due_q)
                                   || (head_start_i == `START_NOW && count_q[15:1] == 15'd0));
         end
     end
@@ -166,7 +166,7 @@ module waveform_player #(
             elapsed_q      <= elapsed_q + 32'd1;
             elapsed_over_q <= elapsed_q == (delayed_q ? delay_q : period_q);
         end
-        if (begins) begin
+        if (wants) begin                     // what stands in these counts only while something runs
             buffer_q     <= head_buffer_i;
             first_q      <= head_first_i;
             final_q      <= head_length_i - 10'd1;
@@ -180,9 +180,9 @@ module waveform_player #(
             delayed_q    <= delay;
         end else if (due && !endless_q) count_q <= count_q - 16'd1;
         if (released) delayed_q <= 1'b0;
-        if (begins || start) begin
+        if (wants || starts) begin
             elapsed_q      <= 32'd2;
-            elapsed_over_q <= begins && head_delayed_one_i;
+            elapsed_over_q <= wants && head_delayed_one_i;
         end
         if (start) begin
             playing_q       <= 1'b1;

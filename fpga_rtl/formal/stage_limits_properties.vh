@@ -109,7 +109,7 @@ always @* if (started_q) begin
     // what induction must know of the inside
     ticks_are_counted:    assert (own_since_q <= LONG_AGO && {2'b00, since_q} <= own_since_q);
     own_change_is_recent: assert (recent_q[one] || own_since_q == LONG_AGO || own_since_q >= {2'b00, since_q} + {2'b00, pulse_ticks});
-    assert (sounded_q <= ENDLESS && {1'b0, age_q} == (sounded_q < {1'b0, emission_ticks} ? sounded_q : {1'b0, emission_ticks}));
+    assert (sounded_q <= ENDLESS && {1'b0, age} == (sounded_q < {1'b0, emission_ticks} ? sounded_q : {1'b0, emission_ticks}));
     bucket_holds_the_sum: assert (sum_q <= FULL && sum_q >= -FULL && sum_q <= $signed({2'b00, level_q}));
     low_bits_count:       assert (low_one == edges_all_q[LOW_BITS-1:0]);
     assert (round_q <= LAST_ROUND[ROUND_BITS-1:0] && last_round_q == (round_q == LAST_ROUND[ROUND_BITS-1:0]));

@@ -193,7 +193,7 @@ PROOFS = {
                 "recent_q <= kept | change_q;", "recent_q <= change_q;", "own_change_is_recent"
             ),
             "a pulse a tick shorter": Bug("since_q  <= 16'd1;", "since_q  <= 16'd2;", "ticks_are_counted"),
-            "an emission a tick longer": Bug("age_q >= emission_ticks_i", "age_q > emission_ticks_i", "long_emission_is_seen"),
+            "an emission a tick longer": Bug("age >= emission_ticks_i", "age > emission_ticks_i", "long_emission_is_seen"),
             "a part of a tick that is not looked at": Bug("level_q[15:0] != 16'd0", "1'b0", "duty_is_seen"),
             "a bucket that flows over into nothing": Bug("else if (!level[LEVEL_BITS]) ", "else ", "bucket_holds_the_sum"),
             "a bit that counts every change": Bug(

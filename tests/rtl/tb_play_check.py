@@ -149,6 +149,7 @@ class Bench:
             assert int(self.dut.buffer_o.value) == (play.landing if play.live else play.slot_buffer)
         await self.step()
         self.dut.accept_i.value = 0
+        await self.step()  # a frame's words rest for a clock behind it
         return result
 
     async def forget(self):
