@@ -22,27 +22,20 @@ module frame_result (
     output wire [7:0]  result_o, sequence_o,
     output wire [31:0] data_o
 );
+    wire        of_memory = page_i[9];
+    wire        of_crc    = page_i[9:2] == 8'd1;
+    wire        of_queue  = page_i[9:2] == 8'd2;
     reg  [7:0]  read_result, result;
-    reg  [31:0] read_data;
+    reg  [31:0] other_data;                 // of a READ that asks for no register
 
     always @* begin
         read_result = `RESULT_OK;
-        read_data   = 32'd0;
+        other_data  = 32'd0;
         result      = `RESULT_OK;
         if (accept_i) begin
-            if (page_i[9]) begin
-                read_result = memory_result_i;
-                read_data   = memory_data_i;
-            end else if (page_i[8:2] == 7'd1) begin
-                read_result = crc_result_i;
-                read_data   = crc_data_i;
-            end else if (page_i[8:2] == 7'd2) begin
-                read_result = page_i[1:0] != 2'd0 ? `RESULT_BAD_RANGE : queue_result_i;
-                read_data   = queue_data_i;
-            end else begin
-                read_result = register_result_i;
-                read_data   = register_data_i;
-            end
+            other_data  = of_memory ? memory_data_i : of_crc ? crc_data_i : queue_data_i;
+            read_result = of_memory ? memory_result_i : of_crc ? crc_result_i
+                        : of_queue ? (page_i[1:0] != 2'd0 ? `RESULT_BAD_RANGE : queue_result_i) : register_result_i;
             case (kind_i)
                 `TYPE_NOP, `TYPE_TEST: result = `RESULT_OK;
                 `TYPE_READ:  result = read_result;
@@ -62,9 +55,9 @@ module frame_result (
     end
 
     reg  [1:0]  done_q;
-    reg         read_q;
+    reg         read_q, of_register_q;
     reg  [7:0]  result_q, sequence_q;
-    reg  [31:0] data_q;
+    reg  [31:0] register_data_q, other_data_q;  // side by side: a register is chosen of many
 
     always @(posedge clk_i) begin
         done_q <= {accept_i && uart_i, accept_i && !uart_i};
@@ -72,14 +65,18 @@ module frame_result (
             read_q     <= kind_i == `TYPE_READ;
             result_q   <= result;
             sequence_q <= sequence_i;
-            data_q     <= read_data;
+            of_register_q   <= !of_memory && !of_crc && !of_queue;
+            register_data_q <= register_data_i;
+            other_data_q    <= other_data;
         end
         if (rst_i) begin
             done_q     <= 2'b00;
             read_q     <= 1'b0;
             result_q   <= `RESULT_OK;
             sequence_q <= 8'd0;
-            data_q     <= 32'd0;
+            of_register_q   <= 1'b0;
+            register_data_q <= 32'd0;
+            other_data_q    <= 32'd0;
         end
     end
 
@@ -88,7 +85,7 @@ module frame_result (
     assign read_o     = read_q && result_q == `RESULT_OK;
     assign result_o   = result_q;
     assign sequence_o = sequence_q;
-    assign data_o     = data_q;
+    assign data_o     = of_register_q ? register_data_q : other_data_q;
 endmodule
 
 `default_nettype wire

@@ -239,7 +239,7 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_read, play_polarity, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire [1:0]             head_start;
@@ -261,7 +261,7 @@ module haptic_core #(
         .slot_intact_o(slot_intact), .slot_checking_o(slot_checking), .loaded_o(slots_loaded), .checking_o(checking),
         .landing_o(landing), .chunks_o(chunks),
         .memory_result_o(memory_result), .memory_data_o(memory_data), .crc_result_o(crc_result), .crc_data_o(crc_data),
-        .play_i(playing), .play_read_i(play_read), .play_polarity_i(play_polarity), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
+        .play_i(playing), .play_read_i(play_read), .play_buffer_i(read_buffer), .play_word_i(read_word), .play_chunk_i(read_chunk),
         .play_within_i(read_within), .missing_o(missing), .play_data_o(play_data)
     );
 
@@ -302,7 +302,7 @@ module haptic_core #(
         .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
         .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
-        .read_o(play_read), .read_polarity_o(play_polarity), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
+        .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
         .missing_i(missing), .read_data_i(play_data), .underrun_o(underrun),
         .ramping_i(ramp_up || ramp_down), .ramp_bit_i(ramp_bit),
         .drive_o(drive), .start_o(start), .ended_o(ended), .playing_o(playing), .delayed_o(delayed),

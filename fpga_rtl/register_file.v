@@ -178,7 +178,7 @@ module register_file #(
     reg        setting;            // it is a setting, which takes words from least to most without a bit of barred
     reg [31:0] least, most, barred;
     reg [KEPT_BITS-1:0] place;     // of the setting
-    reg        in_range;
+    reg        below, above, apart; // what speaks against a word
     always @* begin
         value    = 32'd0;
         high     = 32'd0;
@@ -188,7 +188,7 @@ module register_file #(
         most     = 32'hFFFFFFFF;
         barred   = 32'd0;
         place    = {KEPT_BITS{1'b0}};
-        in_range = 1'b1;
+        {below, above, apart} = 3'd0;
         if (judge_i) case (register)
             // generated: read
             `REGISTER_IDENTITY: value = `IDENTITY_MAGIC;
@@ -303,8 +303,9 @@ module register_file #(
         endcase
         if (judge_i && setting) begin
             if (written_q[place]) value = kept[place];
-            in_range = word0 >= least && word0 <= most && (word0 & barred) == 32'd0
-                       && !(register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q);
+            below = word0 < least;
+            above = word0 > most;
+            apart = (word0 & barred) != 32'd0 || (register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q);
         end
     end
     assign hold = read_i && known_q && low;
@@ -313,9 +314,10 @@ module register_file #(
         if (change) kept[place] <= word0;
     end
 
-    // Address and words rest long before their frame ends: what they mean is found out a clock early
-    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, in_range_q, takes_q, known_q, idle_q;
+    // Address and words rest long before their frame ends: what they mean is found out a clock early, whether a word fits two
+    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, below_q, above_q, apart_q, takes_q, known_q, idle_q;
 
+    wire in_range = !below_q && !above_q && !apart_q;
     wire command = address_i == `REGISTER_CONTROL;
     wire known   = address_i < `REGISTER_COUNT;
     always @(posedge clk_i) begin
@@ -331,12 +333,14 @@ module register_file #(
             trigger_q  <= command && word0 == `CONTROL_TRIGGER;
             key_good_q <= word1 == `IDENTITY_MAGIC && word2 == `PROTOCOL_VERSION && word3 == BUILD_HASH;
             setting_q  <= setting;
-            takes_q    <= setting && known && in_range;
-            in_range_q <= in_range;
+            below_q    <= below;
+            above_q    <= above;
+            apart_q    <= apart;
+            takes_q    <= setting_q && known_q && in_range;
             which_q    <= register == `REGISTER_FRAME_ERRORS ? 2'd0 : register == `REGISTER_SEQUENCE_GAPS ? 2'd1 : 2'd2;
         end
         if (rst_i) {known_q, control_q, idle_q, arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, setting_q,
-                    in_range_q, takes_q, which_q} <= 15'd0;
+                    below_q, above_q, apart_q, takes_q, which_q} <= 17'd0;
     end
 
     wire unlocked = unlocked_q[uart_i];
@@ -370,7 +374,7 @@ module register_file #(
         else if (control_q)  write_result = control_result;
         else if (!setting_q) write_result = `RESULT_READ_ONLY;
         else if (!free)      write_result = idle_q ? `RESULT_BUSY : `RESULT_ARMED;
-        else                 write_result = in_range_q ? `RESULT_OK : `RESULT_BAD_VALUE;
+        else                 write_result = in_range ? `RESULT_OK : `RESULT_BAD_VALUE;
     end
 
     assign read_result_o  = known_q ? `RESULT_OK : `RESULT_UNKNOWN_REGISTER;

@@ -109,23 +109,26 @@ module stage_limits #(
 
     // Short pulses
     reg [15:0] since_q;                          // ticks from the last change to the one in change_q
+    reg        soon_q;                           // less than pulse_ticks_i
     reg [31:0] recent_q;                         // channels that changed since the pins last rested
     reg  [31:0] kept, short_pulse;
     always @* begin
         kept        = 32'd0;
         short_pulse = 32'd0;
-        if (moved_q && since_q < pulse_ticks_i) begin
+        if (moved_q && soon_q) begin
             kept        = recent_q;
             short_pulse = change_q & recent_q;
         end
     end
 
     always @(posedge clk_i) begin
+        soon_q <= moved_q ? pulse_ticks_i > 16'd1 : {1'b0, since_q} + 17'd1 < {1'b0, pulse_ticks_i};
         if (moved_q) begin
             since_q  <= 16'd1;
             recent_q <= kept | change_q;
         end else if (since_q != 16'hFFFF) since_q <= since_q + 16'd1;
         if (rst_i) begin
+            soon_q   <= 1'b0;
             since_q  <= 16'hFFFF;
             recent_q <= 32'd0;
         end

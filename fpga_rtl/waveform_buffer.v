@@ -48,7 +48,6 @@ module waveform_buffer #(
     // player; data two clocks after play_read_i, until the next
     input  wire                   play_i,         // it plays
     input  wire                   play_read_i,    // pulse: it has come to another word; never in two clocks one behind the other
-    input  wire                   play_polarity_i, // words come inverted
     input  wire [BUFFER_BITS-1:0] play_buffer_i,
     input  wire [9:0]             play_word_i,
     input  wire [2:0]             play_chunk_i,   // the same word within its chunk
@@ -125,9 +124,22 @@ module waveform_buffer #(
     wire                   check_reads = (reading && !check_word_q[0]) || owed_q;
     wire                   fetch       = (check_q ? check_reads : read_memory) && !play_read_i;
     wire [31:0]            even, odd;
+    // A word is written a clock later: its way to all blocks is a long one, and nothing reads it before its frame has ended
+    reg                    writes_q;
+    reg  [9:0]             write_word_q;
+    reg  [BUFFER_BITS-1:0] write_buffer_q;
+    reg  [31:0]            write_data_q;
+    always @(posedge clk_i) begin
+        writes_q <= write && !rst_i;
+        if (write) begin
+            write_word_q   <= write_word;
+            write_buffer_q <= landing_q;
+            write_data_q   <= write_data_i;
+        end
+    end
     waveform_memory #(.BUFFERS(SLOTS + 1), .BUFFER_BITS(BUFFER_BITS)) waveform_memory (
         .clk_i(clk_i),
-        .write_i(write), .write_buffer_i(landing_q), .write_word_i(write_word), .write_data_i(write_data_i),
+        .write_i(writes_q), .write_buffer_i(write_buffer_q), .write_word_i(write_word_q), .write_data_i(write_data_q),
         .read_i(fetch || play_read_i),
         .read_buffer_i(play_read_i ? play_buffer_i : check_q ? check_buffer_q : slot_buffer),
         .read_pair_i(play_read_i ? play_word_i[9:1] : check_q ? check_word_q[9:1] : argument_i[9:1]),
@@ -138,7 +150,7 @@ module waveform_buffer #(
         if (play_read_i || played_q) begin
             played_q <= play_read_i;
             if (play_read_i) play_odd_q <= play_word_i[0];
-            if (played_q)    play_data_q <= (play_odd_q ? odd : even) ^ {32{play_polarity_i}};
+            if (played_q)    play_data_q <= play_odd_q ? odd : even;
         end
         if (check_q || read_memory || fetched_q) begin
             owed_q      <= check_q && check_reads && play_read_i;

@@ -40,7 +40,6 @@ module waveform_player #(
     output wire                   landing_used_o,  // and not live
     output wire                   live_o,          // what plays is still arriving
     output wire                   read_o,          // pulse: it has come to another word, and reads it
-    output wire                   read_polarity_o, // words of this play come inverted
     output wire [BUFFER_BITS-1:0] read_buffer_o,
     output wire [9:0]             read_word_o,
     output wire [2:0]             read_chunk_o,
@@ -69,6 +68,7 @@ module waveform_player #(
 );
     reg                   playing_q, delayed_q, endless_q, halting_q;
     reg [15:0]            count_q;         // emissions to come, this one included, unless endless
+    reg                   repeating_q;     // more than this one, or endless
     reg [BUFFER_BITS-1:0] buffer_q;
     reg                   live_q, polarity_q;
     reg [31:0]            mask_q;
@@ -98,7 +98,6 @@ module waveform_player #(
     reg [31:0]            triggers_q, ignored_q, missed_count_q;
     reg [63:0]            trigger_time_q, emission_time_q;
 
-    wire repeating = endless_q || count_q[15:1] != 15'd0;
     wire halted    = stop_i || disarm_i;     // nothing begins in this clock; what begins with a fault ends with it
     wire room      = armed_i && !playing_q && !delayed_q && !resting_q;
     reg  by_trigger, wants;                  // the head: begins unless halted
@@ -108,7 +107,7 @@ module waveform_player #(
 
     wire boundary  = playing_q && hold_over_q;
     wire last      = boundary && last_q;
-    wire due       = repeating && !delayed_q && elapsed_over_q && !wants;
+    wire due       = repeating_q && !delayed_q && elapsed_over_q && !wants;
     wire released  = delayed_q && elapsed_over_q;
     wire starts    = due || released || (wants && !delay);  // unless halted
     wire start     = starts && !halted;
@@ -118,7 +117,7 @@ module waveform_player #(
         if (head_i) begin
             by_trigger = head_start_i == `START_TRIGGER && trigger_i;
             wants      = room && (by_trigger || (head_start_i == `START_TIME && due_q)
-                                  || (head_start_i == `START_NOW && count_q[15:1] == 15'd0));
+                                  || (head_start_i == `START_NOW && (!repeating_q || endless_q)));
         end
     end
     wire [16:0] next_fraction = {1'b0, fraction_q} + {1'b0, bit_period_i[15:0]};
@@ -162,7 +161,7 @@ module waveform_player #(
         underrun_q <= playing_q && live_q && missing_i;
         read_q     <= start || boundary;
 
-        if (delayed_q || repeating) begin
+        if (delayed_q || repeating_q) begin
             elapsed_q      <= elapsed_q + 32'd1;
             elapsed_over_q <= elapsed_q == (delayed_q ? delay_q : period_q);
         end
@@ -177,8 +176,12 @@ module waveform_player #(
             live_q       <= head_live_i;
             endless_q    <= head_count_i == 16'd0;
             count_q      <= head_count_i;
+            repeating_q  <= head_count_i != 16'd1;
             delayed_q    <= delay;
-        end else if (due && !endless_q) count_q <= count_q - 16'd1;
+        end else if (due && !endless_q) begin
+            count_q     <= count_q - 16'd1;
+            repeating_q <= count_q != 16'd2;
+        end
         if (released) delayed_q <= 1'b0;
         if (wants || starts) begin
             elapsed_q      <= 32'd2;
@@ -194,8 +197,9 @@ module waveform_player #(
             fraction_q      <= bit_period_i[15:0];
             emission_time_q <= before_q;
         end
-        if (stop_i || disarm_i) begin
+        if (halted) begin
             endless_q   <= 1'b0;
+            repeating_q <= 1'b0;
             count_q     <= 16'd0;
             delayed_q   <= 1'b0;
         end
@@ -208,6 +212,7 @@ module waveform_player #(
             halting_q   <= 1'b0;
             delayed_q   <= 1'b0;
             endless_q   <= 1'b0;
+            repeating_q <= 1'b0;
             count_q     <= 16'd0;
             resting_q   <= 1'b0;
         end
@@ -215,13 +220,14 @@ module waveform_player #(
         playing_later_q <= playing_q;
         plays_q         <= playing_later_q && !ramping_later_q[0] ? mask_q : 32'd0;
         ramping_later_q <= {ramping_later_q[0], ramping_i};
-        drive_q <= (plays_q & read_data_i) | (~plays_q & idle_word_i & {32{ramp_bit_i || !ramping_later_q[1]}});
+        drive_q <= (plays_q & (read_data_i ^ {32{polarity_q}})) | (~plays_q & idle_word_i & {32{ramp_bit_i || !ramping_later_q[1]}});
         ended_q <= fault_i ? 4'b0000 : {ended_q[2:0], last};
 
         if (rst_i) begin
             playing_q       <= 1'b0;
             delayed_q       <= 1'b0;
             endless_q       <= 1'b0;
+            repeating_q     <= 1'b0;
             halting_q       <= 1'b0;
             count_q         <= 16'd0;
             buffer_q        <= {BUFFER_BITS{1'b0}};
@@ -261,13 +267,12 @@ module waveform_player #(
         end
     end
 
-    wire running = playing_q || delayed_q || repeating;
+    wire running = playing_q || delayed_q || repeating_q;
 
     assign pop_o           = begins || missed;
     assign landing_used_o  = running && buffer_q == landing_i && !live_q;
     assign live_o          = running && live_q;
     assign read_o          = read_q;
-    assign read_polarity_o = polarity_q;
     assign read_buffer_o   = buffer_q;
     assign read_word_o     = first_q + number_q;
     assign read_chunk_o    = chunk_q;
@@ -278,7 +283,7 @@ module waveform_player #(
     assign ended_o         = ended_q[3];
     assign playing_o       = playing_q;
     assign delayed_o       = delayed_q;
-    assign repeating_o     = repeating;
+    assign repeating_o     = repeating_q;
     assign settled_o       = !playing_q && !resting_q;
     assign quiet_o         = !running && !resting_q;
     assign waiting_o       = head_i && head_start_i == `START_TRIGGER && room;

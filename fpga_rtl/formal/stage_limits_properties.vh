@@ -107,6 +107,7 @@ always @* if (started_q) begin
     if (uses && parts_full_q) window_is_long:    assert (end_age_q >= 32'd15 * PART_TICKS + 32'd32 && 32'd15 * PART_TICKS >= EDGE_WINDOW_TICKS);
 
     // what induction must know of the inside
+    soon_is_known:        assert (soon_q == (since_q < pulse_ticks));
     ticks_are_counted:    assert (own_since_q <= LONG_AGO && {2'b00, since_q} <= own_since_q);
     own_change_is_recent: assert (recent_q[one] || own_since_q == LONG_AGO || own_since_q >= {2'b00, since_q} + {2'b00, pulse_ticks});
     assert (sounded_q <= ENDLESS && {1'b0, age} == (sounded_q < {1'b0, emission_ticks} ? sounded_q : {1'b0, emission_ticks}));

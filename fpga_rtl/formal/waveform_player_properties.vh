@@ -13,7 +13,7 @@ reg        sounded_g;                        // anything has since the last rese
 reg        playing_1_q, playing_2_q, playing_3_q, ramping_1_q, ramping_2_q, ramping_3_q, start_1_q, boundary_1_q;
 reg        missing_1_q, disarm_1_q, fault_1_q, halting_1_q;
 reg [31:0] idle_1_q, data_1_q, mask_2_q, mask_1_q, period_1_q;
-reg        bit_1_q;
+reg        bit_1_q, polarity_1_q;
 reg        settled_1_q;
 
 always @(posedge clk_i) begin
@@ -33,6 +33,7 @@ always @(posedge clk_i) begin
     halting_1_q  <= halting_q;
     idle_1_q     <= idle_word_i;
     data_1_q     <= read_data_i;
+    polarity_1_q <= polarity_q;
     mask_1_q     <= mask_q;
     mask_2_q     <= mask_1_q;
     bit_1_q      <= ramp_bit_i;
@@ -68,7 +69,7 @@ always @* begin
     assume (bit_period_i[31:16] >= 4 && bit_period_i[31:16] != 16'hFFFF);              // register_file: 2 MHz to 100 kHz
     if (started_q && (!settled_1_q || start_1_q)) assume (bit_period_i == period_1_q);                  // and written while nothing plays or waits
     if (head_i) assume (head_length_i != 0 && {1'b0, head_first_i} + head_length_i <= 1000);   // play_check: within the waveform
-    assume (!(ramping_i && (armed_i || playing_q || delayed_q || repeating)));          // output_gate: armed or gliding, down behind a DISARM
+    assume (!(ramping_i && (armed_i || playing_q || delayed_q || repeating_q)));          // output_gate: armed or gliding, down behind a DISARM
 end
 
 // The promises
@@ -83,10 +84,10 @@ always @* if (started_q && !rst_1_q) begin
     if (playing_1_q && !playing_q) no_word_is_cut:        assert (fault_1_q || (boundary_1_q && (ended_q[0] || disarm_1_q || halting_1_q)));
     if (missing_1_q)             missing_is_underrun:     assert (underrun_o);
     if (start && !due && sounded_g) idle_is_a_bit_long:   assert (idle_g + 1 >= rest_g && !playing_q);
-    if (fault_1_q)               fault_ends_it:           assert (!playing_q && !delayed_q && !repeating && !ended_o);
+    if (fault_1_q)               fault_ends_it:           assert (!playing_q && !delayed_q && !repeating_q && !ended_o);
     // three clocks later
     if (ramping_3_q)             ramp_is_the_bit:         assert (drive_o == (bit_1_q ? idle_1_q : 0));
-    else if (playing_3_q)        word_is_read_and_masked: assert (drive_o == ((mask_2_q & data_1_q) | (~mask_2_q & idle_1_q)));
+    else if (playing_3_q)        word_is_read_and_masked: assert (drive_o == ((mask_2_q & (data_1_q ^ {32{polarity_1_q}})) | (~mask_2_q & idle_1_q)));
     else                         rest_is_idle:            assert (drive_o == idle_1_q);
 end
 
@@ -94,7 +95,7 @@ end
 always @* if (started_q && !rst_1_q) begin
     assert (playing_later_q == playing_1_q && ramping_later_q == {ramping_2_q, ramping_1_q});
     assert (plays_q == (playing_2_q && !ramping_2_q ? mask_1_q : 0));
-    if (playing_q || delayed_q || repeating) length_is_kept: assert (final_q == asked_g - 10'd1 && first_q == asked_first_g && asked_g != 0 && {1'b0, asked_first_g} + asked_g <= 1000);
+    if (playing_q || delayed_q || repeating_q) length_is_kept: assert (final_q == asked_g - 10'd1 && first_q == asked_first_g && asked_g != 0 && {1'b0, asked_first_g} + asked_g <= 1000);
     if (playing_q) begin
         assert (number_q == words_g && words_g <= final_q && ticks_g != 0);
         assert (ends_g == begun_g + bit_period_i && begun_g[15:0] + bit_period_i[15:0] == {ends_g[15:0] < bit_period_i[15:0], ends_g[15:0]});
@@ -108,5 +109,6 @@ always @* if (started_q && !rst_1_q) begin
     if (!playing_q && resting_q && sounded_g) assert (rest_g == bit_period_i[31:16]);
     if (!playing_q && resting_q && sounded_g) assert (hold_q == idle_g + 16'd2 && hold_q <= bit_period_i[31:16]);
     if (!playing_q && resting_q) assert (sounded_g);
+    more_is_known: assert (repeating_q == (endless_q || count_q[15:1] != 0));
     if (delayed_q) assert (!playing_q && !resting_q);
 end

@@ -198,7 +198,7 @@ class Bench:
         dut.words_i.value = sum(word << 32 * number for number, word in enumerate(words))
         await settled()
         assert self.pulses() == set(), "nothing before the frame is accepted"
-        await clocks(dut)
+        await clocks(dut, 2)  # they rest for so long, and longer
         dut.accept_i.value = dut.write_i.value = 1
         await settled()
         result = Result(int(dut.write_result_o.value))

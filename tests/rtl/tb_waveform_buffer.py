@@ -110,7 +110,7 @@ class Bench:
     def __init__(self, dut):
         self.dut = dut
         self.settings = {"argument": 0, "word0": 0, "word1": 0, "load_words": 0, "load_busy": 0, "load_live": 0, "live": 0}
-        self.settings |= {"play": 0, "play_buffer": 0, "play_word": 0, "play_chunk": 0, "play_within": 0, "play_polarity": 0}
+        self.settings |= {"play": 0, "play_buffer": 0, "play_word": 0, "play_chunk": 0, "play_within": 0}
         self.begin()
 
     def begin(self):
@@ -206,7 +206,7 @@ class Bench:
     def player_reads(self):
         s = self.settings
         word = self.reference.memory[s["play_buffer"]].get(s["play_word"]) if s["play"] else None
-        return word if word is None or not s["play_polarity"] else word ^ 0xFFFFFFFF
+        return word
 
     def ask(self, **settings):
         if settings.get("argument", self.settings["argument"]) != self.settings["argument"]:
@@ -264,7 +264,6 @@ class Bench:
 
     async def play(self, buffer, first, length):
         """What the player reads, a word every two clocks."""
-        self.ask(play_polarity=random.getrandbits(1))
         for word in range(first, first + length):
             self.ask(play=1, play_buffer=buffer, play_word=word)
             await self.step(READ_TICKS)
@@ -423,7 +422,7 @@ async def what_plays_while_it_arrives_takes_only_chunks_that_are_missing(dut):
         await bench.step(3)
         assert bool(dut.missing_o.value) is (word >= 155), word
         if word < 155:
-            assert int(dut.play_data_o.value) == [*first, *second][word] ^ (0xFFFFFFFF if bench.settings["play_polarity"] else 0)
+            assert int(dut.play_data_o.value) == [*first, *second][word]
     bench.ask(play=0, play_buffer=0)
     assert await bench.store(0, 155, crc_of([*first, *second]), live=1) is Result.BUSY
     assert await bench.store(0, 155, crc_of([*first, *second])) is Result.OK
@@ -489,7 +488,7 @@ async def random_uploads_reads_and_plays_go_as_the_reference_says(dut):
         others = [buffer for buffer in range(bench.slots + 1) if buffer != checked]
         await bench.step(READ_TICKS)
         bench.ask(play=random.getrandbits(1), play_buffer=random.choice(others), play_word=random.randrange(160))
-        bench.ask(play_chunk=random.randrange(8), play_within=random.randrange(125), play_polarity=random.getrandbits(1))
+        bench.ask(play_chunk=random.randrange(8), play_within=random.randrange(125))
         match random.randrange(6):
             case 0 | 1:
                 words = random_words(random.choice([5, 125, 125, random.randrange(5, 126)]))

@@ -122,7 +122,6 @@ class Reference:
         if playing:
             word = self.emission.word(tick)
             outputs["read_buffer_o"], outputs["read_word_o"] = self.play.buffer, self.play.first + word
-            outputs["read_polarity_o"] = self.play.polarity
             if self.play.first == 0:
                 outputs["read_chunk_o"], outputs["read_within_o"] = word // 125 % 8, word % 125
         outputs["underrun_o"] = self.overtaken  # in the tick before
@@ -197,7 +196,7 @@ class Bench:
 
     def begin(self):
         self.tick, self.reference, self.queue, self.head_from = 0, Reference(), [], 0
-        self.addresses, self.polarity = [(0, 0), (0, 0)], 0
+        self.addresses = [(0, 0), (0, 0)]
         self.drive, self.pops, self.starts, self.ended = [], [], [], []
 
     async def step(self, count=1, **pulses):
@@ -218,8 +217,7 @@ class Bench:
             dut.head_mask_i.value, dut.head_when_i.value, dut.head_live_i.value = shown.mask, shown.when, shown.live & 1
             dut.head_delayed_i.value = shown.start != Start.TIME and shown.when & ALL != 0  # as play_queue finds out
             dut.head_delayed_one_i.value = shown.when & ALL == 1
-            dut.read_data_i.value = memory(*self.addresses[0]) ^ (ALL if self.polarity else 0)
-            self.polarity = int(dut.read_polarity_o.value)
+            dut.read_data_i.value = memory(*self.addresses[0])
             address = int(dut.read_buffer_o.value), int(dut.read_word_o.value)
             self.addresses = [self.addresses[1], address]
             dut.missing_i.value = int(dut.read_chunk_o.value) * 125 + int(dut.read_within_o.value) >= s["arrived"]
