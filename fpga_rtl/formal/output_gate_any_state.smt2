@@ -1,14 +1,14 @@
-; of 28d71212f6471b7a0c8d94ef87b50c48f4dda8328f40c42dab53d90caee10bea, by python -m tests.rtl.proofs
+; of c8edf5b188ee9dc0b48533383f688e2e47cbdaee2249360b541a15eb2259413c, by python -m tests.rtl.proofs
 (declare-sort |output_gate_s| 0)
 (declare-fun |output_gate_is| (|output_gate_s|) Bool)
-(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_350
-(define-fun |output_gate_n _witness_.anyinit_procdff_350| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
-(declare-fun |output_gate#1| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_353
-(define-fun |output_gate_n _witness_.anyinit_procdff_353| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#1| state)) #b1))
-(declare-fun |output_gate#2| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_356
-(define-fun |output_gate_n _witness_.anyinit_procdff_356| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#2| state)) #b1))
-(declare-fun |output_gate#3| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_359
-(define-fun |output_gate_n _witness_.anyinit_procdff_359| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#3| state)) #b1))
+(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_356
+(define-fun |output_gate_n _witness_.anyinit_procdff_356| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
+(declare-fun |output_gate#1| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_359
+(define-fun |output_gate_n _witness_.anyinit_procdff_359| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#1| state)) #b1))
+(declare-fun |output_gate#2| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_362
+(define-fun |output_gate_n _witness_.anyinit_procdff_362| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#2| state)) #b1))
+(declare-fun |output_gate#3| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_365
+(define-fun |output_gate_n _witness_.anyinit_procdff_365| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#3| state)) #b1))
 (declare-fun |output_gate#4| (|output_gate_s|) (_ BitVec 32)) ; \alive_left_q
 (define-fun |output_gate_n alive_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#4| state))
 (declare-fun |output_gate#5| (|output_gate_s|) (_ BitVec 1)) ; \silent_q
@@ -16,11 +16,11 @@
 (define-fun |output_gate_n alive_o| ((state |output_gate_s|)) Bool (|output_gate#6| state))
 (declare-fun |output_gate#7| (|output_gate_s|) (_ BitVec 1)) ; \clock_lost_i
 (define-fun |output_gate#8| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#0| state))) ; \channel_q
-(define-fun |output_gate#9| ((state |output_gate_s|)) Bool (distinct (|output_gate#8| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:75$168_Y
+(define-fun |output_gate#9| ((state |output_gate_s|)) Bool (distinct (|output_gate#8| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:78$174_Y
 (define-fun |output_gate#10| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#1| state))) ; \hv_enable_q
-(define-fun |output_gate#11| ((state |output_gate_s|)) Bool (or  (|output_gate#9| state) false  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$169_Y
+(define-fun |output_gate#11| ((state |output_gate_s|)) Bool (or  (|output_gate#9| state) false  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:78$175_Y
 (define-fun |output_gate#12| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#3| state))) ; \hv_alive_q
-(define-fun |output_gate#13| ((state |output_gate_s|)) Bool (or  (|output_gate#11| state) false  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$170_Y
+(define-fun |output_gate#13| ((state |output_gate_s|)) Bool (or  (|output_gate#11| state) false  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:78$176_Y
 (define-fun |output_gate#14| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (|output_gate#2| state))) ; \focus_q
 (define-fun |output_gate#15| ((state |output_gate_s|)) Bool (or  (|output_gate#13| state) false  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false)) ; \any
 (define-fun |output_gate_n any| ((state |output_gate_s|)) Bool (|output_gate#15| state))
@@ -30,8 +30,8 @@
 (define-fun |output_gate#18| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b010)) ; \armed_o
 (define-fun |output_gate_n armed_o| ((state |output_gate_s|)) Bool (|output_gate#18| state))
 (declare-fun |output_gate#19| (|output_gate_s|) (_ BitVec 5)) ; \limits_1_q
-(define-fun |output_gate#20| ((state |output_gate_s|)) Bool (distinct (|output_gate#19| state) #b00000)) ; $ne$output_gate_properties.vh:83$185_Y
-(define-fun |output_gate#21| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#20| state) #b1 #b0)) ; $procmux$313_Y
+(define-fun |output_gate#20| ((state |output_gate_s|)) Bool (distinct (|output_gate#19| state) #b00000)) ; $ne$output_gate_properties.vh:86$191_Y
+(define-fun |output_gate#21| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#20| state) #b1 #b0)) ; $procmux$319_Y
 (declare-fun |output_gate#22| (|output_gate_s|) (_ BitVec 1)) ; \started_q
 (define-fun |output_gate#23| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#21| state) #b0)) ; \beyond_is_off_EN
 (define-fun |output_gate_n beyond_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#23| state)) #b1))
@@ -39,27 +39,27 @@
 (define-fun |output_gate_n bit_ticks_i| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#24| state))
 (define-fun |output_gate#25| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b101)) ; \settling
 (define-fun |output_gate#26| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b001)) ; \ramp_up_o
-(define-fun |output_gate#27| ((state |output_gate_s|)) Bool (or  (|output_gate#26| state) false  (|output_gate#18| state) false)) ; $logic_or$output_gate.v:78$6_Y
+(define-fun |output_gate#27| ((state |output_gate_s|)) Bool (or  (|output_gate#26| state) false  (|output_gate#18| state) false)) ; $logic_or$output_gate.v:80$6_Y
 (define-fun |output_gate#28| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b011)) ; \stopping_o
-(define-fun |output_gate#29| ((state |output_gate_s|)) Bool (or  (|output_gate#27| state) false  (|output_gate#28| state) false)) ; $logic_or$output_gate.v:78$8_Y
+(define-fun |output_gate#29| ((state |output_gate_s|)) Bool (or  (|output_gate#27| state) false  (|output_gate#28| state) false)) ; $logic_or$output_gate.v:80$8_Y
 (define-fun |output_gate#30| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b100)) ; \ramp_down_o
 (define-fun |output_gate#31| ((state |output_gate_s|)) Bool (or  (|output_gate#29| state) false  (|output_gate#30| state) false)) ; \moves
 (define-fun |output_gate#32| ((state |output_gate_s|)) Bool (or  (|output_gate#25| state) false  (|output_gate#31| state) false)) ; \on
 (declare-fun |output_gate#33| (|output_gate_s|) (_ BitVec 3)) ; \on_later_q
-(define-fun |output_gate#34| ((state |output_gate_s|)) Bool (distinct (|output_gate#33| state) #b000)) ; $ne$output_gate.v:81$14_Y
-(define-fun |output_gate#35| ((state |output_gate_s|)) Bool (or  (|output_gate#32| state) false  (|output_gate#34| state) false)) ; $logic_or$output_gate.v:81$15_Y
+(define-fun |output_gate#34| ((state |output_gate_s|)) Bool (distinct (|output_gate#33| state) #b000)) ; $ne$output_gate.v:83$14_Y
+(define-fun |output_gate#35| ((state |output_gate_s|)) Bool (or  (|output_gate#32| state) false  (|output_gate#34| state) false)) ; $logic_or$output_gate.v:83$15_Y
 (define-fun |output_gate#36| ((state |output_gate_s|)) Bool (or  (|output_gate#35| state) false  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false)) ; \live
 (declare-fun |output_gate#37| (|output_gate_s|) Bool) ; \run_permit_i
-(define-fun |output_gate#38| ((state |output_gate_s|)) Bool (not (or  (|output_gate#37| state) false))) ; $logic_not$output_gate.v:83$17_Y
+(define-fun |output_gate#38| ((state |output_gate_s|)) Bool (not (or  (|output_gate#37| state) false))) ; $logic_not$output_gate.v:85$17_Y
 (define-fun |output_gate#39| ((state |output_gate_s|)) Bool (and (or  (|output_gate#36| state) false) (or  (|output_gate#38| state) false))) ; \cause [0]
 (define-fun |output_gate#40| ((state |output_gate_s|)) Bool (and (or  (|output_gate#36| state) false) (or  (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false))) ; \cause [1]
 (declare-fun |output_gate#41| (|output_gate_s|) Bool) ; \temperature_good_i
-(define-fun |output_gate#42| ((state |output_gate_s|)) Bool (not (or  (|output_gate#41| state) false))) ; $logic_not$output_gate.v:85$20_Y
+(define-fun |output_gate#42| ((state |output_gate_s|)) Bool (not (or  (|output_gate#41| state) false))) ; $logic_not$output_gate.v:87$20_Y
 (define-fun |output_gate#43| ((state |output_gate_s|)) Bool (and (or  (|output_gate#36| state) false) (or  (|output_gate#42| state) false))) ; \cause [2]
 (declare-fun |output_gate#44| (|output_gate_s|) Bool) ; \underrun_i
 (define-fun |output_gate#45| ((state |output_gate_s|)) Bool (and (or  (|output_gate#36| state) false) (or  (|output_gate#44| state) false))) ; \cause [3]
 (declare-fun |output_gate#46| (|output_gate_s|) (_ BitVec 5)) ; \limits_i
-(define-fun |output_gate#47| ((state |output_gate_s|)) (_ BitVec 5) (bvand (|output_gate#46| state) (concat (ite (|output_gate#36| state) #b1 #b0) (concat (ite (|output_gate#36| state) #b1 #b0) (concat (ite (|output_gate#36| state) #b1 #b0) (concat (ite (|output_gate#36| state) #b1 #b0) (ite (|output_gate#36| state) #b1 #b0))))))) ; \cause [8:4]
+(define-fun |output_gate#47| ((state |output_gate_s|)) (_ BitVec 5) (bvand (|output_gate#46| state) (concat (ite (|output_gate#36| state) #b1 #b0) (concat (ite (|output_gate#36| state) #b1 #b0) (concat #b11 (ite (|output_gate#36| state) #b1 #b0)))))) ; \cause [8:4]
 (define-fun |output_gate_n cause| ((state |output_gate_s|)) (_ BitVec 9) (concat (|output_gate#47| state) (concat (ite (|output_gate#45| state) #b1 #b0) (concat (ite (|output_gate#43| state) #b1 #b0) (concat (ite (|output_gate#40| state) #b1 #b0) (ite (|output_gate#39| state) #b1 #b0))))))
 (declare-fun |output_gate#48| (|output_gate_s|) (_ BitVec 32)) ; \channel_mask_i
 (define-fun |output_gate_n channel_mask_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#48| state))
@@ -78,6 +78,7 @@
 (define-fun |output_gate_n drive_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#53| state))
 (declare-fun |output_gate#54| (|output_gate_s|) (_ BitVec 32)) ; \drive_i
 (define-fun |output_gate_n drive_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#54| state))
+(define-fun |output_gate_n edges| ((state |output_gate_s|)) (_ BitVec 3) (concat ((_ extract 2 1) (|output_gate#46| state)) #b0))
 (declare-fun |output_gate#55| (|output_gate_s|) (_ BitVec 32)) ; \emissions_q
 (define-fun |output_gate_n emissions_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#55| state))
 (define-fun |output_gate_n emissions_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#55| state))
@@ -106,7 +107,7 @@
 (declare-fun |output_gate#65| (|output_gate_s|) (_ BitVec 32)) ; \heartbeat_ticks_i
 (define-fun |output_gate_n heartbeat_ticks_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#65| state))
 (define-fun |output_gate_n host_silent| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#5| state)) #b1))
-(define-fun |output_gate#66| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#51| state)) #b1) #b0 #b1)) ; $procmux$321_Y
+(define-fun |output_gate#66| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#51| state)) #b1) #b0 #b1)) ; $procmux$327_Y
 (define-fun |output_gate#67| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#66| state) #b0)) ; \hot_is_off_EN
 (define-fun |output_gate_n hot_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#67| state)) #b1))
 (define-fun |output_gate_n hv_alive_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#12| state)) #b1))
@@ -125,7 +126,7 @@
 (define-fun |output_gate_n moves_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#70| state))
 (define-fun |output_gate#71| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b1 #b0)) ; \no_clock_is_off_EN
 (define-fun |output_gate_n no_clock_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#71| state)) #b1))
-(define-fun |output_gate#72| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#59| state)) #b1) #b0 #b1)) ; $procmux$305_Y
+(define-fun |output_gate#72| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#59| state)) #b1) #b0 #b1)) ; $procmux$311_Y
 (define-fun |output_gate#73| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#72| state) #b0)) ; \nonsense_is_off_EN
 (define-fun |output_gate_n nonsense_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#73| state)) #b1))
 (declare-fun |output_gate#74| (|output_gate_s|) (_ BitVec 64)) ; \now_i
@@ -135,7 +136,7 @@
 (define-fun |output_gate_n on_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#33| state))
 (define-fun |output_gate_n only_what_is_played_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#69| state)) #b1))
 (define-fun |output_gate#75| ((state |output_gate_s|)) Bool (distinct (concat (|output_gate#47| state) (concat (ite (|output_gate#45| state) #b1 #b0) (concat (ite (|output_gate#43| state) #b1 #b0) (concat (ite (|output_gate#40| state) #b1 #b0) (ite (|output_gate#39| state) #b1 #b0))))) #b000000000)) ; \shut
-(define-fun |output_gate#76| ((state |output_gate_s|)) Bool (not (or  (|output_gate#75| state) false))) ; $logic_not$output_gate.v:89$25_Y
+(define-fun |output_gate#76| ((state |output_gate_s|)) Bool (not (or  (|output_gate#75| state) false))) ; $logic_not$output_gate.v:91$26_Y
 (define-fun |output_gate#77| ((state |output_gate_s|)) Bool (and (or  (|output_gate#58| state) false) (or  (|output_gate#76| state) false))) ; \stays
 (define-fun |output_gate#78| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#33| state)) #b1) false) (or  (|output_gate#77| state) false))) ; \open
 (define-fun |output_gate_n open| ((state |output_gate_s|)) Bool (|output_gate#78| state))
@@ -146,7 +147,7 @@
 (define-fun |output_gate_n ramp_down_o| ((state |output_gate_s|)) Bool (|output_gate#30| state))
 (define-fun |output_gate_n ramp_up_o| ((state |output_gate_s|)) Bool (|output_gate#26| state))
 (declare-fun |output_gate#81| (|output_gate_s|) (_ BitVec 1)) ; \rst_1_q
-(define-fun |output_gate#82| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#81| state)) #b1) #b1 #b0)) ; $procmux$329_Y
+(define-fun |output_gate#82| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#81| state)) #b1) #b1 #b0)) ; $procmux$335_Y
 (define-fun |output_gate#83| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#82| state) #b0)) ; \reset_is_off_EN
 (define-fun |output_gate_n reset_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#83| state)) #b1))
 (declare-fun |output_gate#84| (|output_gate_s|) (_ BitVec 32)) ; \rest_left_q
@@ -169,14 +170,14 @@
 (define-fun |output_gate_n silence_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#89| state))
 (declare-fun |output_gate#90| (|output_gate_s|) (_ BitVec 1)) ; \silent_1_q
 (define-fun |output_gate_n silent_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#90| state)) #b1))
-(define-fun |output_gate#91| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#90| state)) #b1) #b1 #b0)) ; $procmux$317_Y
+(define-fun |output_gate#91| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#90| state)) #b1) #b1 #b0)) ; $procmux$323_Y
 (define-fun |output_gate#92| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#91| state) #b0)) ; \silent_is_off_EN
 (define-fun |output_gate_n silent_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#92| state)) #b1))
 (define-fun |output_gate_n silent_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#5| state)) #b1))
 (define-fun |output_gate_n started_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#22| state)) #b1))
 (define-fun |output_gate_n state_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#17| state))
 (define-fun |output_gate_n stays| ((state |output_gate_s|)) Bool (|output_gate#77| state))
-(define-fun |output_gate#93| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#79| state)) #b1) #b0 #b1)) ; $procmux$325_Y
+(define-fun |output_gate#93| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#79| state)) #b1) #b0 #b1)) ; $procmux$331_Y
 (define-fun |output_gate#94| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#93| state) #b0)) ; \stopped_is_off_EN
 (define-fun |output_gate_n stopped_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#94| state)) #b1))
 (define-fun |output_gate_n stopping_o| ((state |output_gate_s|)) Bool (|output_gate#28| state))
@@ -184,130 +185,132 @@
 (declare-fun |output_gate#95| (|output_gate_s|) (_ BitVec 1)) ; \underrun_1_q
 (define-fun |output_gate_n underrun_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#95| state)) #b1))
 (define-fun |output_gate_n underrun_i| ((state |output_gate_s|)) Bool (|output_gate#44| state))
-(define-fun |output_gate#96| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#95| state)) #b1) #b1 #b0)) ; $procmux$309_Y
+(define-fun |output_gate#96| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#95| state)) #b1) #b1 #b0)) ; $procmux$315_Y
 (define-fun |output_gate#97| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (|output_gate#96| state) #b0)) ; \underrun_is_off_EN
 (define-fun |output_gate_n underrun_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#97| state)) #b1))
 (declare-fun |output_gate#98| (|output_gate_s|) (_ BitVec 32)) ; \underruns_q
 (define-fun |output_gate_n underruns_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#98| state))
 (define-fun |output_gate_n underruns_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#98| state))
-(define-fun |output_gate#99| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#50| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$475
-(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#99| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$476
-(define-fun |output_gate#100| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#61| state)) #b1) (= ((_ extract 1 1) (|output_gate#61| state)) #b1) (= ((_ extract 2 2) (|output_gate#61| state)) #b1) (= ((_ extract 3 3) (|output_gate#61| state)) #b1) (= ((_ extract 4 4) (|output_gate#61| state)) #b1) (= ((_ extract 5 5) (|output_gate#61| state)) #b1) (= ((_ extract 6 6) (|output_gate#61| state)) #b1) (= ((_ extract 7 7) (|output_gate#61| state)) #b1) (= ((_ extract 8 8) (|output_gate#61| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:30$82_Y
-(define-fun |output_gate#101| ((state |output_gate_s|)) Bool (and (or  (|output_gate#57| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:30$83_Y
-(define-fun |output_gate#102| ((state |output_gate_s|)) Bool (and (or  (|output_gate#101| state) false) (or  (|output_gate#37| state) false))) ; $logic_and$output_gate_properties.vh:30$84_Y
-(define-fun |output_gate#103| ((state |output_gate_s|)) Bool (and (or  (|output_gate#102| state) false) (or  (|output_gate#41| state) false))) ; $logic_and$output_gate_properties.vh:30$85_Y
-(define-fun |output_gate#104| ((state |output_gate_s|)) Bool (and (or  (|output_gate#103| state) false) (or  (|output_gate#64| state) false))) ; $logic_and$output_gate_properties.vh:30$86_Y
-(define-fun |output_gate#105| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#16| state) #b1 #b0)) ; $assume$output_gate_properties.vh:30$81_EN
-(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#104| state) (not (= ((_ extract 0 0) (|output_gate#105| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_30_81
-(define-fun |output_gate#106| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#7| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:31$88_Y
-(define-fun |output_gate#107| ((state |output_gate_s|)) Bool (or  (|output_gate#106| state) false  (|output_gate#86| state) false)) ; $logic_or$output_gate_properties.vh:31$89_Y
-(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#107| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_31_87
-(define-fun |output_gate#108| ((state |output_gate_s|)) Bool (not (or  (|output_gate#15| state) false))) ; $logic_not$output_gate_properties.vh:79$173_Y
+(define-fun |output_gate#99| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#50| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$483
+(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#99| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$484
+(define-fun |output_gate#100| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#61| state)) #b1) (= ((_ extract 1 1) (|output_gate#61| state)) #b1) (= ((_ extract 2 2) (|output_gate#61| state)) #b1) (= ((_ extract 3 3) (|output_gate#61| state)) #b1) (= ((_ extract 4 4) (|output_gate#61| state)) #b1) (= ((_ extract 5 5) (|output_gate#61| state)) #b1) (= ((_ extract 6 6) (|output_gate#61| state)) #b1) (= ((_ extract 7 7) (|output_gate#61| state)) #b1) (= ((_ extract 8 8) (|output_gate#61| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:32$86_Y
+(define-fun |output_gate#101| ((state |output_gate_s|)) Bool (and (or  (|output_gate#57| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:32$87_Y
+(define-fun |output_gate#102| ((state |output_gate_s|)) Bool (and (or  (|output_gate#101| state) false) (or  (|output_gate#37| state) false))) ; $logic_and$output_gate_properties.vh:32$88_Y
+(define-fun |output_gate#103| ((state |output_gate_s|)) Bool (and (or  (|output_gate#102| state) false) (or  (|output_gate#41| state) false))) ; $logic_and$output_gate_properties.vh:32$89_Y
+(define-fun |output_gate#104| ((state |output_gate_s|)) Bool (and (or  (|output_gate#103| state) false) (or  (|output_gate#64| state) false))) ; $logic_and$output_gate_properties.vh:32$90_Y
+(define-fun |output_gate#105| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#16| state) #b1 #b0)) ; $assume$output_gate_properties.vh:32$85_EN
+(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#104| state) (not (= ((_ extract 0 0) (|output_gate#105| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_32_85
+(define-fun |output_gate#106| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#7| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:33$92_Y
+(define-fun |output_gate#107| ((state |output_gate_s|)) Bool (or  (|output_gate#106| state) false  (|output_gate#86| state) false)) ; $logic_or$output_gate_properties.vh:33$93_Y
+(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#107| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_33_91
+(define-fun |output_gate#108| ((state |output_gate_s|)) Bool (not (or  (|output_gate#15| state) false))) ; $logic_not$output_gate_properties.vh:82$179_Y
 (define-fun |output_gate_a 0| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#23| state)) #b1)))) ; beyond_is_off
 (define-fun |output_gate_a 1| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#67| state)) #b1)))) ; hot_is_off
-(define-fun |output_gate#109| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#68| state))) ; $not$output_gate_properties.vh:87$190_Y
-(define-fun |output_gate#110| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#109| state))) ; $and$output_gate_properties.vh:87$191_Y
-(define-fun |output_gate#111| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#110| state)) #b1) (= ((_ extract 1 1) (|output_gate#110| state)) #b1) (= ((_ extract 2 2) (|output_gate#110| state)) #b1) (= ((_ extract 3 3) (|output_gate#110| state)) #b1) (= ((_ extract 4 4) (|output_gate#110| state)) #b1) (= ((_ extract 5 5) (|output_gate#110| state)) #b1) (= ((_ extract 6 6) (|output_gate#110| state)) #b1) (= ((_ extract 7 7) (|output_gate#110| state)) #b1) (= ((_ extract 8 8) (|output_gate#110| state)) #b1) (= ((_ extract 9 9) (|output_gate#110| state)) #b1) (= ((_ extract 10 10) (|output_gate#110| state)) #b1) (= ((_ extract 11 11) (|output_gate#110| state)) #b1) (= ((_ extract 12 12) (|output_gate#110| state)) #b1) (= ((_ extract 13 13) (|output_gate#110| state)) #b1) (= ((_ extract 14 14) (|output_gate#110| state)) #b1) (= ((_ extract 15 15) (|output_gate#110| state)) #b1) (= ((_ extract 16 16) (|output_gate#110| state)) #b1) (= ((_ extract 17 17) (|output_gate#110| state)) #b1) (= ((_ extract 18 18) (|output_gate#110| state)) #b1) (= ((_ extract 19 19) (|output_gate#110| state)) #b1) (= ((_ extract 20 20) (|output_gate#110| state)) #b1) (= ((_ extract 21 21) (|output_gate#110| state)) #b1) (= ((_ extract 22 22) (|output_gate#110| state)) #b1) (= ((_ extract 23 23) (|output_gate#110| state)) #b1) (= ((_ extract 24 24) (|output_gate#110| state)) #b1) (= ((_ extract 25 25) (|output_gate#110| state)) #b1) (= ((_ extract 26 26) (|output_gate#110| state)) #b1) (= ((_ extract 27 27) (|output_gate#110| state)) #b1) (= ((_ extract 28 28) (|output_gate#110| state)) #b1) (= ((_ extract 29 29) (|output_gate#110| state)) #b1) (= ((_ extract 30 30) (|output_gate#110| state)) #b1) (= ((_ extract 31 31) (|output_gate#110| state)) #b1)))) ; $eq$output_gate_properties.vh:87$192_Y
+(define-fun |output_gate#109| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#68| state))) ; $not$output_gate_properties.vh:90$196_Y
+(define-fun |output_gate#110| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#109| state))) ; $and$output_gate_properties.vh:90$197_Y
+(define-fun |output_gate#111| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#110| state)) #b1) (= ((_ extract 1 1) (|output_gate#110| state)) #b1) (= ((_ extract 2 2) (|output_gate#110| state)) #b1) (= ((_ extract 3 3) (|output_gate#110| state)) #b1) (= ((_ extract 4 4) (|output_gate#110| state)) #b1) (= ((_ extract 5 5) (|output_gate#110| state)) #b1) (= ((_ extract 6 6) (|output_gate#110| state)) #b1) (= ((_ extract 7 7) (|output_gate#110| state)) #b1) (= ((_ extract 8 8) (|output_gate#110| state)) #b1) (= ((_ extract 9 9) (|output_gate#110| state)) #b1) (= ((_ extract 10 10) (|output_gate#110| state)) #b1) (= ((_ extract 11 11) (|output_gate#110| state)) #b1) (= ((_ extract 12 12) (|output_gate#110| state)) #b1) (= ((_ extract 13 13) (|output_gate#110| state)) #b1) (= ((_ extract 14 14) (|output_gate#110| state)) #b1) (= ((_ extract 15 15) (|output_gate#110| state)) #b1) (= ((_ extract 16 16) (|output_gate#110| state)) #b1) (= ((_ extract 17 17) (|output_gate#110| state)) #b1) (= ((_ extract 18 18) (|output_gate#110| state)) #b1) (= ((_ extract 19 19) (|output_gate#110| state)) #b1) (= ((_ extract 20 20) (|output_gate#110| state)) #b1) (= ((_ extract 21 21) (|output_gate#110| state)) #b1) (= ((_ extract 22 22) (|output_gate#110| state)) #b1) (= ((_ extract 23 23) (|output_gate#110| state)) #b1) (= ((_ extract 24 24) (|output_gate#110| state)) #b1) (= ((_ extract 25 25) (|output_gate#110| state)) #b1) (= ((_ extract 26 26) (|output_gate#110| state)) #b1) (= ((_ extract 27 27) (|output_gate#110| state)) #b1) (= ((_ extract 28 28) (|output_gate#110| state)) #b1) (= ((_ extract 29 29) (|output_gate#110| state)) #b1) (= ((_ extract 30 30) (|output_gate#110| state)) #b1) (= ((_ extract 31 31) (|output_gate#110| state)) #b1)))) ; $eq$output_gate_properties.vh:90$198_Y
 (define-fun |output_gate_a 2| ((state |output_gate_s|)) Bool (or (|output_gate#111| state) (not (= ((_ extract 0 0) (|output_gate#69| state)) #b1)))) ; mask_is_kept
-(define-fun |output_gate#112| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (= ((_ extract 1 1) (|output_gate#8| state)) #b1) (= ((_ extract 2 2) (|output_gate#8| state)) #b1) (= ((_ extract 3 3) (|output_gate#8| state)) #b1) (= ((_ extract 4 4) (|output_gate#8| state)) #b1) (= ((_ extract 5 5) (|output_gate#8| state)) #b1) (= ((_ extract 6 6) (|output_gate#8| state)) #b1) (= ((_ extract 7 7) (|output_gate#8| state)) #b1) (= ((_ extract 8 8) (|output_gate#8| state)) #b1) (= ((_ extract 9 9) (|output_gate#8| state)) #b1) (= ((_ extract 10 10) (|output_gate#8| state)) #b1) (= ((_ extract 11 11) (|output_gate#8| state)) #b1) (= ((_ extract 12 12) (|output_gate#8| state)) #b1) (= ((_ extract 13 13) (|output_gate#8| state)) #b1) (= ((_ extract 14 14) (|output_gate#8| state)) #b1) (= ((_ extract 15 15) (|output_gate#8| state)) #b1) (= ((_ extract 16 16) (|output_gate#8| state)) #b1) (= ((_ extract 17 17) (|output_gate#8| state)) #b1) (= ((_ extract 18 18) (|output_gate#8| state)) #b1) (= ((_ extract 19 19) (|output_gate#8| state)) #b1) (= ((_ extract 20 20) (|output_gate#8| state)) #b1) (= ((_ extract 21 21) (|output_gate#8| state)) #b1) (= ((_ extract 22 22) (|output_gate#8| state)) #b1) (= ((_ extract 23 23) (|output_gate#8| state)) #b1) (= ((_ extract 24 24) (|output_gate#8| state)) #b1) (= ((_ extract 25 25) (|output_gate#8| state)) #b1) (= ((_ extract 26 26) (|output_gate#8| state)) #b1) (= ((_ extract 27 27) (|output_gate#8| state)) #b1) (= ((_ extract 28 28) (|output_gate#8| state)) #b1) (= ((_ extract 29 29) (|output_gate#8| state)) #b1) (= ((_ extract 30 30) (|output_gate#8| state)) #b1) (= ((_ extract 31 31) (|output_gate#8| state)) #b1)))) ; $eq$output_gate_properties.vh:38$91_Y
-(define-fun |output_gate#113| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$92_Y
-(define-fun |output_gate#114| ((state |output_gate_s|)) Bool (and (or  (|output_gate#112| state) false) (or  (|output_gate#113| state) false))) ; $logic_and$output_gate_properties.vh:38$93_Y
-(define-fun |output_gate#115| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$94_Y
-(define-fun |output_gate#116| ((state |output_gate_s|)) Bool (and (or  (|output_gate#114| state) false) (or  (|output_gate#115| state) false))) ; $logic_and$output_gate_properties.vh:38$95_Y
-(define-fun |output_gate#117| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$96_Y
-(define-fun |output_gate#118| ((state |output_gate_s|)) Bool (and (or  (|output_gate#116| state) false) (or  (|output_gate#117| state) false))) ; $logic_and$output_gate_properties.vh:38$97_Y
+(define-fun |output_gate#112| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (= ((_ extract 1 1) (|output_gate#8| state)) #b1) (= ((_ extract 2 2) (|output_gate#8| state)) #b1) (= ((_ extract 3 3) (|output_gate#8| state)) #b1) (= ((_ extract 4 4) (|output_gate#8| state)) #b1) (= ((_ extract 5 5) (|output_gate#8| state)) #b1) (= ((_ extract 6 6) (|output_gate#8| state)) #b1) (= ((_ extract 7 7) (|output_gate#8| state)) #b1) (= ((_ extract 8 8) (|output_gate#8| state)) #b1) (= ((_ extract 9 9) (|output_gate#8| state)) #b1) (= ((_ extract 10 10) (|output_gate#8| state)) #b1) (= ((_ extract 11 11) (|output_gate#8| state)) #b1) (= ((_ extract 12 12) (|output_gate#8| state)) #b1) (= ((_ extract 13 13) (|output_gate#8| state)) #b1) (= ((_ extract 14 14) (|output_gate#8| state)) #b1) (= ((_ extract 15 15) (|output_gate#8| state)) #b1) (= ((_ extract 16 16) (|output_gate#8| state)) #b1) (= ((_ extract 17 17) (|output_gate#8| state)) #b1) (= ((_ extract 18 18) (|output_gate#8| state)) #b1) (= ((_ extract 19 19) (|output_gate#8| state)) #b1) (= ((_ extract 20 20) (|output_gate#8| state)) #b1) (= ((_ extract 21 21) (|output_gate#8| state)) #b1) (= ((_ extract 22 22) (|output_gate#8| state)) #b1) (= ((_ extract 23 23) (|output_gate#8| state)) #b1) (= ((_ extract 24 24) (|output_gate#8| state)) #b1) (= ((_ extract 25 25) (|output_gate#8| state)) #b1) (= ((_ extract 26 26) (|output_gate#8| state)) #b1) (= ((_ extract 27 27) (|output_gate#8| state)) #b1) (= ((_ extract 28 28) (|output_gate#8| state)) #b1) (= ((_ extract 29 29) (|output_gate#8| state)) #b1) (= ((_ extract 30 30) (|output_gate#8| state)) #b1) (= ((_ extract 31 31) (|output_gate#8| state)) #b1)))) ; $eq$output_gate_properties.vh:40$95_Y
+(define-fun |output_gate#113| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#10| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$96_Y
+(define-fun |output_gate#114| ((state |output_gate_s|)) Bool (and (or  (|output_gate#112| state) false) (or  (|output_gate#113| state) false))) ; $logic_and$output_gate_properties.vh:40$97_Y
+(define-fun |output_gate#115| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#12| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$98_Y
+(define-fun |output_gate#116| ((state |output_gate_s|)) Bool (and (or  (|output_gate#114| state) false) (or  (|output_gate#115| state) false))) ; $logic_and$output_gate_properties.vh:40$99_Y
+(define-fun |output_gate#117| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#14| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$100_Y
+(define-fun |output_gate#118| ((state |output_gate_s|)) Bool (and (or  (|output_gate#116| state) false) (or  (|output_gate#117| state) false))) ; $logic_and$output_gate_properties.vh:40$101_Y
 (define-fun |output_gate_a 3| ((state |output_gate_s|)) Bool (or (|output_gate#118| state) (not (= ((_ extract 0 0) (|output_gate#71| state)) #b1)))) ; no_clock_is_off
 (define-fun |output_gate_a 4| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#73| state)) #b1)))) ; nonsense_is_off
-(define-fun |output_gate#119| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#53| state))) ; $not$output_gate_properties.vh:88$193_Y
-(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#119| state))) ; $and$output_gate_properties.vh:88$194_Y
-(define-fun |output_gate#121| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#120| state)) #b1) (= ((_ extract 1 1) (|output_gate#120| state)) #b1) (= ((_ extract 2 2) (|output_gate#120| state)) #b1) (= ((_ extract 3 3) (|output_gate#120| state)) #b1) (= ((_ extract 4 4) (|output_gate#120| state)) #b1) (= ((_ extract 5 5) (|output_gate#120| state)) #b1) (= ((_ extract 6 6) (|output_gate#120| state)) #b1) (= ((_ extract 7 7) (|output_gate#120| state)) #b1) (= ((_ extract 8 8) (|output_gate#120| state)) #b1) (= ((_ extract 9 9) (|output_gate#120| state)) #b1) (= ((_ extract 10 10) (|output_gate#120| state)) #b1) (= ((_ extract 11 11) (|output_gate#120| state)) #b1) (= ((_ extract 12 12) (|output_gate#120| state)) #b1) (= ((_ extract 13 13) (|output_gate#120| state)) #b1) (= ((_ extract 14 14) (|output_gate#120| state)) #b1) (= ((_ extract 15 15) (|output_gate#120| state)) #b1) (= ((_ extract 16 16) (|output_gate#120| state)) #b1) (= ((_ extract 17 17) (|output_gate#120| state)) #b1) (= ((_ extract 18 18) (|output_gate#120| state)) #b1) (= ((_ extract 19 19) (|output_gate#120| state)) #b1) (= ((_ extract 20 20) (|output_gate#120| state)) #b1) (= ((_ extract 21 21) (|output_gate#120| state)) #b1) (= ((_ extract 22 22) (|output_gate#120| state)) #b1) (= ((_ extract 23 23) (|output_gate#120| state)) #b1) (= ((_ extract 24 24) (|output_gate#120| state)) #b1) (= ((_ extract 25 25) (|output_gate#120| state)) #b1) (= ((_ extract 26 26) (|output_gate#120| state)) #b1) (= ((_ extract 27 27) (|output_gate#120| state)) #b1) (= ((_ extract 28 28) (|output_gate#120| state)) #b1) (= ((_ extract 29 29) (|output_gate#120| state)) #b1) (= ((_ extract 30 30) (|output_gate#120| state)) #b1) (= ((_ extract 31 31) (|output_gate#120| state)) #b1)))) ; $eq$output_gate_properties.vh:88$195_Y
+(define-fun |output_gate#119| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#53| state))) ; $not$output_gate_properties.vh:91$199_Y
+(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#8| state) (|output_gate#119| state))) ; $and$output_gate_properties.vh:91$200_Y
+(define-fun |output_gate#121| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#120| state)) #b1) (= ((_ extract 1 1) (|output_gate#120| state)) #b1) (= ((_ extract 2 2) (|output_gate#120| state)) #b1) (= ((_ extract 3 3) (|output_gate#120| state)) #b1) (= ((_ extract 4 4) (|output_gate#120| state)) #b1) (= ((_ extract 5 5) (|output_gate#120| state)) #b1) (= ((_ extract 6 6) (|output_gate#120| state)) #b1) (= ((_ extract 7 7) (|output_gate#120| state)) #b1) (= ((_ extract 8 8) (|output_gate#120| state)) #b1) (= ((_ extract 9 9) (|output_gate#120| state)) #b1) (= ((_ extract 10 10) (|output_gate#120| state)) #b1) (= ((_ extract 11 11) (|output_gate#120| state)) #b1) (= ((_ extract 12 12) (|output_gate#120| state)) #b1) (= ((_ extract 13 13) (|output_gate#120| state)) #b1) (= ((_ extract 14 14) (|output_gate#120| state)) #b1) (= ((_ extract 15 15) (|output_gate#120| state)) #b1) (= ((_ extract 16 16) (|output_gate#120| state)) #b1) (= ((_ extract 17 17) (|output_gate#120| state)) #b1) (= ((_ extract 18 18) (|output_gate#120| state)) #b1) (= ((_ extract 19 19) (|output_gate#120| state)) #b1) (= ((_ extract 20 20) (|output_gate#120| state)) #b1) (= ((_ extract 21 21) (|output_gate#120| state)) #b1) (= ((_ extract 22 22) (|output_gate#120| state)) #b1) (= ((_ extract 23 23) (|output_gate#120| state)) #b1) (= ((_ extract 24 24) (|output_gate#120| state)) #b1) (= ((_ extract 25 25) (|output_gate#120| state)) #b1) (= ((_ extract 26 26) (|output_gate#120| state)) #b1) (= ((_ extract 27 27) (|output_gate#120| state)) #b1) (= ((_ extract 28 28) (|output_gate#120| state)) #b1) (= ((_ extract 29 29) (|output_gate#120| state)) #b1) (= ((_ extract 30 30) (|output_gate#120| state)) #b1) (= ((_ extract 31 31) (|output_gate#120| state)) #b1)))) ; $eq$output_gate_properties.vh:91$201_Y
 (define-fun |output_gate_a 5| ((state |output_gate_s|)) Bool (or (|output_gate#121| state) (not (= ((_ extract 0 0) (|output_gate#69| state)) #b1)))) ; only_what_is_played
-(define-fun |output_gate#122| ((state |output_gate_s|)) Bool (and (or  (|output_gate#108| state) false) (or  (|output_gate#57| state) false))) ; $logic_and$output_gate_properties.vh:79$175_Y
-(define-fun |output_gate#123| ((state |output_gate_s|)) Bool (and (or  (|output_gate#122| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:79$177_Y
-(define-fun |output_gate#124| ((state |output_gate_s|)) Bool (and (or  (|output_gate#123| state) false) (or  (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:79$179_Y
+(define-fun |output_gate#122| ((state |output_gate_s|)) Bool (and (or  (|output_gate#108| state) false) (or  (|output_gate#57| state) false))) ; $logic_and$output_gate_properties.vh:82$181_Y
+(define-fun |output_gate#123| ((state |output_gate_s|)) Bool (and (or  (|output_gate#122| state) false) (or  (|output_gate#100| state) false))) ; $logic_and$output_gate_properties.vh:82$183_Y
+(define-fun |output_gate#124| ((state |output_gate_s|)) Bool (and (or  (|output_gate#123| state) false) (or  (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:82$185_Y
 (define-fun |output_gate_a 6| ((state |output_gate_s|)) Bool (or (|output_gate#124| state) (not (= ((_ extract 0 0) (|output_gate#83| state)) #b1)))) ; reset_is_off
 (define-fun |output_gate_a 7| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#92| state)) #b1)))) ; silent_is_off
 (define-fun |output_gate_a 8| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#94| state)) #b1)))) ; stopped_is_off
 (define-fun |output_gate_a 9| ((state |output_gate_s|)) Bool (or (|output_gate#108| state) (not (= ((_ extract 0 0) (|output_gate#97| state)) #b1)))) ; underrun_is_off
-(define-fun |output_gate#125| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#98| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:113$41_Y
-(define-fun |output_gate#126| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#45| state) (|output_gate#125| state) (|output_gate#98| state))) ; $procmux$231_Y
+(define-fun |output_gate#125| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#98| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:115$44_Y
+(define-fun |output_gate#126| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#45| state) (|output_gate#125| state) (|output_gate#98| state))) ; $procmux$237_Y
 (define-fun |output_gate#127| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#126| state))) ; $0\underruns_q[31:0]
-(define-fun |output_gate#128| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#89| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:97$30_Y
-(define-fun |output_gate#129| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#89| state) (|output_gate#128| state))) ; $procmux$260_Y
-(define-fun |output_gate#130| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#64| state) (|output_gate#65| state) (|output_gate#129| state))) ; $procmux$263_Y
+(define-fun |output_gate#128| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#89| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:99$31_Y
+(define-fun |output_gate#129| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#89| state) (|output_gate#128| state))) ; $procmux$266_Y
+(define-fun |output_gate#130| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#64| state) (|output_gate#65| state) (|output_gate#129| state))) ; $procmux$269_Y
 (define-fun |output_gate#131| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#130| state))) ; $0\silence_q[31:0]
-(define-fun |output_gate#132| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#87| state) #b0000000000000001)) ; $sub$output_gate.v:126$43_Y
-(define-fun |output_gate#133| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#25| state) (|output_gate#132| state) #b1111010000100011)) ; $ternary$output_gate.v:126$44_Y
+(define-fun |output_gate#132| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#87| state) #b0000000000000001)) ; $sub$output_gate.v:128$46_Y
+(define-fun |output_gate#133| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#25| state) (|output_gate#132| state) #b1111010000100011)) ; $ternary$output_gate.v:128$47_Y
 (define-fun |output_gate#134| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#86| state) #b0000000000000000 (|output_gate#133| state))) ; $0\settle_left_q[15:0]
-(define-fun |output_gate#135| ((state |output_gate_s|)) Bool (distinct (|output_gate#84| state) #b00000000000000000000000000000001)) ; $ne$output_gate.v:107$38_Y
-(define-fun |output_gate#136| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (ite (|output_gate#135| state) #b1 #b0) #b0)) ; $procmux$239_Y
-(define-fun |output_gate#137| ((state |output_gate_s|)) Bool (distinct (|output_gate#47| state) #b00000)) ; $ne$output_gate.v:102$36_Y
-(define-fun |output_gate#138| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#137| state) #b1 (|output_gate#136| state))) ; $procmux$242_Y
+(define-fun |output_gate#135| ((state |output_gate_s|)) Bool (distinct (|output_gate#84| state) #b00000000000000000000000000000001)) ; $ne$output_gate.v:109$39_Y
+(define-fun |output_gate#136| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (ite (|output_gate#135| state) #b1 #b0) #b0)) ; $procmux$245_Y
+(define-fun |output_gate#137| ((state |output_gate_s|)) Bool (distinct (|output_gate#47| state) #b00000)) ; $ne$output_gate.v:104$37_Y
+(define-fun |output_gate#138| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#137| state) #b1 (|output_gate#136| state))) ; $procmux$248_Y
 (define-fun |output_gate#139| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#86| state) #b0 (|output_gate#138| state))) ; $0\resting_q[0:0]
-(define-fun |output_gate#140| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#84| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:106$37_Y
-(define-fun |output_gate#141| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (|output_gate#140| state) (|output_gate#84| state))) ; $procmux$246_Y
-(define-fun |output_gate#142| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#137| state) #b00000000111011100110101100101000 (|output_gate#141| state))) ; $procmux$249_Y
+(define-fun |output_gate#140| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#84| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:108$38_Y
+(define-fun |output_gate#141| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#85| state)) #b1) (|output_gate#140| state) (|output_gate#84| state))) ; $procmux$252_Y
+(define-fun |output_gate#142| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#137| state) #b00000000111011100110101100101000 (|output_gate#141| state))) ; $procmux$255_Y
 (define-fun |output_gate#143| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#142| state))) ; $0\rest_left_q[31:0]
-(define-fun |output_gate#144| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#70| state)) (ite (|output_gate#31| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:128$46_Y
+(define-fun |output_gate#144| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#70| state)) (ite (|output_gate#31| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:130$49_Y
 (define-fun |output_gate#145| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#144| state))) ; $0\moves_later_q[2:0]
-(define-fun |output_gate#146| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#63| state) #b0000000000000001)) ; $sub$output_gate.v:133$52_Y
-(define-fun |output_gate#147| ((state |output_gate_s|)) Bool (distinct (|output_gate#63| state) #b0000000000000000)) ; $ne$output_gate.v:133$51_Y
-(define-fun |output_gate#148| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) (|output_gate#146| state) (|output_gate#63| state))) ; $procmux$217_Y
-(define-fun |output_gate#149| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#24| state) #b0000000000000001)) ; $sub$output_gate.v:132$50_Y
-(define-fun |output_gate#150| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#56| state) (|output_gate#149| state) (|output_gate#148| state))) ; $procmux$220_Y
-(define-fun |output_gate#151| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#78| state) (|output_gate#150| state) #b0000000000000000)) ; $procmux$223_Y
+(define-fun |output_gate#146| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#63| state) #b0000000000000001)) ; $sub$output_gate.v:135$55_Y
+(define-fun |output_gate#147| ((state |output_gate_s|)) Bool (distinct (|output_gate#63| state) #b0000000000000000)) ; $ne$output_gate.v:135$54_Y
+(define-fun |output_gate#148| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) (|output_gate#146| state) (|output_gate#63| state))) ; $procmux$223_Y
+(define-fun |output_gate#149| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#24| state) #b0000000000000001)) ; $sub$output_gate.v:134$53_Y
+(define-fun |output_gate#150| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#56| state) (|output_gate#149| state) (|output_gate#148| state))) ; $procmux$226_Y
+(define-fun |output_gate#151| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#78| state) (|output_gate#150| state) #b0000000000000000)) ; $procmux$229_Y
 (define-fun |output_gate#152| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#86| state) #b0000000000000000 (|output_gate#151| state))) ; $0\focus_left_q[15:0]
-(define-fun |output_gate#153| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#75| state) (|output_gate#74| state) (|output_gate#62| state))) ; $procmux$227_Y
-(define-fun |output_gate#154| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#86| state) #b0000000000000000000000000000000000000000000000000000000000000000 (|output_gate#153| state))) ; $0\fault_time_q[63:0]
-(define-fun |output_gate#155| ((state |output_gate_s|)) (_ BitVec 9) (bvand (concat ((_ extract 8 4) (|output_gate#61| state)) #b0000) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (|output_gate#85| state))))))))))) ; $and$output_gate.v:101$33_Y
-(define-fun |output_gate#156| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#49| state) (|output_gate#155| state) (|output_gate#61| state))) ; $ternary$output_gate.v:101$34_Y
-(define-fun |output_gate#157| ((state |output_gate_s|)) (_ BitVec 9) (bvor (|output_gate#156| state) (concat (|output_gate#47| state) (concat (ite (|output_gate#45| state) #b1 #b0) (concat (ite (|output_gate#43| state) #b1 #b0) (concat (ite (|output_gate#40| state) #b1 #b0) (ite (|output_gate#39| state) #b1 #b0))))))) ; $or$output_gate.v:101$35_Y
-(define-fun |output_gate#158| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#86| state) #b000000000 (|output_gate#157| state))) ; $0\fault_q[8:0]
-(define-fun |output_gate#159| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#60| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:110$39_Y
-(define-fun |output_gate#160| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#75| state) (|output_gate#159| state) (|output_gate#60| state))) ; $procmux$235_Y
-(define-fun |output_gate#161| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#160| state))) ; $0\fault_count_q[31:0]
-(define-fun |output_gate#162| ((state |output_gate_s|)) Bool (bvule (|output_gate#17| state) #b101)) ; $0\exists_1_q[0:0]
-(define-fun |output_gate#163| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#55| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:130$48_Y
-(define-fun |output_gate#164| ((state |output_gate_s|)) Bool (and (or  (|output_gate#56| state) false) (or  (|output_gate#78| state) false))) ; $logic_and$output_gate.v:130$47_Y
-(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#164| state) (|output_gate#163| state) (|output_gate#55| state))) ; $procmux$213_Y
-(define-fun |output_gate#166| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#165| state))) ; $0\emissions_q[31:0]
-(define-fun |output_gate#167| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#33| state)) (ite (|output_gate#32| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:127$45_Y
-(define-fun |output_gate#168| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#167| state))) ; $0\on_later_q[2:0]
-(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b000 (|output_gate#17| state))) ; $procmux$268_Y
-(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#88| state) #b100 (|output_gate#17| state))) ; $procmux$272_Y
-(define-fun |output_gate#171| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b011 (|output_gate#17| state))) ; $procmux$275_Y
-(define-fun |output_gate#172| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b010 (|output_gate#17| state))) ; $procmux$278_Y
-(define-fun |output_gate#173| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b100 (|output_gate#172| state))) ; $procmux$281_Y
-(define-fun |output_gate#174| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#87| state)) #b1) (= ((_ extract 1 1) (|output_gate#87| state)) #b1) (= ((_ extract 2 2) (|output_gate#87| state)) #b1) (= ((_ extract 3 3) (|output_gate#87| state)) #b1) (= ((_ extract 4 4) (|output_gate#87| state)) #b1) (= ((_ extract 5 5) (|output_gate#87| state)) #b1) (= ((_ extract 6 6) (|output_gate#87| state)) #b1) (= ((_ extract 7 7) (|output_gate#87| state)) #b1) (= ((_ extract 8 8) (|output_gate#87| state)) #b1) (= ((_ extract 9 9) (|output_gate#87| state)) #b1) (= ((_ extract 10 10) (|output_gate#87| state)) #b1) (= ((_ extract 11 11) (|output_gate#87| state)) #b1) (= ((_ extract 12 12) (|output_gate#87| state)) #b1) (= ((_ extract 13 13) (|output_gate#87| state)) #b1) (= ((_ extract 14 14) (|output_gate#87| state)) #b1) (= ((_ extract 15 15) (|output_gate#87| state)) #b1)))) ; $eq$output_gate.v:117$42_Y
-(define-fun |output_gate#175| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#174| state) #b001 (|output_gate#17| state))) ; $procmux$284_Y
-(define-fun |output_gate#176| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b000 (|output_gate#175| state))) ; $procmux$287_Y
-(define-fun |output_gate#177| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#16| state) #b101 (|output_gate#17| state))) ; $procmux$290_Y
-(define-fun |output_gate#178| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#57| state) (|output_gate#177| state) (ite (|output_gate#25| state) (|output_gate#176| state) (ite (|output_gate#26| state) (|output_gate#173| state) (ite (|output_gate#18| state) (|output_gate#171| state) (ite (|output_gate#28| state) (|output_gate#170| state) (ite (|output_gate#30| state) (|output_gate#169| state) #b000))))))) ; $procmux$270_Y
-(define-fun |output_gate#179| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#75| state) #b000 (|output_gate#178| state))) ; $procmux$293_Y
-(define-fun |output_gate#180| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#179| state))) ; $0\state_q[2:0]
-(define-fun |output_gate#181| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 1 1) (|output_gate#89| state)) #b1) (= ((_ extract 2 2) (|output_gate#89| state)) #b1) (= ((_ extract 3 3) (|output_gate#89| state)) #b1) (= ((_ extract 4 4) (|output_gate#89| state)) #b1) (= ((_ extract 5 5) (|output_gate#89| state)) #b1) (= ((_ extract 6 6) (|output_gate#89| state)) #b1) (= ((_ extract 7 7) (|output_gate#89| state)) #b1) (= ((_ extract 8 8) (|output_gate#89| state)) #b1) (= ((_ extract 9 9) (|output_gate#89| state)) #b1) (= ((_ extract 10 10) (|output_gate#89| state)) #b1) (= ((_ extract 11 11) (|output_gate#89| state)) #b1) (= ((_ extract 12 12) (|output_gate#89| state)) #b1) (= ((_ extract 13 13) (|output_gate#89| state)) #b1) (= ((_ extract 14 14) (|output_gate#89| state)) #b1) (= ((_ extract 15 15) (|output_gate#89| state)) #b1) (= ((_ extract 16 16) (|output_gate#89| state)) #b1) (= ((_ extract 17 17) (|output_gate#89| state)) #b1) (= ((_ extract 18 18) (|output_gate#89| state)) #b1) (= ((_ extract 19 19) (|output_gate#89| state)) #b1) (= ((_ extract 20 20) (|output_gate#89| state)) #b1) (= ((_ extract 21 21) (|output_gate#89| state)) #b1) (= ((_ extract 22 22) (|output_gate#89| state)) #b1) (= ((_ extract 23 23) (|output_gate#89| state)) #b1) (= ((_ extract 24 24) (|output_gate#89| state)) #b1) (= ((_ extract 25 25) (|output_gate#89| state)) #b1) (= ((_ extract 26 26) (|output_gate#89| state)) #b1) (= ((_ extract 27 27) (|output_gate#89| state)) #b1) (= ((_ extract 28 28) (|output_gate#89| state)) #b1) (= ((_ extract 29 29) (|output_gate#89| state)) #b1) (= ((_ extract 30 30) (|output_gate#89| state)) #b1) (= ((_ extract 31 31) (|output_gate#89| state)) #b1)))) ; $eq$output_gate.v:98$31_Y
-(define-fun |output_gate#182| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) #b1 (ite (|output_gate#181| state) #b1 #b0))) ; $procmux$253_Y
-(define-fun |output_gate#183| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#64| state) #b0 (|output_gate#182| state))) ; $procmux$256_Y
-(define-fun |output_gate#184| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#86| state) #b1 (|output_gate#183| state))) ; $0\silent_q[0:0]
-(define-fun |output_gate#185| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#4| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:136$55_Y
-(define-fun |output_gate#186| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#4| state)) #b1) (= ((_ extract 1 1) (|output_gate#4| state)) #b1) (= ((_ extract 2 2) (|output_gate#4| state)) #b1) (= ((_ extract 3 3) (|output_gate#4| state)) #b1) (= ((_ extract 4 4) (|output_gate#4| state)) #b1) (= ((_ extract 5 5) (|output_gate#4| state)) #b1) (= ((_ extract 6 6) (|output_gate#4| state)) #b1) (= ((_ extract 7 7) (|output_gate#4| state)) #b1) (= ((_ extract 8 8) (|output_gate#4| state)) #b1) (= ((_ extract 9 9) (|output_gate#4| state)) #b1) (= ((_ extract 10 10) (|output_gate#4| state)) #b1) (= ((_ extract 11 11) (|output_gate#4| state)) #b1) (= ((_ extract 12 12) (|output_gate#4| state)) #b1) (= ((_ extract 13 13) (|output_gate#4| state)) #b1) (= ((_ extract 14 14) (|output_gate#4| state)) #b1) (= ((_ extract 15 15) (|output_gate#4| state)) #b1) (= ((_ extract 16 16) (|output_gate#4| state)) #b1) (= ((_ extract 17 17) (|output_gate#4| state)) #b1) (= ((_ extract 18 18) (|output_gate#4| state)) #b1) (= ((_ extract 19 19) (|output_gate#4| state)) #b1) (= ((_ extract 20 20) (|output_gate#4| state)) #b1) (= ((_ extract 21 21) (|output_gate#4| state)) #b1) (= ((_ extract 22 22) (|output_gate#4| state)) #b1) (= ((_ extract 23 23) (|output_gate#4| state)) #b1) (= ((_ extract 24 24) (|output_gate#4| state)) #b1) (= ((_ extract 25 25) (|output_gate#4| state)) #b1) (= ((_ extract 26 26) (|output_gate#4| state)) #b1) (= ((_ extract 27 27) (|output_gate#4| state)) #b1) (= ((_ extract 28 28) (|output_gate#4| state)) #b1) (= ((_ extract 29 29) (|output_gate#4| state)) #b1) (= ((_ extract 30 30) (|output_gate#4| state)) #b1) (= ((_ extract 31 31) (|output_gate#4| state)) #b1)))) ; $eq$output_gate.v:135$54_Y
-(define-fun |output_gate#187| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#186| state) #b00000000000000000000011111001111 (|output_gate#185| state))) ; $procmux$198_Y
-(define-fun |output_gate#188| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#78| state) (|output_gate#187| state) #b00000000000000000000000000000000)) ; $procmux$201_Y
-(define-fun |output_gate#189| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#188| state))) ; $0\alive_left_q[31:0]
-(define-fun |output_gate#190| ((state |output_gate_s|)) Bool (not (or  (|output_gate#86| state) false))) ; $logic_not$output_gate.v:165$58_Y
-(define-fun |output_gate#191| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (|output_gate#190| state) false))) ; $0\hv_enable_q[0:0]
-(define-fun |output_gate#192| ((state |output_gate_s|)) (_ BitVec 1) (bvxor (|output_gate#12| state) (ite (|output_gate#186| state) #b1 #b0))) ; $xor$output_gate.v:167$67_Y
-(define-fun |output_gate#193| ((state |output_gate_s|)) Bool (and (or  (|output_gate#191| state) false) (or  (= ((_ extract 0 0) (|output_gate#192| state)) #b1) false))) ; $0\hv_alive_q[0:0]
-(define-fun |output_gate#194| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#193| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$465
-(define-fun |output_gate#195| ((state |output_gate_s|)) Bool (or  (|output_gate#56| state) false  (|output_gate#147| state) false)) ; $logic_or$output_gate.v:168$72_Y
-(define-fun |output_gate#196| ((state |output_gate_s|)) Bool (and (or  (|output_gate#191| state) false) (or  (|output_gate#195| state) false))) ; $0\focus_q[0:0]
-(define-fun |output_gate#197| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#196| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$467
-(define-fun |output_gate#198| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#191| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$469
-(define-fun |output_gate#199| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#54| state) (|output_gate#48| state))) ; $and$output_gate.v:165$60_Y
-(define-fun |output_gate#200| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (= ((_ extract 2 2) (|output_gate#70| state)) #b1) false))) ; $logic_and$output_gate.v:165$57_Y
-(define-fun |output_gate#201| ((state |output_gate_s|)) Bool (and (or  (|output_gate#200| state) false) (or  (|output_gate#190| state) false))) ; $logic_and$output_gate.v:165$59_Y
-(define-fun |output_gate#202| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#201| state) (|output_gate#199| state) #b00000000000000000000000000000000)) ; $0\channel_q[31:0]
-(define-fun |output_gate#203| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#202| state))) ; $auto$rtlil.cc:3381:Mux$471
+(define-fun |output_gate#153| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#61| state)) #b1) (= ((_ extract 1 1) (|output_gate#61| state)) #b1) (= ((_ extract 2 2) (|output_gate#61| state)) #b1) (= ((_ extract 3 3) (|output_gate#61| state)) #b1) (= ((_ extract 4 4) (|output_gate#61| state)) #b1) (= ((_ extract 5 5) (|output_gate#61| state)) #b1) (= ((_ extract 6 6) (|output_gate#61| state)) #b1) (= ((_ extract 7 7) (|output_gate#61| state)) #b1) (= ((_ extract 8 8) (|output_gate#61| state)) #b1)))) ; $eq$output_gate.v:111$40_Y
+(define-fun |output_gate#154| ((state |output_gate_s|)) Bool (and (or  (|output_gate#75| state) false) (or  (|output_gate#153| state) false))) ; $logic_and$output_gate.v:111$41_Y
+(define-fun |output_gate#155| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#154| state) (|output_gate#74| state) (|output_gate#62| state))) ; $procmux$233_Y
+(define-fun |output_gate#156| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#86| state) #b0000000000000000000000000000000000000000000000000000000000000000 (|output_gate#155| state))) ; $0\fault_time_q[63:0]
+(define-fun |output_gate#157| ((state |output_gate_s|)) (_ BitVec 9) (bvand (concat ((_ extract 8 4) (|output_gate#61| state)) #b0000) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (concat (|output_gate#85| state) (|output_gate#85| state))))))))))) ; $and$output_gate.v:103$34_Y
+(define-fun |output_gate#158| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#49| state) (|output_gate#157| state) (|output_gate#61| state))) ; $ternary$output_gate.v:103$35_Y
+(define-fun |output_gate#159| ((state |output_gate_s|)) (_ BitVec 9) (bvor (|output_gate#158| state) (concat (|output_gate#47| state) (concat (ite (|output_gate#45| state) #b1 #b0) (concat (ite (|output_gate#43| state) #b1 #b0) (concat (ite (|output_gate#40| state) #b1 #b0) (ite (|output_gate#39| state) #b1 #b0))))))) ; $or$output_gate.v:103$36_Y
+(define-fun |output_gate#160| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#86| state) #b000000000 (|output_gate#159| state))) ; $0\fault_q[8:0]
+(define-fun |output_gate#161| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#60| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:112$42_Y
+(define-fun |output_gate#162| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#154| state) (|output_gate#161| state) (|output_gate#60| state))) ; $procmux$241_Y
+(define-fun |output_gate#163| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#162| state))) ; $0\fault_count_q[31:0]
+(define-fun |output_gate#164| ((state |output_gate_s|)) Bool (bvule (|output_gate#17| state) #b101)) ; $0\exists_1_q[0:0]
+(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#55| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:132$51_Y
+(define-fun |output_gate#166| ((state |output_gate_s|)) Bool (and (or  (|output_gate#56| state) false) (or  (|output_gate#78| state) false))) ; $logic_and$output_gate.v:132$50_Y
+(define-fun |output_gate#167| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#166| state) (|output_gate#165| state) (|output_gate#55| state))) ; $procmux$219_Y
+(define-fun |output_gate#168| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#167| state))) ; $0\emissions_q[31:0]
+(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#33| state)) (ite (|output_gate#32| state) #b1 #b0)) (concat (ite (|output_gate#77| state) #b1 #b0) (concat (ite (|output_gate#77| state) #b1 #b0) (ite (|output_gate#77| state) #b1 #b0))))) ; $and$output_gate.v:129$48_Y
+(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#169| state))) ; $0\on_later_q[2:0]
+(define-fun |output_gate#171| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b000 (|output_gate#17| state))) ; $procmux$274_Y
+(define-fun |output_gate#172| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#88| state) #b100 (|output_gate#17| state))) ; $procmux$278_Y
+(define-fun |output_gate#173| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b011 (|output_gate#17| state))) ; $procmux$281_Y
+(define-fun |output_gate#174| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#80| state) #b010 (|output_gate#17| state))) ; $procmux$284_Y
+(define-fun |output_gate#175| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b100 (|output_gate#174| state))) ; $procmux$287_Y
+(define-fun |output_gate#176| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#87| state)) #b1) (= ((_ extract 1 1) (|output_gate#87| state)) #b1) (= ((_ extract 2 2) (|output_gate#87| state)) #b1) (= ((_ extract 3 3) (|output_gate#87| state)) #b1) (= ((_ extract 4 4) (|output_gate#87| state)) #b1) (= ((_ extract 5 5) (|output_gate#87| state)) #b1) (= ((_ extract 6 6) (|output_gate#87| state)) #b1) (= ((_ extract 7 7) (|output_gate#87| state)) #b1) (= ((_ extract 8 8) (|output_gate#87| state)) #b1) (= ((_ extract 9 9) (|output_gate#87| state)) #b1) (= ((_ extract 10 10) (|output_gate#87| state)) #b1) (= ((_ extract 11 11) (|output_gate#87| state)) #b1) (= ((_ extract 12 12) (|output_gate#87| state)) #b1) (= ((_ extract 13 13) (|output_gate#87| state)) #b1) (= ((_ extract 14 14) (|output_gate#87| state)) #b1) (= ((_ extract 15 15) (|output_gate#87| state)) #b1)))) ; $eq$output_gate.v:119$45_Y
+(define-fun |output_gate#177| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#176| state) #b001 (|output_gate#17| state))) ; $procmux$290_Y
+(define-fun |output_gate#178| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#52| state) #b000 (|output_gate#177| state))) ; $procmux$293_Y
+(define-fun |output_gate#179| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#16| state) #b101 (|output_gate#17| state))) ; $procmux$296_Y
+(define-fun |output_gate#180| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#57| state) (|output_gate#179| state) (ite (|output_gate#25| state) (|output_gate#178| state) (ite (|output_gate#26| state) (|output_gate#175| state) (ite (|output_gate#18| state) (|output_gate#173| state) (ite (|output_gate#28| state) (|output_gate#172| state) (ite (|output_gate#30| state) (|output_gate#171| state) #b000))))))) ; $procmux$276_Y
+(define-fun |output_gate#181| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#75| state) #b000 (|output_gate#180| state))) ; $procmux$299_Y
+(define-fun |output_gate#182| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#86| state) #b000 (|output_gate#181| state))) ; $0\state_q[2:0]
+(define-fun |output_gate#183| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 1 1) (|output_gate#89| state)) #b1) (= ((_ extract 2 2) (|output_gate#89| state)) #b1) (= ((_ extract 3 3) (|output_gate#89| state)) #b1) (= ((_ extract 4 4) (|output_gate#89| state)) #b1) (= ((_ extract 5 5) (|output_gate#89| state)) #b1) (= ((_ extract 6 6) (|output_gate#89| state)) #b1) (= ((_ extract 7 7) (|output_gate#89| state)) #b1) (= ((_ extract 8 8) (|output_gate#89| state)) #b1) (= ((_ extract 9 9) (|output_gate#89| state)) #b1) (= ((_ extract 10 10) (|output_gate#89| state)) #b1) (= ((_ extract 11 11) (|output_gate#89| state)) #b1) (= ((_ extract 12 12) (|output_gate#89| state)) #b1) (= ((_ extract 13 13) (|output_gate#89| state)) #b1) (= ((_ extract 14 14) (|output_gate#89| state)) #b1) (= ((_ extract 15 15) (|output_gate#89| state)) #b1) (= ((_ extract 16 16) (|output_gate#89| state)) #b1) (= ((_ extract 17 17) (|output_gate#89| state)) #b1) (= ((_ extract 18 18) (|output_gate#89| state)) #b1) (= ((_ extract 19 19) (|output_gate#89| state)) #b1) (= ((_ extract 20 20) (|output_gate#89| state)) #b1) (= ((_ extract 21 21) (|output_gate#89| state)) #b1) (= ((_ extract 22 22) (|output_gate#89| state)) #b1) (= ((_ extract 23 23) (|output_gate#89| state)) #b1) (= ((_ extract 24 24) (|output_gate#89| state)) #b1) (= ((_ extract 25 25) (|output_gate#89| state)) #b1) (= ((_ extract 26 26) (|output_gate#89| state)) #b1) (= ((_ extract 27 27) (|output_gate#89| state)) #b1) (= ((_ extract 28 28) (|output_gate#89| state)) #b1) (= ((_ extract 29 29) (|output_gate#89| state)) #b1) (= ((_ extract 30 30) (|output_gate#89| state)) #b1) (= ((_ extract 31 31) (|output_gate#89| state)) #b1)))) ; $eq$output_gate.v:100$32_Y
+(define-fun |output_gate#184| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) #b1 (ite (|output_gate#183| state) #b1 #b0))) ; $procmux$259_Y
+(define-fun |output_gate#185| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#64| state) #b0 (|output_gate#184| state))) ; $procmux$262_Y
+(define-fun |output_gate#186| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#86| state) #b1 (|output_gate#185| state))) ; $0\silent_q[0:0]
+(define-fun |output_gate#187| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#4| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:138$58_Y
+(define-fun |output_gate#188| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#4| state)) #b1) (= ((_ extract 1 1) (|output_gate#4| state)) #b1) (= ((_ extract 2 2) (|output_gate#4| state)) #b1) (= ((_ extract 3 3) (|output_gate#4| state)) #b1) (= ((_ extract 4 4) (|output_gate#4| state)) #b1) (= ((_ extract 5 5) (|output_gate#4| state)) #b1) (= ((_ extract 6 6) (|output_gate#4| state)) #b1) (= ((_ extract 7 7) (|output_gate#4| state)) #b1) (= ((_ extract 8 8) (|output_gate#4| state)) #b1) (= ((_ extract 9 9) (|output_gate#4| state)) #b1) (= ((_ extract 10 10) (|output_gate#4| state)) #b1) (= ((_ extract 11 11) (|output_gate#4| state)) #b1) (= ((_ extract 12 12) (|output_gate#4| state)) #b1) (= ((_ extract 13 13) (|output_gate#4| state)) #b1) (= ((_ extract 14 14) (|output_gate#4| state)) #b1) (= ((_ extract 15 15) (|output_gate#4| state)) #b1) (= ((_ extract 16 16) (|output_gate#4| state)) #b1) (= ((_ extract 17 17) (|output_gate#4| state)) #b1) (= ((_ extract 18 18) (|output_gate#4| state)) #b1) (= ((_ extract 19 19) (|output_gate#4| state)) #b1) (= ((_ extract 20 20) (|output_gate#4| state)) #b1) (= ((_ extract 21 21) (|output_gate#4| state)) #b1) (= ((_ extract 22 22) (|output_gate#4| state)) #b1) (= ((_ extract 23 23) (|output_gate#4| state)) #b1) (= ((_ extract 24 24) (|output_gate#4| state)) #b1) (= ((_ extract 25 25) (|output_gate#4| state)) #b1) (= ((_ extract 26 26) (|output_gate#4| state)) #b1) (= ((_ extract 27 27) (|output_gate#4| state)) #b1) (= ((_ extract 28 28) (|output_gate#4| state)) #b1) (= ((_ extract 29 29) (|output_gate#4| state)) #b1) (= ((_ extract 30 30) (|output_gate#4| state)) #b1) (= ((_ extract 31 31) (|output_gate#4| state)) #b1)))) ; $eq$output_gate.v:137$57_Y
+(define-fun |output_gate#189| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#188| state) #b00000000000000000000011111001111 (|output_gate#187| state))) ; $procmux$204_Y
+(define-fun |output_gate#190| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#78| state) (|output_gate#189| state) #b00000000000000000000000000000000)) ; $procmux$207_Y
+(define-fun |output_gate#191| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#86| state) #b00000000000000000000000000000000 (|output_gate#190| state))) ; $0\alive_left_q[31:0]
+(define-fun |output_gate#192| ((state |output_gate_s|)) Bool (not (or  (|output_gate#86| state) false))) ; $logic_not$output_gate.v:167$61_Y
+(define-fun |output_gate#193| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (|output_gate#192| state) false))) ; $0\hv_enable_q[0:0]
+(define-fun |output_gate#194| ((state |output_gate_s|)) (_ BitVec 1) (bvxor (|output_gate#12| state) (ite (|output_gate#188| state) #b1 #b0))) ; $xor$output_gate.v:169$70_Y
+(define-fun |output_gate#195| ((state |output_gate_s|)) Bool (and (or  (|output_gate#193| state) false) (or  (= ((_ extract 0 0) (|output_gate#194| state)) #b1) false))) ; $0\hv_alive_q[0:0]
+(define-fun |output_gate#196| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#195| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$473
+(define-fun |output_gate#197| ((state |output_gate_s|)) Bool (or  (|output_gate#56| state) false  (|output_gate#147| state) false)) ; $logic_or$output_gate.v:170$75_Y
+(define-fun |output_gate#198| ((state |output_gate_s|)) Bool (and (or  (|output_gate#193| state) false) (or  (|output_gate#197| state) false))) ; $0\focus_q[0:0]
+(define-fun |output_gate#199| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#198| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$475
+(define-fun |output_gate#200| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b0 (ite (|output_gate#193| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$477
+(define-fun |output_gate#201| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#54| state) (|output_gate#48| state))) ; $and$output_gate.v:167$63_Y
+(define-fun |output_gate#202| ((state |output_gate_s|)) Bool (and (or  (|output_gate#78| state) false) (or  (= ((_ extract 2 2) (|output_gate#70| state)) #b1) false))) ; $logic_and$output_gate.v:167$60_Y
+(define-fun |output_gate#203| ((state |output_gate_s|)) Bool (and (or  (|output_gate#202| state) false) (or  (|output_gate#192| state) false))) ; $logic_and$output_gate.v:167$62_Y
+(define-fun |output_gate#204| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#203| state) (|output_gate#201| state) #b00000000000000000000000000000000)) ; $0\channel_q[31:0]
+(define-fun |output_gate#205| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#7| state)) #b1) #b00000000000000000000000000000000 (|output_gate#204| state))) ; $auto$rtlil.cc:3381:Mux$479
 (define-fun |output_gate_a| ((state |output_gate_s|)) Bool (and
   (|output_gate_a 0| state)
   (|output_gate_a 1| state)
@@ -330,33 +333,33 @@
 )
 (define-fun |output_gate_h| ((state |output_gate_s|)) Bool true)
 (define-fun |output_gate_t| ((state |output_gate_s|) (next_state |output_gate_s|)) Bool (and
-  (= (|output_gate#127| state) (|output_gate#98| next_state)) ; $procdff$340 \underruns_q
-  (= (ite (|output_gate#44| state) #b1 #b0) (|output_gate#95| next_state)) ; $procdff$386 \underrun_1_q
-  (= (|output_gate#5| state) (|output_gate#90| next_state)) ; $procdff$364 \silent_1_q
-  (= (|output_gate#131| state) (|output_gate#89| next_state)) ; $procdff$334 \silence_q
-  (= (|output_gate#134| state) (|output_gate#87| next_state)) ; $procdff$342 \settle_left_q
-  (= (|output_gate#139| state) (|output_gate#85| next_state)) ; $procdff$338 \resting_q
-  (= (|output_gate#143| state) (|output_gate#84| next_state)) ; $procdff$337 \rest_left_q
-  (= (ite (|output_gate#86| state) #b1 #b0) (|output_gate#81| next_state)) ; $procdff$361 \rst_1_q
-  (= (ite (|output_gate#37| state) #b1 #b0) (|output_gate#79| next_state)) ; $procdff$362 \permit_1_q
-  (= (|output_gate#145| state) (|output_gate#70| next_state)) ; $procdff$344 \moves_later_q
-  (= (|output_gate#48| state) (|output_gate#68| next_state)) ; $procdff$366 \mask_1_q
-  (= (|output_gate#152| state) (|output_gate#63| next_state)) ; $procdff$345 \focus_left_q
-  (= (|output_gate#154| state) (|output_gate#62| next_state)) ; $procdff$341 \fault_time_q
-  (= (|output_gate#158| state) (|output_gate#61| next_state)) ; $procdff$336 \fault_q
-  (= (|output_gate#161| state) (|output_gate#60| next_state)) ; $procdff$339 \fault_count_q
-  (= (ite (|output_gate#162| state) #b1 #b0) (|output_gate#59| next_state)) ; $procdff$365 \exists_1_q
-  (= (|output_gate#166| state) (|output_gate#55| next_state)) ; $procdff$346 \emissions_q
-  (= (|output_gate#54| state) (|output_gate#53| next_state)) ; $procdff$389 \drive_1_q
-  (= (ite (|output_gate#41| state) #b1 #b0) (|output_gate#51| next_state)) ; $procdff$363 \cool_1_q
-  (= (|output_gate#168| state) (|output_gate#33| next_state)) ; $procdff$343 \on_later_q
-  (= #b1 (|output_gate#22| next_state)) ; $procdff$360 \started_q
-  (= (|output_gate#46| state) (|output_gate#19| next_state)) ; $procdff$367 \limits_1_q
-  (= (|output_gate#180| state) (|output_gate#17| next_state)) ; $procdff$333 \state_q
-  (= (|output_gate#184| state) (|output_gate#5| next_state)) ; $procdff$335 \silent_q
-  (= (|output_gate#189| state) (|output_gate#4| next_state)) ; $procdff$347 \alive_left_q
-  (= (|output_gate#194| state) (|output_gate#3| next_state)) ; $procdff$359 \_witness_.anyinit_procdff_359
-  (= (|output_gate#197| state) (|output_gate#2| next_state)) ; $procdff$356 \_witness_.anyinit_procdff_356
-  (= (|output_gate#198| state) (|output_gate#1| next_state)) ; $procdff$353 \_witness_.anyinit_procdff_353
-  (= (|output_gate#203| state) (|output_gate#0| next_state)) ; $procdff$350 \_witness_.anyinit_procdff_350
+  (= (|output_gate#127| state) (|output_gate#98| next_state)) ; $procdff$346 \underruns_q
+  (= (ite (|output_gate#44| state) #b1 #b0) (|output_gate#95| next_state)) ; $procdff$393 \underrun_1_q
+  (= (|output_gate#5| state) (|output_gate#90| next_state)) ; $procdff$370 \silent_1_q
+  (= (|output_gate#131| state) (|output_gate#89| next_state)) ; $procdff$340 \silence_q
+  (= (|output_gate#134| state) (|output_gate#87| next_state)) ; $procdff$348 \settle_left_q
+  (= (|output_gate#139| state) (|output_gate#85| next_state)) ; $procdff$344 \resting_q
+  (= (|output_gate#143| state) (|output_gate#84| next_state)) ; $procdff$343 \rest_left_q
+  (= (ite (|output_gate#86| state) #b1 #b0) (|output_gate#81| next_state)) ; $procdff$367 \rst_1_q
+  (= (ite (|output_gate#37| state) #b1 #b0) (|output_gate#79| next_state)) ; $procdff$368 \permit_1_q
+  (= (|output_gate#145| state) (|output_gate#70| next_state)) ; $procdff$350 \moves_later_q
+  (= (|output_gate#48| state) (|output_gate#68| next_state)) ; $procdff$372 \mask_1_q
+  (= (|output_gate#152| state) (|output_gate#63| next_state)) ; $procdff$351 \focus_left_q
+  (= (|output_gate#156| state) (|output_gate#62| next_state)) ; $procdff$347 \fault_time_q
+  (= (|output_gate#160| state) (|output_gate#61| next_state)) ; $procdff$342 \fault_q
+  (= (|output_gate#163| state) (|output_gate#60| next_state)) ; $procdff$345 \fault_count_q
+  (= (ite (|output_gate#164| state) #b1 #b0) (|output_gate#59| next_state)) ; $procdff$371 \exists_1_q
+  (= (|output_gate#168| state) (|output_gate#55| next_state)) ; $procdff$352 \emissions_q
+  (= (|output_gate#54| state) (|output_gate#53| next_state)) ; $procdff$396 \drive_1_q
+  (= (ite (|output_gate#41| state) #b1 #b0) (|output_gate#51| next_state)) ; $procdff$369 \cool_1_q
+  (= (|output_gate#170| state) (|output_gate#33| next_state)) ; $procdff$349 \on_later_q
+  (= #b1 (|output_gate#22| next_state)) ; $procdff$366 \started_q
+  (= (|output_gate#46| state) (|output_gate#19| next_state)) ; $procdff$373 \limits_1_q
+  (= (|output_gate#182| state) (|output_gate#17| next_state)) ; $procdff$339 \state_q
+  (= (|output_gate#186| state) (|output_gate#5| next_state)) ; $procdff$341 \silent_q
+  (= (|output_gate#191| state) (|output_gate#4| next_state)) ; $procdff$353 \alive_left_q
+  (= (|output_gate#196| state) (|output_gate#3| next_state)) ; $procdff$365 \_witness_.anyinit_procdff_365
+  (= (|output_gate#199| state) (|output_gate#2| next_state)) ; $procdff$362 \_witness_.anyinit_procdff_362
+  (= (|output_gate#200| state) (|output_gate#1| next_state)) ; $procdff$359 \_witness_.anyinit_procdff_359
+  (= (|output_gate#205| state) (|output_gate#0| next_state)) ; $procdff$356 \_witness_.anyinit_procdff_356
 )) ; end of module output_gate

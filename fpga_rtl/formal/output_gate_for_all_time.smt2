@@ -1,642 +1,660 @@
-; of 28d71212f6471b7a0c8d94ef87b50c48f4dda8328f40c42dab53d90caee10bea, by python -m tests.rtl.proofs
+; of c8edf5b188ee9dc0b48533383f688e2e47cbdaee2249360b541a15eb2259413c, by python -m tests.rtl.proofs
 (declare-sort |output_gate_s| 0)
 (declare-fun |output_gate_is| (|output_gate_s|) Bool)
-(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_956
-(define-fun |output_gate_n _witness_.anyinit_procdff_956| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
+(declare-fun |output_gate#0| (|output_gate_s|) (_ BitVec 32)) ; \_witness_.anyinit_procdff_981
+(define-fun |output_gate_n _witness_.anyinit_procdff_981| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#0| state))
 (declare-fun |output_gate#1| (|output_gate_s|) (_ BitVec 1)) ; \shut_1_q
-(define-fun |output_gate#2| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#1| state)) #b1) #b1 #b0)) ; $procmux$852_Y
-(declare-fun |output_gate#3| (|output_gate_s|) (_ BitVec 1)) ; \rst_1_q
-(define-fun |output_gate#4| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#3| state)) #b1) #b0 (|output_gate#2| state))) ; $procmux$854_Y
-(declare-fun |output_gate#5| (|output_gate_s|) (_ BitVec 1)) ; \started_q
-(define-fun |output_gate#6| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#4| state) #b0)) ; \a_fault_is_counted_EN
-(define-fun |output_gate_n a_fault_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#6| state)) #b1))
-(declare-fun |output_gate#7| (|output_gate_s|) (_ BitVec 32)) ; \since_limit_q
-(define-fun |output_gate#8| ((state |output_gate_s|)) Bool (bvult (|output_gate#7| state) #b00000000111011100110101100101000)) ; $lt$output_gate_properties.vh:110$259_Y
-(define-fun |output_gate#9| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#8| state) #b1 #b0)) ; $procmux$813_Y
-(define-fun |output_gate#10| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#9| state) #b0)) ; \a_limit_rests_EN
-(define-fun |output_gate_n a_limit_rests_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#10| state)) #b1))
-(declare-fun |output_gate#11| (|output_gate_s|) (_ BitVec 17)) ; \age_1_q
-(define-fun |output_gate_n age_1_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#11| state))
-(declare-fun |output_gate#12| (|output_gate_s|) (_ BitVec 17)) ; \age_2_q
-(define-fun |output_gate_n age_2_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#12| state))
-(declare-fun |output_gate#13| (|output_gate_s|) (_ BitVec 17)) ; \age_3_q
-(define-fun |output_gate_n age_3_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#13| state))
-(declare-fun |output_gate#14| (|output_gate_s|) (_ BitVec 17)) ; \age_4_q
-(define-fun |output_gate_n age_4_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#14| state))
-(declare-fun |output_gate#15| (|output_gate_s|) (_ BitVec 17)) ; \age_q
-(define-fun |output_gate_n age_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#15| state))
-(declare-fun |output_gate#16| (|output_gate_s|) (_ BitVec 32)) ; \alive_left_q
-(define-fun |output_gate_n alive_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#16| state))
-(declare-fun |output_gate#17| (|output_gate_s|) (_ BitVec 1)) ; \silent_q
-(define-fun |output_gate#18| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#17| state)) #b1) false))) ; \alive_o
-(define-fun |output_gate_n alive_o| ((state |output_gate_s|)) Bool (|output_gate#18| state))
-(declare-fun |output_gate#19| (|output_gate_s|) (_ BitVec 16)) ; \all_faults_1_q
-(define-fun |output_gate_n all_faults_1_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#19| state))
-(declare-fun |output_gate#20| (|output_gate_s|) (_ BitVec 1)) ; \allowed_q
-(define-fun |output_gate_n allowed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#20| state)) #b1))
-(declare-fun |output_gate#21| (|output_gate_s|) (_ BitVec 1)) ; \clock_lost_i
-(define-fun |output_gate#22| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b00000000000000000000000000000000 (|output_gate#0| state))) ; \channel_q
-(define-fun |output_gate#23| ((state |output_gate_s|)) Bool (distinct (|output_gate#22| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:133$344_Y
-(declare-fun |output_gate#24| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_959
-(define-fun |output_gate#25| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#24| state))) ; \hv_enable_q
-(define-fun |output_gate#26| ((state |output_gate_s|)) Bool (or  (|output_gate#23| state) false  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$173_Y
-(declare-fun |output_gate#27| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_965
-(define-fun |output_gate#28| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#27| state))) ; \hv_alive_q
-(define-fun |output_gate#29| ((state |output_gate_s|)) Bool (or  (|output_gate#26| state) false  (= ((_ extract 0 0) (|output_gate#28| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:75$174_Y
-(declare-fun |output_gate#30| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_962
-(define-fun |output_gate#31| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#30| state))) ; \focus_q
-(define-fun |output_gate#32| ((state |output_gate_s|)) Bool (or  (|output_gate#29| state) false  (= ((_ extract 0 0) (|output_gate#31| state)) #b1) false)) ; \any
-(define-fun |output_gate_n any| ((state |output_gate_s|)) Bool (|output_gate#32| state))
-(declare-fun |output_gate#33| (|output_gate_s|) (_ BitVec 1)) ; \arm_1_q
-(define-fun |output_gate_n arm_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#33| state)) #b1))
-(declare-fun |output_gate#34| (|output_gate_s|) Bool) ; \arm_i
-(define-fun |output_gate_n arm_i| ((state |output_gate_s|)) Bool (|output_gate#34| state))
-(declare-fun |output_gate#35| (|output_gate_s|) (_ BitVec 3)) ; \state_q
-(define-fun |output_gate#36| ((state |output_gate_s|)) Bool (= (|output_gate#35| state) #b010)) ; \armed_o
-(define-fun |output_gate_n armed_o| ((state |output_gate_s|)) Bool (|output_gate#36| state))
-(declare-fun |output_gate#37| (|output_gate_s|) (_ BitVec 5)) ; \limits_1_q
-(define-fun |output_gate#38| ((state |output_gate_s|)) Bool (distinct (|output_gate#37| state) #b00000)) ; $ne$output_gate_properties.vh:83$205_Y
-(define-fun |output_gate#39| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#38| state) #b1 #b0)) ; $procmux$915_Y
-(define-fun |output_gate#40| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#39| state) #b0)) ; \beyond_is_off_EN
-(define-fun |output_gate_n beyond_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#40| state)) #b1))
-(declare-fun |output_gate#41| (|output_gate_s|) (_ BitVec 16)) ; \bit_ticks_i
-(define-fun |output_gate_n bit_ticks_i| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#41| state))
-(define-fun |output_gate#42| ((state |output_gate_s|)) Bool (= (|output_gate#35| state) #b101)) ; \settling
-(define-fun |output_gate#43| ((state |output_gate_s|)) Bool (= (|output_gate#35| state) #b001)) ; \ramp_up_o
-(define-fun |output_gate#44| ((state |output_gate_s|)) Bool (or  (|output_gate#43| state) false  (|output_gate#36| state) false)) ; $logic_or$output_gate.v:78$10_Y
-(define-fun |output_gate#45| ((state |output_gate_s|)) Bool (= (|output_gate#35| state) #b011)) ; \stopping_o
-(define-fun |output_gate#46| ((state |output_gate_s|)) Bool (or  (|output_gate#44| state) false  (|output_gate#45| state) false)) ; $logic_or$output_gate.v:78$12_Y
-(define-fun |output_gate#47| ((state |output_gate_s|)) Bool (= (|output_gate#35| state) #b100)) ; \ramp_down_o
-(define-fun |output_gate#48| ((state |output_gate_s|)) Bool (or  (|output_gate#46| state) false  (|output_gate#47| state) false)) ; \moves
-(define-fun |output_gate#49| ((state |output_gate_s|)) Bool (or  (|output_gate#42| state) false  (|output_gate#48| state) false)) ; \on
-(declare-fun |output_gate#50| (|output_gate_s|) (_ BitVec 3)) ; \on_later_q
-(define-fun |output_gate#51| ((state |output_gate_s|)) Bool (distinct (|output_gate#50| state) #b000)) ; $ne$output_gate.v:81$18_Y
-(define-fun |output_gate#52| ((state |output_gate_s|)) Bool (or  (|output_gate#49| state) false  (|output_gate#51| state) false)) ; $logic_or$output_gate.v:81$19_Y
-(define-fun |output_gate#53| ((state |output_gate_s|)) Bool (or  (|output_gate#52| state) false  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false)) ; \live
-(declare-fun |output_gate#54| (|output_gate_s|) Bool) ; \run_permit_i
-(define-fun |output_gate#55| ((state |output_gate_s|)) Bool (not (or  (|output_gate#54| state) false))) ; $logic_not$output_gate.v:83$21_Y
-(define-fun |output_gate#56| ((state |output_gate_s|)) Bool (and (or  (|output_gate#53| state) false) (or  (|output_gate#55| state) false))) ; \cause [0]
-(define-fun |output_gate#57| ((state |output_gate_s|)) Bool (and (or  (|output_gate#53| state) false) (or  (= ((_ extract 0 0) (|output_gate#17| state)) #b1) false))) ; \cause [1]
-(declare-fun |output_gate#58| (|output_gate_s|) Bool) ; \temperature_good_i
-(define-fun |output_gate#59| ((state |output_gate_s|)) Bool (not (or  (|output_gate#58| state) false))) ; $logic_not$output_gate.v:85$24_Y
-(define-fun |output_gate#60| ((state |output_gate_s|)) Bool (and (or  (|output_gate#53| state) false) (or  (|output_gate#59| state) false))) ; \cause [2]
-(declare-fun |output_gate#61| (|output_gate_s|) Bool) ; \underrun_i
-(define-fun |output_gate#62| ((state |output_gate_s|)) Bool (and (or  (|output_gate#53| state) false) (or  (|output_gate#61| state) false))) ; \cause [3]
-(declare-fun |output_gate#63| (|output_gate_s|) (_ BitVec 5)) ; \limits_i
-(define-fun |output_gate#64| ((state |output_gate_s|)) (_ BitVec 5) (bvand (|output_gate#63| state) (concat (ite (|output_gate#53| state) #b1 #b0) (concat (ite (|output_gate#53| state) #b1 #b0) (concat (ite (|output_gate#53| state) #b1 #b0) (concat (ite (|output_gate#53| state) #b1 #b0) (ite (|output_gate#53| state) #b1 #b0))))))) ; \cause [8:4]
-(define-fun |output_gate_n cause| ((state |output_gate_s|)) (_ BitVec 9) (concat (|output_gate#64| state) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#60| state) #b1 #b0) (concat (ite (|output_gate#57| state) #b1 #b0) (ite (|output_gate#56| state) #b1 #b0))))))
-(declare-fun |output_gate#65| (|output_gate_s|) (_ BitVec 32)) ; \channel_mask_i
-(define-fun |output_gate_n channel_mask_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#65| state))
-(define-fun |output_gate_n channel_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#22| state))
-(define-fun |output_gate_n channel_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#22| state))
-(declare-fun |output_gate#66| (|output_gate_s|) (_ BitVec 1)) ; \clear_1_q
-(define-fun |output_gate_n clear_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#66| state)) #b1))
-(declare-fun |output_gate#67| (|output_gate_s|) Bool) ; \clear_i
-(define-fun |output_gate_n clear_i| ((state |output_gate_s|)) Bool (|output_gate#67| state))
-(declare-fun |output_gate#68| (|output_gate_s|) Bool) ; \clk_i
-(define-fun |output_gate_n clk_i| ((state |output_gate_s|)) Bool (|output_gate#68| state))
-(define-fun |output_gate_n clock_lost_i| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#21| state)) #b1))
-(declare-fun |output_gate#69| (|output_gate_s|) (_ BitVec 1)) ; \cool_1_q
-(define-fun |output_gate_n cool_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#69| state)) #b1))
-(declare-fun |output_gate#70| (|output_gate_s|) (_ BitVec 1)) ; \disarm_1_q
-(define-fun |output_gate_n disarm_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#70| state)) #b1))
-(declare-fun |output_gate#71| (|output_gate_s|) Bool) ; \disarm_i
-(define-fun |output_gate_n disarm_i| ((state |output_gate_s|)) Bool (|output_gate#71| state))
-(define-fun |output_gate#72| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#33| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:102$241_Y
-(define-fun |output_gate#73| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#70| state)) #b1) false) (or  (|output_gate#72| state) false))) ; $logic_and$output_gate_properties.vh:102$242_Y
-(define-fun |output_gate#74| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#73| state) #b1 #b0)) ; $procmux$838_Y
-(define-fun |output_gate#75| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#3| state)) #b1) #b0 (|output_gate#74| state))) ; $procmux$840_Y
-(define-fun |output_gate#76| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#75| state) #b0)) ; \disarm_is_obeyed_EN
-(define-fun |output_gate_n disarm_is_obeyed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#76| state)) #b1))
-(declare-fun |output_gate#77| (|output_gate_s|) (_ BitVec 1)) ; \disarmed_q
-(define-fun |output_gate#78| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#77| state)) #b1) #b1 #b0)) ; $procmux$823_Y
-(define-fun |output_gate#79| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#78| state) #b0)) ; \disarmed_for_good_EN
-(define-fun |output_gate_n disarmed_for_good_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#79| state)) #b1))
-(define-fun |output_gate_n disarmed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#77| state)) #b1))
-(declare-fun |output_gate#80| (|output_gate_s|) (_ BitVec 32)) ; \drive_1_q
-(define-fun |output_gate_n drive_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#80| state))
-(declare-fun |output_gate#81| (|output_gate_s|) (_ BitVec 32)) ; \drive_i
-(define-fun |output_gate_n drive_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#81| state))
-(define-fun |output_gate#82| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#23| state) #b1 #b0)) ; $procmux$686_Y
-(define-fun |output_gate#83| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#82| state))) ; $procmux$688_Y
-(define-fun |output_gate#84| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#83| state) #b0)) ; \edges_once_settled_EN
-(define-fun |output_gate_n edges_once_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#84| state)) #b1))
-(declare-fun |output_gate#85| (|output_gate_s|) (_ BitVec 32)) ; \emissions_q
-(define-fun |output_gate_n emissions_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#85| state))
-(define-fun |output_gate_n emissions_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#85| state))
-(declare-fun |output_gate#86| (|output_gate_s|) Bool) ; \ended_i
-(define-fun |output_gate_n ended_i| ((state |output_gate_s|)) Bool (|output_gate#86| state))
-(define-fun |output_gate#87| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#35| state)) #b1) (= ((_ extract 1 1) (|output_gate#35| state)) #b1) (= ((_ extract 2 2) (|output_gate#35| state)) #b1)))) ; \off_o
-(define-fun |output_gate#88| ((state |output_gate_s|)) Bool (or  (|output_gate#49| state) false  (|output_gate#87| state) false)) ; \exists
-(define-fun |output_gate_n exists| ((state |output_gate_s|)) Bool (|output_gate#88| state))
-(declare-fun |output_gate#89| (|output_gate_s|) (_ BitVec 1)) ; \exists_1_q
-(define-fun |output_gate_n exists_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#89| state)) #b1))
-(declare-fun |output_gate#90| (|output_gate_s|) (_ BitVec 32)) ; \fault_count_1_q
-(define-fun |output_gate_n fault_count_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#90| state))
-(declare-fun |output_gate#91| (|output_gate_s|) (_ BitVec 32)) ; \fault_count_q
-(define-fun |output_gate_n fault_count_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#91| state))
-(define-fun |output_gate_n fault_count_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#91| state))
-(declare-fun |output_gate#92| (|output_gate_s|) (_ BitVec 9)) ; \fault_q
-(define-fun |output_gate_n fault_o| ((state |output_gate_s|)) (_ BitVec 16) (concat #b0000000 (|output_gate#92| state)))
-(define-fun |output_gate_n fault_q| ((state |output_gate_s|)) (_ BitVec 9) (|output_gate#92| state))
-(declare-fun |output_gate#93| (|output_gate_s|) (_ BitVec 64)) ; \fault_time_q
-(define-fun |output_gate_n fault_time_o| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#93| state))
-(define-fun |output_gate_n fault_time_q| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#93| state))
-(declare-fun |output_gate#94| (|output_gate_s|) (_ BitVec 5)) ; \faults_1_q
-(define-fun |output_gate_n faults_1_q| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#94| state))
-(declare-fun |output_gate#95| (|output_gate_s|) (_ BitVec 1)) ; \fed_q
-(define-fun |output_gate_n fed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#95| state)) #b1))
-(declare-fun |output_gate#96| (|output_gate_s|) (_ BitVec 32)) ; \fed_ticks_q
-(define-fun |output_gate_n fed_ticks_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#96| state))
-(declare-fun |output_gate#97| (|output_gate_s|) (_ BitVec 16)) ; \focus_left_q
-(define-fun |output_gate_n focus_left_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#97| state))
-(define-fun |output_gate_n focus_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#31| state)) #b1))
-(define-fun |output_gate_n focus_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#31| state)) #b1))
-(declare-fun |output_gate#98| (|output_gate_s|) Bool) ; \heartbeat_i
-(define-fun |output_gate_n heartbeat_i| ((state |output_gate_s|)) Bool (|output_gate#98| state))
-(declare-fun |output_gate#99| (|output_gate_s|) (_ BitVec 32)) ; \heartbeat_ticks_i
-(define-fun |output_gate_n heartbeat_ticks_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#99| state))
-(define-fun |output_gate#100| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#69| state)) #b1) #b0 #b1)) ; $procmux$885_Y
-(declare-fun |output_gate#101| (|output_gate_s|) (_ BitVec 1)) ; \hv_1_q
-(define-fun |output_gate#102| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#3| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:111$261_Y
-(define-fun |output_gate#103| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#101| state)) #b1) false) (or  (|output_gate#102| state) false))) ; $logic_and$output_gate_properties.vh:91$217_Y
-(define-fun |output_gate#104| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#103| state) (|output_gate#100| state) #b0)) ; $procmux$887_Y
-(define-fun |output_gate#105| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#104| state) #b0)) ; \heat_is_kept_EN
-(define-fun |output_gate_n heat_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#105| state)) #b1))
-(define-fun |output_gate_n host_silent| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#17| state)) #b1))
-(define-fun |output_gate#106| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#100| state) #b0)) ; \hot_is_off_EN
-(define-fun |output_gate_n hot_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#106| state)) #b1))
-(define-fun |output_gate_n hv_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#101| state)) #b1))
-(define-fun |output_gate_n hv_alive_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#28| state)) #b1))
-(define-fun |output_gate_n hv_alive_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#28| state)) #b1))
-(define-fun |output_gate_n hv_enable_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#25| state)) #b1))
-(define-fun |output_gate_n hv_enable_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#25| state)) #b1))
-(define-fun |output_gate_n limits_1_q| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#37| state))
-(define-fun |output_gate#107| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#103| state) #b1 #b0)) ; $procmux$873_Y
-(define-fun |output_gate#108| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#107| state) #b0)) ; \limits_are_kept_EN
-(define-fun |output_gate_n limits_are_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#108| state)) #b1))
-(define-fun |output_gate_n limits_i| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#63| state))
-(define-fun |output_gate_n live| ((state |output_gate_s|)) Bool (|output_gate#53| state))
-(define-fun |output_gate_n _witness_.anyinit_procdff_959| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#24| state)) #b1))
-(define-fun |output_gate_n _witness_.anyinit_procdff_962| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#30| state)) #b1))
-(define-fun |output_gate_n _witness_.anyinit_procdff_965| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#27| state)) #b1))
-(declare-fun |output_gate#109| (|output_gate_s|) (_ BitVec 32)) ; \mask_1_q
-(define-fun |output_gate_n mask_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#109| state))
-(define-fun |output_gate#110| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) #b1 #b0)) ; \mask_is_kept_EN
-(define-fun |output_gate_n mask_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#110| state)) #b1))
-(define-fun |output_gate_n moves| ((state |output_gate_s|)) Bool (|output_gate#48| state))
-(declare-fun |output_gate#111| (|output_gate_s|) (_ BitVec 3)) ; \moves_later_q
-(define-fun |output_gate_n moves_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#111| state))
-(define-fun |output_gate#112| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#48| state) #b1 #b0)) ; $procmux$718_Y
-(define-fun |output_gate#113| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#112| state))) ; $procmux$720_Y
-(define-fun |output_gate#114| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#113| state) #b0)) ; \moves_once_settled_EN
-(define-fun |output_gate_n moves_once_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#114| state)) #b1))
-(define-fun |output_gate_n no_channel_alone_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#110| state)) #b1))
-(define-fun |output_gate#115| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b1 #b0)) ; \no_clock_is_off_EN
-(define-fun |output_gate_n no_clock_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#115| state)) #b1))
-(define-fun |output_gate_n no_sign_of_life_alone_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#110| state)) #b1))
-(define-fun |output_gate#116| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#89| state)) #b1) #b0 #b1)) ; $procmux$905_Y
-(define-fun |output_gate#117| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#116| state) #b0)) ; \nonsense_is_off_EN
-(define-fun |output_gate_n nonsense_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#117| state)) #b1))
-(declare-fun |output_gate#118| (|output_gate_s|) (_ BitVec 64)) ; \now_1_q
-(define-fun |output_gate_n now_1_q| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#118| state))
-(declare-fun |output_gate#119| (|output_gate_s|) (_ BitVec 64)) ; \now_i
-(define-fun |output_gate_n now_i| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#119| state))
-(define-fun |output_gate_n off_o| ((state |output_gate_s|)) Bool (|output_gate#87| state))
-(define-fun |output_gate_n on| ((state |output_gate_s|)) Bool (|output_gate#49| state))
-(define-fun |output_gate_n on_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#50| state))
-(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#32| state) #b1 #b0)) ; $procmux$818_Y
-(define-fun |output_gate#121| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#120| state) #b0)) ; \on_once_armed_EN
-(define-fun |output_gate_n on_once_armed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#121| state)) #b1))
-(define-fun |output_gate_n on_while_fed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#121| state)) #b1))
-(define-fun |output_gate_n on_without_fault_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#121| state)) #b1))
-(define-fun |output_gate#122| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#66| state)) #b1) #b0 #b1)) ; $procmux$859_Y
-(define-fun |output_gate#123| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#3| state)) #b1) #b0 (|output_gate#122| state))) ; $procmux$861_Y
-(define-fun |output_gate#124| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#123| state) #b0)) ; \only_a_command_clears_EN
-(define-fun |output_gate_n only_a_command_clears_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#124| state)) #b1))
-(define-fun |output_gate#125| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#1| state)) #b1) #b0 #b1)) ; $procmux$845_Y
-(define-fun |output_gate#126| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#3| state)) #b1) #b0 (|output_gate#125| state))) ; $procmux$847_Y
-(define-fun |output_gate#127| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#126| state) #b0)) ; \only_a_fault_counts_EN
-(define-fun |output_gate_n only_a_fault_counts_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#127| state)) #b1))
-(define-fun |output_gate_n only_what_is_played_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#110| state)) #b1))
-(define-fun |output_gate#128| ((state |output_gate_s|)) Bool (distinct (concat (|output_gate#64| state) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#60| state) #b1 #b0) (concat (ite (|output_gate#57| state) #b1 #b0) (ite (|output_gate#56| state) #b1 #b0))))) #b000000000)) ; \shut
-(define-fun |output_gate#129| ((state |output_gate_s|)) Bool (not (or  (|output_gate#128| state) false))) ; $logic_not$output_gate.v:89$29_Y
-(define-fun |output_gate#130| ((state |output_gate_s|)) Bool (and (or  (|output_gate#88| state) false) (or  (|output_gate#129| state) false))) ; \stays
-(define-fun |output_gate#131| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#50| state)) #b1) false) (or  (|output_gate#130| state) false))) ; \open
-(define-fun |output_gate_n open| ((state |output_gate_s|)) Bool (|output_gate#131| state))
-(declare-fun |output_gate#132| (|output_gate_s|) (_ BitVec 1)) ; \permit_1_q
-(define-fun |output_gate_n permit_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#132| state)) #b1))
-(declare-fun |output_gate#133| (|output_gate_s|) Bool) ; \ramp_done_i
-(define-fun |output_gate_n ramp_done_i| ((state |output_gate_s|)) Bool (|output_gate#133| state))
-(define-fun |output_gate_n ramp_down_o| ((state |output_gate_s|)) Bool (|output_gate#47| state))
-(define-fun |output_gate_n ramp_up_o| ((state |output_gate_s|)) Bool (|output_gate#43| state))
-(define-fun |output_gate#134| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#3| state)) #b1) #b1 #b0)) ; $procmux$935_Y
-(define-fun |output_gate#135| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#134| state) #b0)) ; \reset_is_off_EN
-(define-fun |output_gate_n reset_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#135| state)) #b1))
-(define-fun |output_gate#136| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 #b1)) ; $procmux$782_Y
-(define-fun |output_gate#137| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#136| state) #b0)) ; \rest_has_its_time_EN
-(define-fun |output_gate_n rest_has_its_time_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#137| state)) #b1))
-(declare-fun |output_gate#138| (|output_gate_s|) (_ BitVec 1)) ; \resting_q
-(define-fun |output_gate#139| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#138| state)) #b1) #b1 #b0)) ; $procmux$774_Y
-(define-fun |output_gate#140| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#139| state))) ; $procmux$776_Y
-(define-fun |output_gate#141| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#140| state) #b0)) ; \rest_is_counted_EN
-(define-fun |output_gate_n rest_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#141| state)) #b1))
-(declare-fun |output_gate#142| (|output_gate_s|) (_ BitVec 1)) ; \resting_1_q
-(define-fun |output_gate#143| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#142| state)) #b1) false) (or  (|output_gate#102| state) false))) ; $logic_and$output_gate_properties.vh:111$262_Y
-(define-fun |output_gate#144| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#143| state) #b1 #b0)) ; $procmux$808_Y
-(define-fun |output_gate#145| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#144| state) #b0)) ; \rest_is_kept_EN
-(define-fun |output_gate_n rest_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#145| state)) #b1))
-(declare-fun |output_gate#146| (|output_gate_s|) (_ BitVec 32)) ; \rest_left_q
-(define-fun |output_gate_n rest_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#146| state))
-(define-fun |output_gate_n resting_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#142| state)) #b1))
-(define-fun |output_gate_n resting_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#138| state)) #b1))
-(define-fun |output_gate_n rst_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#3| state)) #b1))
-(declare-fun |output_gate#147| (|output_gate_s|) Bool) ; \rst_i
-(define-fun |output_gate_n rst_i| ((state |output_gate_s|)) Bool (|output_gate#147| state))
-(define-fun |output_gate_n run_permit_i| ((state |output_gate_s|)) Bool (|output_gate#54| state))
-(declare-fun |output_gate#148| (|output_gate_s|) (_ BitVec 16)) ; \settle_left_q
-(define-fun |output_gate_n settle_left_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#148| state))
-(declare-fun |output_gate#149| (|output_gate_s|) Bool) ; \settled_i
-(define-fun |output_gate_n settled_i| ((state |output_gate_s|)) Bool (|output_gate#149| state))
-(define-fun |output_gate_n settling| ((state |output_gate_s|)) Bool (|output_gate#42| state))
-(define-fun |output_gate#150| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#42| state) #b1 #b0)) ; $procmux$726_Y
-(define-fun |output_gate#151| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#150| state))) ; $procmux$728_Y
-(define-fun |output_gate#152| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#151| state) #b0)) ; \settling_is_counted_EN
-(define-fun |output_gate_n settling_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#152| state)) #b1))
-(define-fun |output_gate_n settling_o| ((state |output_gate_s|)) Bool (|output_gate#42| state))
-(define-fun |output_gate_n shut| ((state |output_gate_s|)) Bool (|output_gate#128| state))
+(declare-fun |output_gate#2| (|output_gate_s|) (_ BitVec 16)) ; \all_faults_1_q
+(define-fun |output_gate#3| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#2| state)) #b1) (= ((_ extract 1 1) (|output_gate#2| state)) #b1) (= ((_ extract 2 2) (|output_gate#2| state)) #b1) (= ((_ extract 3 3) (|output_gate#2| state)) #b1) (= ((_ extract 4 4) (|output_gate#2| state)) #b1) (= ((_ extract 5 5) (|output_gate#2| state)) #b1) (= ((_ extract 6 6) (|output_gate#2| state)) #b1) (= ((_ extract 7 7) (|output_gate#2| state)) #b1) (= ((_ extract 8 8) (|output_gate#2| state)) #b1) (= ((_ extract 9 9) (|output_gate#2| state)) #b1) (= ((_ extract 10 10) (|output_gate#2| state)) #b1) (= ((_ extract 11 11) (|output_gate#2| state)) #b1) (= ((_ extract 12 12) (|output_gate#2| state)) #b1) (= ((_ extract 13 13) (|output_gate#2| state)) #b1) (= ((_ extract 14 14) (|output_gate#2| state)) #b1) (= ((_ extract 15 15) (|output_gate#2| state)) #b1)))) ; $eq$output_gate_properties.vh:105$240_Y
+(define-fun |output_gate#4| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#1| state)) #b1) false) (or  (|output_gate#3| state) false))) ; $logic_and$output_gate_properties.vh:105$241_Y
+(define-fun |output_gate#5| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#4| state) #b1 #b0)) ; $procmux$872_Y
+(declare-fun |output_gate#6| (|output_gate_s|) (_ BitVec 1)) ; \rst_1_q
+(define-fun |output_gate#7| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 (|output_gate#5| state))) ; $procmux$874_Y
+(declare-fun |output_gate#8| (|output_gate_s|) (_ BitVec 1)) ; \started_q
+(define-fun |output_gate#9| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#7| state) #b0)) ; \a_fault_is_counted_EN
+(define-fun |output_gate_n a_fault_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#9| state)) #b1))
+(declare-fun |output_gate#10| (|output_gate_s|) (_ BitVec 32)) ; \since_limit_q
+(define-fun |output_gate#11| ((state |output_gate_s|)) Bool (bvult (|output_gate#10| state) #b00000000111011100110101100101000)) ; $lt$output_gate_properties.vh:116$270_Y
+(define-fun |output_gate#12| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#11| state) #b1 #b0)) ; $procmux$824_Y
+(define-fun |output_gate#13| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#12| state) #b0)) ; \a_limit_rests_EN
+(define-fun |output_gate_n a_limit_rests_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#13| state)) #b1))
+(declare-fun |output_gate#14| (|output_gate_s|) (_ BitVec 17)) ; \age_1_q
+(define-fun |output_gate_n age_1_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#14| state))
+(declare-fun |output_gate#15| (|output_gate_s|) (_ BitVec 17)) ; \age_2_q
+(define-fun |output_gate_n age_2_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#15| state))
+(declare-fun |output_gate#16| (|output_gate_s|) (_ BitVec 17)) ; \age_3_q
+(define-fun |output_gate_n age_3_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#16| state))
+(declare-fun |output_gate#17| (|output_gate_s|) (_ BitVec 17)) ; \age_4_q
+(define-fun |output_gate_n age_4_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#17| state))
+(declare-fun |output_gate#18| (|output_gate_s|) (_ BitVec 17)) ; \age_q
+(define-fun |output_gate_n age_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#18| state))
+(declare-fun |output_gate#19| (|output_gate_s|) (_ BitVec 32)) ; \alive_left_q
+(define-fun |output_gate_n alive_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#19| state))
+(declare-fun |output_gate#20| (|output_gate_s|) (_ BitVec 1)) ; \silent_q
+(define-fun |output_gate#21| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#20| state)) #b1) false))) ; \alive_o
+(define-fun |output_gate_n alive_o| ((state |output_gate_s|)) Bool (|output_gate#21| state))
+(define-fun |output_gate_n all_faults_1_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#2| state))
+(declare-fun |output_gate#22| (|output_gate_s|) (_ BitVec 1)) ; \allowed_q
+(define-fun |output_gate_n allowed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#22| state)) #b1))
+(declare-fun |output_gate#23| (|output_gate_s|) (_ BitVec 1)) ; \clock_lost_i
+(define-fun |output_gate#24| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b00000000000000000000000000000000 (|output_gate#0| state))) ; \channel_q
+(define-fun |output_gate#25| ((state |output_gate_s|)) Bool (distinct (|output_gate#24| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:139$355_Y
+(declare-fun |output_gate#26| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_984
+(define-fun |output_gate#27| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#26| state))) ; \hv_enable_q
+(define-fun |output_gate#28| ((state |output_gate_s|)) Bool (or  (|output_gate#25| state) false  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:78$179_Y
+(declare-fun |output_gate#29| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_990
+(define-fun |output_gate#30| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#29| state))) ; \hv_alive_q
+(define-fun |output_gate#31| ((state |output_gate_s|)) Bool (or  (|output_gate#28| state) false  (= ((_ extract 0 0) (|output_gate#30| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:78$180_Y
+(declare-fun |output_gate#32| (|output_gate_s|) (_ BitVec 1)) ; \_witness_.anyinit_procdff_987
+(define-fun |output_gate#33| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#32| state))) ; \focus_q
+(define-fun |output_gate#34| ((state |output_gate_s|)) Bool (or  (|output_gate#31| state) false  (= ((_ extract 0 0) (|output_gate#33| state)) #b1) false)) ; \any
+(define-fun |output_gate_n any| ((state |output_gate_s|)) Bool (|output_gate#34| state))
+(declare-fun |output_gate#35| (|output_gate_s|) (_ BitVec 1)) ; \arm_1_q
+(define-fun |output_gate_n arm_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#35| state)) #b1))
+(declare-fun |output_gate#36| (|output_gate_s|) Bool) ; \arm_i
+(define-fun |output_gate_n arm_i| ((state |output_gate_s|)) Bool (|output_gate#36| state))
+(declare-fun |output_gate#37| (|output_gate_s|) (_ BitVec 3)) ; \state_q
+(define-fun |output_gate#38| ((state |output_gate_s|)) Bool (= (|output_gate#37| state) #b010)) ; \armed_o
+(define-fun |output_gate_n armed_o| ((state |output_gate_s|)) Bool (|output_gate#38| state))
+(declare-fun |output_gate#39| (|output_gate_s|) (_ BitVec 5)) ; \limits_1_q
+(define-fun |output_gate#40| ((state |output_gate_s|)) Bool (distinct (|output_gate#39| state) #b00000)) ; $ne$output_gate_properties.vh:86$211_Y
+(define-fun |output_gate#41| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#40| state) #b1 #b0)) ; $procmux$940_Y
+(define-fun |output_gate#42| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#41| state) #b0)) ; \beyond_is_off_EN
+(define-fun |output_gate_n beyond_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#42| state)) #b1))
+(declare-fun |output_gate#43| (|output_gate_s|) (_ BitVec 16)) ; \bit_ticks_i
+(define-fun |output_gate_n bit_ticks_i| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#43| state))
+(define-fun |output_gate#44| ((state |output_gate_s|)) Bool (= (|output_gate#37| state) #b101)) ; \settling
+(define-fun |output_gate#45| ((state |output_gate_s|)) Bool (= (|output_gate#37| state) #b001)) ; \ramp_up_o
+(define-fun |output_gate#46| ((state |output_gate_s|)) Bool (or  (|output_gate#45| state) false  (|output_gate#38| state) false)) ; $logic_or$output_gate.v:80$10_Y
+(define-fun |output_gate#47| ((state |output_gate_s|)) Bool (= (|output_gate#37| state) #b011)) ; \stopping_o
+(define-fun |output_gate#48| ((state |output_gate_s|)) Bool (or  (|output_gate#46| state) false  (|output_gate#47| state) false)) ; $logic_or$output_gate.v:80$12_Y
+(define-fun |output_gate#49| ((state |output_gate_s|)) Bool (= (|output_gate#37| state) #b100)) ; \ramp_down_o
+(define-fun |output_gate#50| ((state |output_gate_s|)) Bool (or  (|output_gate#48| state) false  (|output_gate#49| state) false)) ; \moves
+(define-fun |output_gate#51| ((state |output_gate_s|)) Bool (or  (|output_gate#44| state) false  (|output_gate#50| state) false)) ; \on
+(declare-fun |output_gate#52| (|output_gate_s|) (_ BitVec 3)) ; \on_later_q
+(define-fun |output_gate#53| ((state |output_gate_s|)) Bool (distinct (|output_gate#52| state) #b000)) ; $ne$output_gate.v:83$18_Y
+(define-fun |output_gate#54| ((state |output_gate_s|)) Bool (or  (|output_gate#51| state) false  (|output_gate#53| state) false)) ; $logic_or$output_gate.v:83$19_Y
+(define-fun |output_gate#55| ((state |output_gate_s|)) Bool (or  (|output_gate#54| state) false  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false)) ; \live
+(declare-fun |output_gate#56| (|output_gate_s|) Bool) ; \run_permit_i
+(define-fun |output_gate#57| ((state |output_gate_s|)) Bool (not (or  (|output_gate#56| state) false))) ; $logic_not$output_gate.v:85$21_Y
+(define-fun |output_gate#58| ((state |output_gate_s|)) Bool (and (or  (|output_gate#55| state) false) (or  (|output_gate#57| state) false))) ; \cause [0]
+(define-fun |output_gate#59| ((state |output_gate_s|)) Bool (and (or  (|output_gate#55| state) false) (or  (= ((_ extract 0 0) (|output_gate#20| state)) #b1) false))) ; \cause [1]
+(declare-fun |output_gate#60| (|output_gate_s|) Bool) ; \temperature_good_i
+(define-fun |output_gate#61| ((state |output_gate_s|)) Bool (not (or  (|output_gate#60| state) false))) ; $logic_not$output_gate.v:87$24_Y
+(define-fun |output_gate#62| ((state |output_gate_s|)) Bool (and (or  (|output_gate#55| state) false) (or  (|output_gate#61| state) false))) ; \cause [2]
+(declare-fun |output_gate#63| (|output_gate_s|) Bool) ; \underrun_i
+(define-fun |output_gate#64| ((state |output_gate_s|)) Bool (and (or  (|output_gate#55| state) false) (or  (|output_gate#63| state) false))) ; \cause [3]
+(declare-fun |output_gate#65| (|output_gate_s|) (_ BitVec 5)) ; \limits_i
+(define-fun |output_gate#66| ((state |output_gate_s|)) (_ BitVec 5) (bvand (|output_gate#65| state) (concat (ite (|output_gate#55| state) #b1 #b0) (concat (ite (|output_gate#55| state) #b1 #b0) (concat #b11 (ite (|output_gate#55| state) #b1 #b0)))))) ; \cause [8:4]
+(define-fun |output_gate_n cause| ((state |output_gate_s|)) (_ BitVec 9) (concat (|output_gate#66| state) (concat (ite (|output_gate#64| state) #b1 #b0) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#59| state) #b1 #b0) (ite (|output_gate#58| state) #b1 #b0))))))
+(declare-fun |output_gate#67| (|output_gate_s|) (_ BitVec 32)) ; \channel_mask_i
+(define-fun |output_gate_n channel_mask_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#67| state))
+(define-fun |output_gate_n channel_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#24| state))
+(define-fun |output_gate_n channel_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#24| state))
+(declare-fun |output_gate#68| (|output_gate_s|) (_ BitVec 1)) ; \clear_1_q
+(define-fun |output_gate_n clear_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#68| state)) #b1))
+(declare-fun |output_gate#69| (|output_gate_s|) Bool) ; \clear_i
+(define-fun |output_gate_n clear_i| ((state |output_gate_s|)) Bool (|output_gate#69| state))
+(declare-fun |output_gate#70| (|output_gate_s|) Bool) ; \clk_i
+(define-fun |output_gate_n clk_i| ((state |output_gate_s|)) Bool (|output_gate#70| state))
+(define-fun |output_gate_n clock_lost_i| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#23| state)) #b1))
+(declare-fun |output_gate#71| (|output_gate_s|) (_ BitVec 1)) ; \cool_1_q
+(define-fun |output_gate_n cool_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#71| state)) #b1))
+(define-fun |output_gate#72| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#4| state) #b0 #b1)) ; $procmux$864_Y
+(define-fun |output_gate#73| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 (|output_gate#72| state))) ; $procmux$866_Y
+(define-fun |output_gate#74| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#73| state) #b0)) ; \counted_once_EN
+(define-fun |output_gate_n counted_once_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#74| state)) #b1))
+(declare-fun |output_gate#75| (|output_gate_s|) (_ BitVec 1)) ; \disarm_1_q
+(define-fun |output_gate_n disarm_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#75| state)) #b1))
+(declare-fun |output_gate#76| (|output_gate_s|) Bool) ; \disarm_i
+(define-fun |output_gate_n disarm_i| ((state |output_gate_s|)) Bool (|output_gate#76| state))
+(define-fun |output_gate#77| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#35| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:108$252_Y
+(define-fun |output_gate#78| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#75| state)) #b1) false) (or  (|output_gate#77| state) false))) ; $logic_and$output_gate_properties.vh:108$253_Y
+(define-fun |output_gate#79| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#78| state) #b1 #b0)) ; $procmux$849_Y
+(define-fun |output_gate#80| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 (|output_gate#79| state))) ; $procmux$851_Y
+(define-fun |output_gate#81| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#80| state) #b0)) ; \disarm_is_obeyed_EN
+(define-fun |output_gate_n disarm_is_obeyed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#81| state)) #b1))
+(declare-fun |output_gate#82| (|output_gate_s|) (_ BitVec 1)) ; \disarmed_q
+(define-fun |output_gate#83| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#82| state)) #b1) #b1 #b0)) ; $procmux$834_Y
+(define-fun |output_gate#84| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#83| state) #b0)) ; \disarmed_for_good_EN
+(define-fun |output_gate_n disarmed_for_good_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#84| state)) #b1))
+(define-fun |output_gate_n disarmed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#82| state)) #b1))
+(declare-fun |output_gate#85| (|output_gate_s|) (_ BitVec 32)) ; \drive_1_q
+(define-fun |output_gate_n drive_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#85| state))
+(declare-fun |output_gate#86| (|output_gate_s|) (_ BitVec 32)) ; \drive_i
+(define-fun |output_gate_n drive_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#86| state))
+(define-fun |output_gate_n edges| ((state |output_gate_s|)) (_ BitVec 3) (concat ((_ extract 2 1) (|output_gate#65| state)) #b0))
+(declare-fun |output_gate#87| (|output_gate_s|) (_ BitVec 5)) ; \edges_1_q
+(define-fun |output_gate_n edges_1_q| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#87| state))
+(define-fun |output_gate#88| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 #b1)) ; $procmux$879_Y
+(define-fun |output_gate#89| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#88| state) #b0)) ; \edges_are_kept_EN
+(define-fun |output_gate_n edges_are_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#89| state)) #b1))
+(define-fun |output_gate#90| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#25| state) #b1 #b0)) ; $procmux$697_Y
+(define-fun |output_gate#91| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#90| state))) ; $procmux$699_Y
+(define-fun |output_gate#92| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#91| state) #b0)) ; \edges_once_settled_EN
+(define-fun |output_gate_n edges_once_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#92| state)) #b1))
+(declare-fun |output_gate#93| (|output_gate_s|) (_ BitVec 32)) ; \emissions_q
+(define-fun |output_gate_n emissions_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#93| state))
+(define-fun |output_gate_n emissions_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#93| state))
+(declare-fun |output_gate#94| (|output_gate_s|) Bool) ; \ended_i
+(define-fun |output_gate_n ended_i| ((state |output_gate_s|)) Bool (|output_gate#94| state))
+(define-fun |output_gate#95| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#37| state)) #b1) (= ((_ extract 1 1) (|output_gate#37| state)) #b1) (= ((_ extract 2 2) (|output_gate#37| state)) #b1)))) ; \off_o
+(define-fun |output_gate#96| ((state |output_gate_s|)) Bool (or  (|output_gate#51| state) false  (|output_gate#95| state) false)) ; \exists
+(define-fun |output_gate_n exists| ((state |output_gate_s|)) Bool (|output_gate#96| state))
+(declare-fun |output_gate#97| (|output_gate_s|) (_ BitVec 1)) ; \exists_1_q
+(define-fun |output_gate_n exists_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#97| state)) #b1))
+(declare-fun |output_gate#98| (|output_gate_s|) (_ BitVec 32)) ; \fault_count_1_q
+(define-fun |output_gate_n fault_count_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#98| state))
+(declare-fun |output_gate#99| (|output_gate_s|) (_ BitVec 32)) ; \fault_count_q
+(define-fun |output_gate_n fault_count_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#99| state))
+(define-fun |output_gate_n fault_count_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#99| state))
+(declare-fun |output_gate#100| (|output_gate_s|) (_ BitVec 9)) ; \fault_q
+(define-fun |output_gate_n fault_o| ((state |output_gate_s|)) (_ BitVec 16) (concat #b0000000 (|output_gate#100| state)))
+(define-fun |output_gate_n fault_q| ((state |output_gate_s|)) (_ BitVec 9) (|output_gate#100| state))
+(declare-fun |output_gate#101| (|output_gate_s|) (_ BitVec 64)) ; \fault_time_q
+(define-fun |output_gate_n fault_time_o| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#101| state))
+(define-fun |output_gate_n fault_time_q| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#101| state))
+(declare-fun |output_gate#102| (|output_gate_s|) (_ BitVec 5)) ; \faults_1_q
+(define-fun |output_gate_n faults_1_q| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#102| state))
+(declare-fun |output_gate#103| (|output_gate_s|) (_ BitVec 1)) ; \fed_q
+(define-fun |output_gate_n fed_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#103| state)) #b1))
+(declare-fun |output_gate#104| (|output_gate_s|) (_ BitVec 32)) ; \fed_ticks_q
+(define-fun |output_gate_n fed_ticks_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#104| state))
+(declare-fun |output_gate#105| (|output_gate_s|) (_ BitVec 16)) ; \focus_left_q
+(define-fun |output_gate_n focus_left_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#105| state))
+(define-fun |output_gate_n focus_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#33| state)) #b1))
+(define-fun |output_gate_n focus_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#33| state)) #b1))
+(declare-fun |output_gate#106| (|output_gate_s|) Bool) ; \heartbeat_i
+(define-fun |output_gate_n heartbeat_i| ((state |output_gate_s|)) Bool (|output_gate#106| state))
+(declare-fun |output_gate#107| (|output_gate_s|) (_ BitVec 32)) ; \heartbeat_ticks_i
+(define-fun |output_gate_n heartbeat_ticks_i| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#107| state))
+(define-fun |output_gate#108| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#71| state)) #b1) #b0 #b1)) ; $procmux$910_Y
+(declare-fun |output_gate#109| (|output_gate_s|) (_ BitVec 1)) ; \hv_1_q
+(define-fun |output_gate#110| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#6| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:117$272_Y
+(define-fun |output_gate#111| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#109| state)) #b1) false) (or  (|output_gate#110| state) false))) ; $logic_and$output_gate_properties.vh:94$223_Y
+(define-fun |output_gate#112| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#111| state) (|output_gate#108| state) #b0)) ; $procmux$912_Y
+(define-fun |output_gate#113| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#112| state) #b0)) ; \heat_is_kept_EN
+(define-fun |output_gate_n heat_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#113| state)) #b1))
+(define-fun |output_gate_n host_silent| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#20| state)) #b1))
+(define-fun |output_gate#114| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#108| state) #b0)) ; \hot_is_off_EN
+(define-fun |output_gate_n hot_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#114| state)) #b1))
+(define-fun |output_gate_n hv_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#109| state)) #b1))
+(define-fun |output_gate_n hv_alive_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#30| state)) #b1))
+(define-fun |output_gate_n hv_alive_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#30| state)) #b1))
+(define-fun |output_gate_n hv_enable_o| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#27| state)) #b1))
+(define-fun |output_gate_n hv_enable_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#27| state)) #b1))
+(define-fun |output_gate_n limits_1_q| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#39| state))
+(define-fun |output_gate#115| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#111| state) #b1 #b0)) ; $procmux$898_Y
+(define-fun |output_gate#116| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#115| state) #b0)) ; \limits_are_kept_EN
+(define-fun |output_gate_n limits_are_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#116| state)) #b1))
+(define-fun |output_gate_n limits_i| ((state |output_gate_s|)) (_ BitVec 5) (|output_gate#65| state))
+(define-fun |output_gate_n live| ((state |output_gate_s|)) Bool (|output_gate#55| state))
+(define-fun |output_gate_n _witness_.anyinit_procdff_984| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#26| state)) #b1))
+(define-fun |output_gate_n _witness_.anyinit_procdff_987| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#32| state)) #b1))
+(define-fun |output_gate_n _witness_.anyinit_procdff_990| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#29| state)) #b1))
+(declare-fun |output_gate#117| (|output_gate_s|) (_ BitVec 32)) ; \mask_1_q
+(define-fun |output_gate_n mask_1_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#117| state))
+(define-fun |output_gate#118| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) #b1 #b0)) ; \mask_is_kept_EN
+(define-fun |output_gate_n mask_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#118| state)) #b1))
+(define-fun |output_gate_n moves| ((state |output_gate_s|)) Bool (|output_gate#50| state))
+(declare-fun |output_gate#119| (|output_gate_s|) (_ BitVec 3)) ; \moves_later_q
+(define-fun |output_gate_n moves_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#119| state))
+(define-fun |output_gate#120| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#50| state) #b1 #b0)) ; $procmux$729_Y
+(define-fun |output_gate#121| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#120| state))) ; $procmux$731_Y
+(define-fun |output_gate#122| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#121| state) #b0)) ; \moves_once_settled_EN
+(define-fun |output_gate_n moves_once_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#122| state)) #b1))
+(define-fun |output_gate_n no_channel_alone_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#118| state)) #b1))
+(define-fun |output_gate#123| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b1 #b0)) ; \no_clock_is_off_EN
+(define-fun |output_gate_n no_clock_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#123| state)) #b1))
+(define-fun |output_gate_n no_sign_of_life_alone_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#118| state)) #b1))
+(define-fun |output_gate#124| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#97| state)) #b1) #b0 #b1)) ; $procmux$930_Y
+(define-fun |output_gate#125| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#124| state) #b0)) ; \nonsense_is_off_EN
+(define-fun |output_gate_n nonsense_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#125| state)) #b1))
+(declare-fun |output_gate#126| (|output_gate_s|) (_ BitVec 64)) ; \now_1_q
+(define-fun |output_gate_n now_1_q| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#126| state))
+(declare-fun |output_gate#127| (|output_gate_s|) (_ BitVec 64)) ; \now_i
+(define-fun |output_gate_n now_i| ((state |output_gate_s|)) (_ BitVec 64) (|output_gate#127| state))
+(define-fun |output_gate_n off_o| ((state |output_gate_s|)) Bool (|output_gate#95| state))
+(define-fun |output_gate_n on| ((state |output_gate_s|)) Bool (|output_gate#51| state))
+(define-fun |output_gate_n on_later_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#52| state))
+(define-fun |output_gate#128| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#34| state) #b1 #b0)) ; $procmux$829_Y
+(define-fun |output_gate#129| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#128| state) #b0)) ; \on_once_armed_EN
+(define-fun |output_gate_n on_once_armed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#129| state)) #b1))
+(define-fun |output_gate_n on_while_fed_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#129| state)) #b1))
+(define-fun |output_gate_n on_without_fault_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#129| state)) #b1))
+(define-fun |output_gate#130| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#1| state)) #b1) #b0 #b1)) ; $procmux$856_Y
+(define-fun |output_gate#131| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 (|output_gate#130| state))) ; $procmux$858_Y
+(define-fun |output_gate#132| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#131| state) #b0)) ; \only_a_cause_is_kept_EN
+(define-fun |output_gate_n only_a_cause_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#132| state)) #b1))
+(define-fun |output_gate#133| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#68| state)) #b1) #b0 #b1)) ; $procmux$884_Y
+(define-fun |output_gate#134| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b0 (|output_gate#133| state))) ; $procmux$886_Y
+(define-fun |output_gate#135| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#134| state) #b0)) ; \only_a_command_clears_EN
+(define-fun |output_gate_n only_a_command_clears_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#135| state)) #b1))
+(define-fun |output_gate_n only_what_is_played_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#118| state)) #b1))
+(define-fun |output_gate#136| ((state |output_gate_s|)) Bool (distinct (concat (|output_gate#66| state) (concat (ite (|output_gate#64| state) #b1 #b0) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#59| state) #b1 #b0) (ite (|output_gate#58| state) #b1 #b0))))) #b000000000)) ; \shut
+(define-fun |output_gate#137| ((state |output_gate_s|)) Bool (not (or  (|output_gate#136| state) false))) ; $logic_not$output_gate.v:91$30_Y
+(define-fun |output_gate#138| ((state |output_gate_s|)) Bool (and (or  (|output_gate#96| state) false) (or  (|output_gate#137| state) false))) ; \stays
+(define-fun |output_gate#139| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#52| state)) #b1) false) (or  (|output_gate#138| state) false))) ; \open
+(define-fun |output_gate_n open| ((state |output_gate_s|)) Bool (|output_gate#139| state))
+(declare-fun |output_gate#140| (|output_gate_s|) (_ BitVec 1)) ; \permit_1_q
+(define-fun |output_gate_n permit_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#140| state)) #b1))
+(declare-fun |output_gate#141| (|output_gate_s|) Bool) ; \ramp_done_i
+(define-fun |output_gate_n ramp_done_i| ((state |output_gate_s|)) Bool (|output_gate#141| state))
+(define-fun |output_gate_n ramp_down_o| ((state |output_gate_s|)) Bool (|output_gate#49| state))
+(define-fun |output_gate_n ramp_up_o| ((state |output_gate_s|)) Bool (|output_gate#45| state))
+(define-fun |output_gate#142| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#6| state)) #b1) #b1 #b0)) ; $procmux$960_Y
+(define-fun |output_gate#143| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#142| state) #b0)) ; \reset_is_off_EN
+(define-fun |output_gate_n reset_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#143| state)) #b1))
+(define-fun |output_gate#144| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 #b1)) ; $procmux$793_Y
+(define-fun |output_gate#145| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#144| state) #b0)) ; \rest_has_its_time_EN
+(define-fun |output_gate_n rest_has_its_time_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#145| state)) #b1))
+(declare-fun |output_gate#146| (|output_gate_s|) (_ BitVec 1)) ; \resting_q
+(define-fun |output_gate#147| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#146| state)) #b1) #b1 #b0)) ; $procmux$785_Y
+(define-fun |output_gate#148| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#147| state))) ; $procmux$787_Y
+(define-fun |output_gate#149| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#148| state) #b0)) ; \rest_is_counted_EN
+(define-fun |output_gate_n rest_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#149| state)) #b1))
+(declare-fun |output_gate#150| (|output_gate_s|) (_ BitVec 1)) ; \resting_1_q
+(define-fun |output_gate#151| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#150| state)) #b1) false) (or  (|output_gate#110| state) false))) ; $logic_and$output_gate_properties.vh:117$273_Y
+(define-fun |output_gate#152| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#151| state) #b1 #b0)) ; $procmux$819_Y
+(define-fun |output_gate#153| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#152| state) #b0)) ; \rest_is_kept_EN
+(define-fun |output_gate_n rest_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#153| state)) #b1))
+(declare-fun |output_gate#154| (|output_gate_s|) (_ BitVec 32)) ; \rest_left_q
+(define-fun |output_gate_n rest_left_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#154| state))
+(define-fun |output_gate_n resting_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#150| state)) #b1))
+(define-fun |output_gate_n resting_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#146| state)) #b1))
+(define-fun |output_gate_n rst_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#6| state)) #b1))
+(declare-fun |output_gate#155| (|output_gate_s|) Bool) ; \rst_i
+(define-fun |output_gate_n rst_i| ((state |output_gate_s|)) Bool (|output_gate#155| state))
+(define-fun |output_gate_n run_permit_i| ((state |output_gate_s|)) Bool (|output_gate#56| state))
+(declare-fun |output_gate#156| (|output_gate_s|) (_ BitVec 16)) ; \settle_left_q
+(define-fun |output_gate_n settle_left_q| ((state |output_gate_s|)) (_ BitVec 16) (|output_gate#156| state))
+(declare-fun |output_gate#157| (|output_gate_s|) Bool) ; \settled_i
+(define-fun |output_gate_n settled_i| ((state |output_gate_s|)) Bool (|output_gate#157| state))
+(define-fun |output_gate_n settling| ((state |output_gate_s|)) Bool (|output_gate#44| state))
+(define-fun |output_gate#158| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#44| state) #b1 #b0)) ; $procmux$737_Y
+(define-fun |output_gate#159| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#158| state))) ; $procmux$739_Y
+(define-fun |output_gate#160| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#159| state) #b0)) ; \settling_is_counted_EN
+(define-fun |output_gate_n settling_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#160| state)) #b1))
+(define-fun |output_gate_n settling_o| ((state |output_gate_s|)) Bool (|output_gate#44| state))
+(define-fun |output_gate_n shut| ((state |output_gate_s|)) Bool (|output_gate#136| state))
 (define-fun |output_gate_n shut_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#1| state)) #b1))
-(define-fun |output_gate_n shut_o| ((state |output_gate_s|)) Bool (|output_gate#128| state))
-(define-fun |output_gate#153| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#17| state)) #b1) #b0 #b1)) ; $procmux$742_Y
-(define-fun |output_gate#154| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#153| state))) ; $procmux$744_Y
-(define-fun |output_gate#155| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#154| state) #b0)) ; \silence_is_counted_EN
-(define-fun |output_gate_n silence_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#155| state)) #b1))
-(declare-fun |output_gate#156| (|output_gate_s|) (_ BitVec 1)) ; \silent_1_q
-(define-fun |output_gate#157| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#156| state)) #b1) #b1 #b0)) ; $procmux$878_Y
-(define-fun |output_gate#158| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#103| state) (|output_gate#157| state) #b0)) ; $procmux$880_Y
-(define-fun |output_gate#159| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#158| state) #b0)) ; \silence_is_kept_EN
-(define-fun |output_gate_n silence_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#159| state)) #b1))
-(declare-fun |output_gate#160| (|output_gate_s|) (_ BitVec 32)) ; \silence_q
-(define-fun |output_gate_n silence_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#160| state))
-(define-fun |output_gate_n silent_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#156| state)) #b1))
-(define-fun |output_gate_n silent_in_time_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#155| state)) #b1))
-(define-fun |output_gate#161| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#157| state) #b0)) ; \silent_is_off_EN
-(define-fun |output_gate_n silent_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#161| state)) #b1))
-(define-fun |output_gate_n silent_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#17| state)) #b1))
-(define-fun |output_gate_n since_limit_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#7| state))
-(define-fun |output_gate_n started_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#5| state)) #b1))
-(define-fun |output_gate_n state_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#35| state))
-(define-fun |output_gate_n stays| ((state |output_gate_s|)) Bool (|output_gate#130| state))
-(define-fun |output_gate#162| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#132| state)) #b1) #b0 #b1)) ; $procmux$892_Y
-(define-fun |output_gate#163| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#103| state) (|output_gate#162| state) #b0)) ; $procmux$894_Y
-(define-fun |output_gate#164| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#163| state) #b0)) ; \stop_is_kept_EN
-(define-fun |output_gate_n stop_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#164| state)) #b1))
-(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#162| state) #b0)) ; \stopped_is_off_EN
-(define-fun |output_gate_n stopped_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#165| state)) #b1))
-(define-fun |output_gate_n stopping_o| ((state |output_gate_s|)) Bool (|output_gate#45| state))
-(define-fun |output_gate_n supply_has_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#110| state)) #b1))
-(define-fun |output_gate_n temperature_good_i| ((state |output_gate_s|)) Bool (|output_gate#58| state))
-(declare-fun |output_gate#166| (|output_gate_s|) (_ BitVec 1)) ; \underrun_1_q
-(define-fun |output_gate_n underrun_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#166| state)) #b1))
-(define-fun |output_gate_n underrun_i| ((state |output_gate_s|)) Bool (|output_gate#61| state))
-(define-fun |output_gate#167| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#166| state)) #b1) #b1 #b0)) ; $procmux$866_Y
-(define-fun |output_gate#168| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#103| state) (|output_gate#167| state) #b0)) ; $procmux$868_Y
-(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#168| state) #b0)) ; \underrun_is_kept_EN
-(define-fun |output_gate_n underrun_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#169| state)) #b1))
-(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#167| state) #b0)) ; \underrun_is_off_EN
-(define-fun |output_gate_n underrun_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#170| state)) #b1))
-(declare-fun |output_gate#171| (|output_gate_s|) (_ BitVec 32)) ; \underruns_q
-(define-fun |output_gate_n underruns_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#171| state))
-(define-fun |output_gate_n underruns_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#171| state))
-(declare-fun |output_gate#172| (|output_gate_s|) (_ BitVec 32)) ; \unfed_q
-(define-fun |output_gate_n unfed_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#172| state))
-(declare-fun |output_gate#173| (|output_gate_s|) (_ BitVec 17)) ; \up_q
-(define-fun |output_gate_n up_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#173| state))
-(define-fun |output_gate#174| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#68| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$1288
-(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#174| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$1289
-(define-fun |output_gate#175| ((state |output_gate_s|)) Bool (bvule (|output_gate#15| state) #b01111010000100100)) ; $le$output_gate_properties.vh:119$286_Y
-(define-fun |output_gate#176| ((state |output_gate_s|)) Bool (bvule (|output_gate#11| state) #b01111010000100100)) ; $le$output_gate_properties.vh:119$287_Y
-(define-fun |output_gate#177| ((state |output_gate_s|)) Bool (and (or  (|output_gate#175| state) false) (or  (|output_gate#176| state) false))) ; $logic_and$output_gate_properties.vh:119$288_Y
-(define-fun |output_gate#178| ((state |output_gate_s|)) Bool (bvule (|output_gate#12| state) #b01111010000100100)) ; $le$output_gate_properties.vh:119$289_Y
-(define-fun |output_gate#179| ((state |output_gate_s|)) Bool (and (or  (|output_gate#177| state) false) (or  (|output_gate#178| state) false))) ; $logic_and$output_gate_properties.vh:119$290_Y
-(define-fun |output_gate#180| ((state |output_gate_s|)) Bool (bvule (|output_gate#13| state) #b01111010000100100)) ; $le$output_gate_properties.vh:119$291_Y
-(define-fun |output_gate#181| ((state |output_gate_s|)) Bool (and (or  (|output_gate#179| state) false) (or  (|output_gate#180| state) false))) ; $logic_and$output_gate_properties.vh:119$292_Y
-(define-fun |output_gate#182| ((state |output_gate_s|)) Bool (bvule (|output_gate#14| state) #b01111010000100100)) ; $le$output_gate_properties.vh:119$293_Y
-(define-fun |output_gate#183| ((state |output_gate_s|)) Bool (and (or  (|output_gate#181| state) false) (or  (|output_gate#182| state) false))) ; $logic_and$output_gate_properties.vh:119$294_Y
-(define-fun |output_gate_a 0| ((state |output_gate_s|)) Bool (or (|output_gate#183| state) (not (= ((_ extract 0 0) (|output_gate#137| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_119_285
-(define-fun |output_gate#184| ((state |output_gate_s|)) Bool (bvule (|output_gate#173| state) #b01111010000100100)) ; $le$output_gate_properties.vh:120$296_Y
-(define-fun |output_gate_a 1| ((state |output_gate_s|)) Bool (or (|output_gate#184| state) (not (= ((_ extract 0 0) (|output_gate#137| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_120_295
-(define-fun |output_gate#185| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#92| state)) #b1) (= ((_ extract 1 1) (|output_gate#92| state)) #b1) (= ((_ extract 2 2) (|output_gate#92| state)) #b1) (= ((_ extract 3 3) (|output_gate#92| state)) #b1) (= ((_ extract 4 4) (|output_gate#92| state)) #b1) (= ((_ extract 5 5) (|output_gate#92| state)) #b1) (= ((_ extract 6 6) (|output_gate#92| state)) #b1) (= ((_ extract 7 7) (|output_gate#92| state)) #b1) (= ((_ extract 8 8) (|output_gate#92| state)) #b1)))) ; $eq$output_gate_properties.vh:123$304_Y
-(define-fun |output_gate#186| ((state |output_gate_s|)) Bool (and (or  (|output_gate#185| state) false) (or  (= ((_ extract 0 0) (|output_gate#20| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:123$305_Y
-(define-fun |output_gate#187| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#53| state) #b1 #b0)) ; $procmux$734_Y
-(define-fun |output_gate#188| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#187| state))) ; $procmux$736_Y
-(define-fun |output_gate#189| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#188| state) #b0)) ; $assert$output_gate_properties.vh:123$303_EN
-(define-fun |output_gate_a 2| ((state |output_gate_s|)) Bool (or (|output_gate#186| state) (not (= ((_ extract 0 0) (|output_gate#189| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_123_303
-(define-fun |output_gate#190| ((state |output_gate_s|)) Bool (distinct (|output_gate#172| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:124$308_Y
-(define-fun |output_gate#191| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#95| state)) #b1) false) (or  (|output_gate#190| state) false))) ; $logic_and$output_gate_properties.vh:124$309_Y
-(define-fun |output_gate_a 3| ((state |output_gate_s|)) Bool (or (|output_gate#191| state) (not (= ((_ extract 0 0) (|output_gate#155| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_124_307
-(define-fun |output_gate#192| ((state |output_gate_s|)) (_ BitVec 33) (bvadd (concat #b0 (|output_gate#96| state)) #b000000000000000000000000000000001)) ; $add$output_gate_properties.vh:108$254_Y
-(define-fun |output_gate#193| ((state |output_gate_s|)) Bool (bvule (concat #b0 (|output_gate#172| state)) (|output_gate#192| state))) ; $le$output_gate_properties.vh:108$255_Y
-(define-fun |output_gate#194| ((state |output_gate_s|)) Bool (bvule (|output_gate#172| state) #b00000000000000000000000000000010)) ; $le$output_gate_properties.vh:108$256_Y
-(define-fun |output_gate#195| ((state |output_gate_s|)) Bool (or  (|output_gate#193| state) false  (|output_gate#194| state) false)) ; $logic_or$output_gate_properties.vh:108$257_Y
-(define-fun |output_gate#196| ((state |output_gate_s|)) Bool (and (or  (|output_gate#191| state) false) (or  (|output_gate#195| state) false))) ; $logic_and$output_gate_properties.vh:127$328_Y
-(define-fun |output_gate_a 4| ((state |output_gate_s|)) Bool (or (|output_gate#196| state) (not (= ((_ extract 0 0) (|output_gate#189| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_127_321
-(define-fun |output_gate#197| ((state |output_gate_s|)) Bool (= (|output_gate#11| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:130$336_Y
-(define-fun |output_gate#198| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#50| state)) #b1) false) (or  (|output_gate#197| state) false))) ; $logic_and$output_gate_properties.vh:130$337_Y
-(define-fun |output_gate#199| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#111| state)) #b1) #b1 #b0)) ; $procmux$710_Y
-(define-fun |output_gate#200| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#199| state))) ; $procmux$712_Y
-(define-fun |output_gate#201| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#200| state) #b0)) ; $assert$output_gate_properties.vh:130$335_EN
-(define-fun |output_gate_a 5| ((state |output_gate_s|)) Bool (or (|output_gate#198| state) (not (= ((_ extract 0 0) (|output_gate#201| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_130_335
-(define-fun |output_gate#202| ((state |output_gate_s|)) Bool (= (|output_gate#12| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:131$339_Y
-(define-fun |output_gate#203| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#50| state)) #b1) false) (or  (|output_gate#202| state) false))) ; $logic_and$output_gate_properties.vh:131$340_Y
-(define-fun |output_gate#204| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 1 1) (|output_gate#111| state)) #b1) #b1 #b0)) ; $procmux$702_Y
-(define-fun |output_gate#205| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#204| state))) ; $procmux$704_Y
-(define-fun |output_gate#206| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#205| state) #b0)) ; $assert$output_gate_properties.vh:131$338_EN
-(define-fun |output_gate_a 6| ((state |output_gate_s|)) Bool (or (|output_gate#203| state) (not (= ((_ extract 0 0) (|output_gate#206| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_131_338
-(define-fun |output_gate#207| ((state |output_gate_s|)) Bool (= (|output_gate#13| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:132$342_Y
-(define-fun |output_gate#208| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#50| state)) #b1) false) (or  (|output_gate#207| state) false))) ; $logic_and$output_gate_properties.vh:132$343_Y
-(define-fun |output_gate#209| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 2 2) (|output_gate#111| state)) #b1) #b1 #b0)) ; $procmux$694_Y
-(define-fun |output_gate#210| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#209| state))) ; $procmux$696_Y
-(define-fun |output_gate#211| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#210| state) #b0)) ; $assert$output_gate_properties.vh:132$341_EN
-(define-fun |output_gate_a 7| ((state |output_gate_s|)) Bool (or (|output_gate#208| state) (not (= ((_ extract 0 0) (|output_gate#211| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_132_341
-(define-fun |output_gate#212| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#11| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$352_Y
-(define-fun |output_gate#213| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#197| state) #b01111010000100100 (|output_gate#212| state))) ; $ternary$output_gate_properties.vh:14$353_Y
-(define-fun |output_gate#214| ((state |output_gate_s|)) Bool (= (|output_gate#15| state) (|output_gate#213| state))) ; $eq$output_gate_properties.vh:134$355_Y
-(define-fun |output_gate#215| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#50| state)) #b1) false) (or  (|output_gate#214| state) false))) ; $logic_and$output_gate_properties.vh:134$356_Y
-(define-fun |output_gate#216| ((state |output_gate_s|)) Bool (distinct (|output_gate#15| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:134$347_Y
-(define-fun |output_gate#217| ((state |output_gate_s|)) Bool (and (or  (|output_gate#49| state) false) (or  (|output_gate#216| state) false))) ; $logic_and$output_gate_properties.vh:134$348_Y
-(define-fun |output_gate#218| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#217| state) #b1 #b0)) ; $procmux$678_Y
-(define-fun |output_gate#219| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#218| state))) ; $procmux$680_Y
-(define-fun |output_gate#220| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#219| state) #b0)) ; $assert$output_gate_properties.vh:134$354_EN
-(define-fun |output_gate_a 8| ((state |output_gate_s|)) Bool (or (|output_gate#215| state) (not (= ((_ extract 0 0) (|output_gate#220| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_134_354
-(define-fun |output_gate#221| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#12| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$362_Y
-(define-fun |output_gate#222| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#202| state) #b01111010000100100 (|output_gate#221| state))) ; $ternary$output_gate_properties.vh:14$363_Y
-(define-fun |output_gate#223| ((state |output_gate_s|)) Bool (= (|output_gate#11| state) (|output_gate#222| state))) ; $eq$output_gate_properties.vh:135$365_Y
-(define-fun |output_gate#224| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#50| state)) #b1) false) (or  (|output_gate#223| state) false))) ; $logic_and$output_gate_properties.vh:135$366_Y
-(define-fun |output_gate#225| ((state |output_gate_s|)) Bool (distinct (|output_gate#11| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:135$357_Y
-(define-fun |output_gate#226| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#50| state)) #b1) false) (or  (|output_gate#225| state) false))) ; $logic_and$output_gate_properties.vh:135$358_Y
-(define-fun |output_gate#227| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#226| state) #b1 #b0)) ; $procmux$669_Y
-(define-fun |output_gate#228| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#227| state))) ; $procmux$671_Y
-(define-fun |output_gate#229| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#228| state) #b0)) ; $assert$output_gate_properties.vh:135$364_EN
-(define-fun |output_gate_a 9| ((state |output_gate_s|)) Bool (or (|output_gate#224| state) (not (= ((_ extract 0 0) (|output_gate#229| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_135_364
-(define-fun |output_gate#230| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#13| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$372_Y
-(define-fun |output_gate#231| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#207| state) #b01111010000100100 (|output_gate#230| state))) ; $ternary$output_gate_properties.vh:14$373_Y
-(define-fun |output_gate#232| ((state |output_gate_s|)) Bool (= (|output_gate#12| state) (|output_gate#231| state))) ; $eq$output_gate_properties.vh:136$375_Y
-(define-fun |output_gate#233| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#50| state)) #b1) false) (or  (|output_gate#232| state) false))) ; $logic_and$output_gate_properties.vh:136$376_Y
-(define-fun |output_gate#234| ((state |output_gate_s|)) Bool (distinct (|output_gate#12| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:136$367_Y
-(define-fun |output_gate#235| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#50| state)) #b1) false) (or  (|output_gate#234| state) false))) ; $logic_and$output_gate_properties.vh:136$368_Y
-(define-fun |output_gate#236| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#235| state) #b1 #b0)) ; $procmux$660_Y
-(define-fun |output_gate#237| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#236| state))) ; $procmux$662_Y
-(define-fun |output_gate#238| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#237| state) #b0)) ; $assert$output_gate_properties.vh:136$374_EN
-(define-fun |output_gate_a 10| ((state |output_gate_s|)) Bool (or (|output_gate#233| state) (not (= ((_ extract 0 0) (|output_gate#238| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_136_374
-(define-fun |output_gate#239| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#14| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$382_Y
-(define-fun |output_gate#240| ((state |output_gate_s|)) Bool (= (|output_gate#14| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:133$345_Y
-(define-fun |output_gate#241| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#240| state) #b01111010000100100 (|output_gate#239| state))) ; $ternary$output_gate_properties.vh:14$383_Y
-(define-fun |output_gate#242| ((state |output_gate_s|)) Bool (= (|output_gate#13| state) (|output_gate#241| state))) ; $eq$output_gate_properties.vh:137$385_Y
-(define-fun |output_gate#243| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false) (or  (|output_gate#242| state) false))) ; $logic_and$output_gate_properties.vh:137$386_Y
-(define-fun |output_gate#244| ((state |output_gate_s|)) Bool (distinct (|output_gate#13| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:137$377_Y
-(define-fun |output_gate#245| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#50| state)) #b1) false) (or  (|output_gate#244| state) false))) ; $logic_and$output_gate_properties.vh:137$378_Y
-(define-fun |output_gate#246| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#245| state) #b1 #b0)) ; $procmux$651_Y
-(define-fun |output_gate#247| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#246| state))) ; $procmux$653_Y
-(define-fun |output_gate#248| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#247| state) #b0)) ; $assert$output_gate_properties.vh:137$384_EN
-(define-fun |output_gate_a 11| ((state |output_gate_s|)) Bool (or (|output_gate#243| state) (not (= ((_ extract 0 0) (|output_gate#248| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_137_384
-(define-fun |output_gate#249| ((state |output_gate_s|)) Bool (bvuge (|output_gate#173| state) (|output_gate#14| state))) ; $ge$output_gate_properties.vh:138$388_Y
-(define-fun |output_gate#250| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#25| state)) #b1) #b1 #b0)) ; $procmux$642_Y
-(define-fun |output_gate#251| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (|output_gate#250| state))) ; $procmux$644_Y
-(define-fun |output_gate#252| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#5| state)) #b1) (|output_gate#251| state) #b0)) ; $assert$output_gate_properties.vh:138$387_EN
-(define-fun |output_gate_a 12| ((state |output_gate_s|)) Bool (or (|output_gate#249| state) (not (= ((_ extract 0 0) (|output_gate#252| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_138_387
-(define-fun |output_gate#253| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#92| state)) #b1) (= ((_ extract 1 1) (|output_gate#92| state)) #b1) (= ((_ extract 2 2) (|output_gate#92| state)) #b1) (= ((_ extract 3 3) (|output_gate#92| state)) #b1) (= ((_ extract 4 4) (|output_gate#92| state)) #b1) (= ((_ extract 5 5) (|output_gate#92| state)) #b1) (= ((_ extract 6 6) (|output_gate#92| state)) #b1) (= ((_ extract 7 7) (|output_gate#92| state)) #b1) (= ((_ extract 8 8) (|output_gate#92| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:106$248_Y
-(define-fun |output_gate#254| ((state |output_gate_s|)) Bool (and (or  (|output_gate#87| state) false) (or  (|output_gate#253| state) false))) ; $logic_and$output_gate_properties.vh:30$87_Y
-(define-fun |output_gate#255| ((state |output_gate_s|)) Bool (and (or  (|output_gate#254| state) false) (or  (|output_gate#54| state) false))) ; $logic_and$output_gate_properties.vh:30$88_Y
-(define-fun |output_gate#256| ((state |output_gate_s|)) Bool (and (or  (|output_gate#255| state) false) (or  (|output_gate#58| state) false))) ; $logic_and$output_gate_properties.vh:30$89_Y
-(define-fun |output_gate#257| ((state |output_gate_s|)) Bool (and (or  (|output_gate#256| state) false) (or  (|output_gate#98| state) false))) ; $logic_and$output_gate_properties.vh:30$90_Y
-(define-fun |output_gate#258| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#34| state) #b1 #b0)) ; $assume$output_gate_properties.vh:30$85_EN
-(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#257| state) (not (= ((_ extract 0 0) (|output_gate#258| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_30_85
-(define-fun |output_gate#259| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#21| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:31$92_Y
-(define-fun |output_gate#260| ((state |output_gate_s|)) Bool (or  (|output_gate#259| state) false  (|output_gate#147| state) false)) ; $logic_or$output_gate_properties.vh:31$93_Y
-(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#260| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_31_91
-(define-fun |output_gate#261| ((state |output_gate_s|)) Bool (|output_gate_is| state)) ; $auto$rtlil.cc:3293:And$1005
-(define-fun |output_gate_u 3| ((state |output_gate_s|)) Bool (or (|output_gate#147| state) (not (|output_gate#261| state)))) ; _witness_.assume_assume_output_gate_properties_vh_34_391
-(define-fun |output_gate#262| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#90| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:100$230_Y
-(define-fun |output_gate#263| ((state |output_gate_s|)) Bool (= (|output_gate#91| state) (|output_gate#262| state))) ; $eq$output_gate_properties.vh:100$231_Y
-(define-fun |output_gate#264| ((state |output_gate_s|)) Bool (= (|output_gate#93| state) (|output_gate#118| state))) ; $eq$output_gate_properties.vh:100$232_Y
-(define-fun |output_gate#265| ((state |output_gate_s|)) Bool (and (or  (|output_gate#263| state) false) (or  (|output_gate#264| state) false))) ; $logic_and$output_gate_properties.vh:100$233_Y
-(define-fun |output_gate_a 13| ((state |output_gate_s|)) Bool (or (|output_gate#265| state) (not (= ((_ extract 0 0) (|output_gate#6| state)) #b1)))) ; a_fault_is_counted
-(define-fun |output_gate#266| ((state |output_gate_s|)) Bool (distinct ((_ extract 8 4) (|output_gate#92| state)) #b00000)) ; $ne$output_gate_properties.vh:110$260_Y
-(define-fun |output_gate_a 14| ((state |output_gate_s|)) Bool (or (|output_gate#266| state) (not (= ((_ extract 0 0) (|output_gate#10| state)) #b1)))) ; a_limit_rests
-(define-fun |output_gate#267| ((state |output_gate_s|)) Bool (not (or  (|output_gate#32| state) false))) ; $logic_not$output_gate_properties.vh:79$193_Y
-(define-fun |output_gate_a 15| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#40| state)) #b1)))) ; beyond_is_off
-(define-fun |output_gate#268| ((state |output_gate_s|)) Bool (or  (|output_gate#87| state) false  (|output_gate#45| state) false)) ; $logic_or$output_gate_properties.vh:102$245_Y
-(define-fun |output_gate#269| ((state |output_gate_s|)) Bool (or  (|output_gate#268| state) false  (|output_gate#47| state) false)) ; $logic_or$output_gate_properties.vh:102$247_Y
-(define-fun |output_gate_a 16| ((state |output_gate_s|)) Bool (or (|output_gate#269| state) (not (= ((_ extract 0 0) (|output_gate#76| state)) #b1)))) ; disarm_is_obeyed
-(define-fun |output_gate_a 17| ((state |output_gate_s|)) Bool (or (|output_gate#269| state) (not (= ((_ extract 0 0) (|output_gate#79| state)) #b1)))) ; disarmed_for_good
-(define-fun |output_gate#270| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false) (or  (|output_gate#240| state) false))) ; $logic_and$output_gate_properties.vh:133$346_Y
-(define-fun |output_gate_a 18| ((state |output_gate_s|)) Bool (or (|output_gate#270| state) (not (= ((_ extract 0 0) (|output_gate#84| state)) #b1)))) ; edges_once_settled
-(define-fun |output_gate_a 19| ((state |output_gate_s|)) Bool (or (= ((_ extract 2 2) (|output_gate#92| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#105| state)) #b1)))) ; heat_is_kept
-(define-fun |output_gate_a 20| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#106| state)) #b1)))) ; hot_is_off
-(define-fun |output_gate#271| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b000000000000000000000000000 ((_ extract 8 4) (|output_gate#92| state))))) ; $not$output_gate_properties.vh:111$264_Y
-(define-fun |output_gate#272| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b000000000000000000000000000 (|output_gate#37| state)) (|output_gate#271| state))) ; $and$output_gate_properties.vh:95$222_Y
-(define-fun |output_gate#273| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#272| state)) #b1) (= ((_ extract 1 1) (|output_gate#272| state)) #b1) (= ((_ extract 2 2) (|output_gate#272| state)) #b1) (= ((_ extract 3 3) (|output_gate#272| state)) #b1) (= ((_ extract 4 4) (|output_gate#272| state)) #b1) (= ((_ extract 5 5) (|output_gate#272| state)) #b1) (= ((_ extract 6 6) (|output_gate#272| state)) #b1) (= ((_ extract 7 7) (|output_gate#272| state)) #b1) (= ((_ extract 8 8) (|output_gate#272| state)) #b1) (= ((_ extract 9 9) (|output_gate#272| state)) #b1) (= ((_ extract 10 10) (|output_gate#272| state)) #b1) (= ((_ extract 11 11) (|output_gate#272| state)) #b1) (= ((_ extract 12 12) (|output_gate#272| state)) #b1) (= ((_ extract 13 13) (|output_gate#272| state)) #b1) (= ((_ extract 14 14) (|output_gate#272| state)) #b1) (= ((_ extract 15 15) (|output_gate#272| state)) #b1) (= ((_ extract 16 16) (|output_gate#272| state)) #b1) (= ((_ extract 17 17) (|output_gate#272| state)) #b1) (= ((_ extract 18 18) (|output_gate#272| state)) #b1) (= ((_ extract 19 19) (|output_gate#272| state)) #b1) (= ((_ extract 20 20) (|output_gate#272| state)) #b1) (= ((_ extract 21 21) (|output_gate#272| state)) #b1) (= ((_ extract 22 22) (|output_gate#272| state)) #b1) (= ((_ extract 23 23) (|output_gate#272| state)) #b1) (= ((_ extract 24 24) (|output_gate#272| state)) #b1) (= ((_ extract 25 25) (|output_gate#272| state)) #b1) (= ((_ extract 26 26) (|output_gate#272| state)) #b1) (= ((_ extract 27 27) (|output_gate#272| state)) #b1) (= ((_ extract 28 28) (|output_gate#272| state)) #b1) (= ((_ extract 29 29) (|output_gate#272| state)) #b1) (= ((_ extract 30 30) (|output_gate#272| state)) #b1) (= ((_ extract 31 31) (|output_gate#272| state)) #b1)))) ; $eq$output_gate_properties.vh:95$223_Y
-(define-fun |output_gate_a 21| ((state |output_gate_s|)) Bool (or (|output_gate#273| state) (not (= ((_ extract 0 0) (|output_gate#108| state)) #b1)))) ; limits_are_kept
-(define-fun |output_gate#274| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#109| state))) ; $not$output_gate_properties.vh:87$210_Y
-(define-fun |output_gate#275| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#22| state) (|output_gate#274| state))) ; $and$output_gate_properties.vh:87$211_Y
-(define-fun |output_gate#276| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#275| state)) #b1) (= ((_ extract 1 1) (|output_gate#275| state)) #b1) (= ((_ extract 2 2) (|output_gate#275| state)) #b1) (= ((_ extract 3 3) (|output_gate#275| state)) #b1) (= ((_ extract 4 4) (|output_gate#275| state)) #b1) (= ((_ extract 5 5) (|output_gate#275| state)) #b1) (= ((_ extract 6 6) (|output_gate#275| state)) #b1) (= ((_ extract 7 7) (|output_gate#275| state)) #b1) (= ((_ extract 8 8) (|output_gate#275| state)) #b1) (= ((_ extract 9 9) (|output_gate#275| state)) #b1) (= ((_ extract 10 10) (|output_gate#275| state)) #b1) (= ((_ extract 11 11) (|output_gate#275| state)) #b1) (= ((_ extract 12 12) (|output_gate#275| state)) #b1) (= ((_ extract 13 13) (|output_gate#275| state)) #b1) (= ((_ extract 14 14) (|output_gate#275| state)) #b1) (= ((_ extract 15 15) (|output_gate#275| state)) #b1) (= ((_ extract 16 16) (|output_gate#275| state)) #b1) (= ((_ extract 17 17) (|output_gate#275| state)) #b1) (= ((_ extract 18 18) (|output_gate#275| state)) #b1) (= ((_ extract 19 19) (|output_gate#275| state)) #b1) (= ((_ extract 20 20) (|output_gate#275| state)) #b1) (= ((_ extract 21 21) (|output_gate#275| state)) #b1) (= ((_ extract 22 22) (|output_gate#275| state)) #b1) (= ((_ extract 23 23) (|output_gate#275| state)) #b1) (= ((_ extract 24 24) (|output_gate#275| state)) #b1) (= ((_ extract 25 25) (|output_gate#275| state)) #b1) (= ((_ extract 26 26) (|output_gate#275| state)) #b1) (= ((_ extract 27 27) (|output_gate#275| state)) #b1) (= ((_ extract 28 28) (|output_gate#275| state)) #b1) (= ((_ extract 29 29) (|output_gate#275| state)) #b1) (= ((_ extract 30 30) (|output_gate#275| state)) #b1) (= ((_ extract 31 31) (|output_gate#275| state)) #b1)))) ; $eq$output_gate_properties.vh:87$212_Y
-(define-fun |output_gate_a 22| ((state |output_gate_s|)) Bool (or (|output_gate#276| state) (not (= ((_ extract 0 0) (|output_gate#110| state)) #b1)))) ; mask_is_kept
-(define-fun |output_gate#277| ((state |output_gate_s|)) Bool (= (|output_gate#15| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:129$334_Y
-(define-fun |output_gate_a 23| ((state |output_gate_s|)) Bool (or (|output_gate#277| state) (not (= ((_ extract 0 0) (|output_gate#114| state)) #b1)))) ; moves_once_settled
-(define-fun |output_gate#278| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (= ((_ extract 1 1) (|output_gate#22| state)) #b1) (= ((_ extract 2 2) (|output_gate#22| state)) #b1) (= ((_ extract 3 3) (|output_gate#22| state)) #b1) (= ((_ extract 4 4) (|output_gate#22| state)) #b1) (= ((_ extract 5 5) (|output_gate#22| state)) #b1) (= ((_ extract 6 6) (|output_gate#22| state)) #b1) (= ((_ extract 7 7) (|output_gate#22| state)) #b1) (= ((_ extract 8 8) (|output_gate#22| state)) #b1) (= ((_ extract 9 9) (|output_gate#22| state)) #b1) (= ((_ extract 10 10) (|output_gate#22| state)) #b1) (= ((_ extract 11 11) (|output_gate#22| state)) #b1) (= ((_ extract 12 12) (|output_gate#22| state)) #b1) (= ((_ extract 13 13) (|output_gate#22| state)) #b1) (= ((_ extract 14 14) (|output_gate#22| state)) #b1) (= ((_ extract 15 15) (|output_gate#22| state)) #b1) (= ((_ extract 16 16) (|output_gate#22| state)) #b1) (= ((_ extract 17 17) (|output_gate#22| state)) #b1) (= ((_ extract 18 18) (|output_gate#22| state)) #b1) (= ((_ extract 19 19) (|output_gate#22| state)) #b1) (= ((_ extract 20 20) (|output_gate#22| state)) #b1) (= ((_ extract 21 21) (|output_gate#22| state)) #b1) (= ((_ extract 22 22) (|output_gate#22| state)) #b1) (= ((_ extract 23 23) (|output_gate#22| state)) #b1) (= ((_ extract 24 24) (|output_gate#22| state)) #b1) (= ((_ extract 25 25) (|output_gate#22| state)) #b1) (= ((_ extract 26 26) (|output_gate#22| state)) #b1) (= ((_ extract 27 27) (|output_gate#22| state)) #b1) (= ((_ extract 28 28) (|output_gate#22| state)) #b1) (= ((_ extract 29 29) (|output_gate#22| state)) #b1) (= ((_ extract 30 30) (|output_gate#22| state)) #b1) (= ((_ extract 31 31) (|output_gate#22| state)) #b1)))) ; $eq$output_gate_properties.vh:113$267_Y
-(define-fun |output_gate#279| ((state |output_gate_s|)) Bool (or  (|output_gate#278| state) false  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:113$268_Y
-(define-fun |output_gate_a 24| ((state |output_gate_s|)) Bool (or (|output_gate#279| state) (not (= ((_ extract 0 0) (|output_gate#110| state)) #b1)))) ; no_channel_alone
-(define-fun |output_gate#280| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:38$96_Y
-(define-fun |output_gate#281| ((state |output_gate_s|)) Bool (and (or  (|output_gate#278| state) false) (or  (|output_gate#280| state) false))) ; $logic_and$output_gate_properties.vh:38$97_Y
-(define-fun |output_gate#282| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#28| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:114$269_Y
-(define-fun |output_gate#283| ((state |output_gate_s|)) Bool (and (or  (|output_gate#281| state) false) (or  (|output_gate#282| state) false))) ; $logic_and$output_gate_properties.vh:38$99_Y
-(define-fun |output_gate#284| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#31| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:114$270_Y
-(define-fun |output_gate#285| ((state |output_gate_s|)) Bool (and (or  (|output_gate#283| state) false) (or  (|output_gate#284| state) false))) ; $logic_and$output_gate_properties.vh:38$101_Y
-(define-fun |output_gate_a 25| ((state |output_gate_s|)) Bool (or (|output_gate#285| state) (not (= ((_ extract 0 0) (|output_gate#115| state)) #b1)))) ; no_clock_is_off
-(define-fun |output_gate#286| ((state |output_gate_s|)) Bool (and (or  (|output_gate#282| state) false) (or  (|output_gate#284| state) false))) ; $logic_and$output_gate_properties.vh:114$271_Y
-(define-fun |output_gate#287| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#25| state)) #b1) false  (|output_gate#286| state) false)) ; $logic_or$output_gate_properties.vh:114$272_Y
-(define-fun |output_gate_a 26| ((state |output_gate_s|)) Bool (or (|output_gate#287| state) (not (= ((_ extract 0 0) (|output_gate#110| state)) #b1)))) ; no_sign_of_life_alone
-(define-fun |output_gate_a 27| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#117| state)) #b1)))) ; nonsense_is_off
-(define-fun |output_gate_a 28| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#20| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#121| state)) #b1)))) ; on_once_armed
-(define-fun |output_gate#288| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#95| state)) #b1) false) (or  (|output_gate#195| state) false))) ; $logic_and$output_gate_properties.vh:108$258_Y
-(define-fun |output_gate_a 29| ((state |output_gate_s|)) Bool (or (|output_gate#288| state) (not (= ((_ extract 0 0) (|output_gate#121| state)) #b1)))) ; on_while_fed
-(define-fun |output_gate_a 30| ((state |output_gate_s|)) Bool (or (|output_gate#253| state) (not (= ((_ extract 0 0) (|output_gate#121| state)) #b1)))) ; on_without_fault
-(define-fun |output_gate#289| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b00000000000000000000000 (|output_gate#92| state)))) ; $not$output_gate_properties.vh:99$227_Y
-(define-fun |output_gate#290| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b0000000000000000 (|output_gate#19| state)) (|output_gate#289| state))) ; $and$output_gate_properties.vh:99$228_Y
-(define-fun |output_gate#291| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#290| state)) #b1) (= ((_ extract 1 1) (|output_gate#290| state)) #b1) (= ((_ extract 2 2) (|output_gate#290| state)) #b1) (= ((_ extract 3 3) (|output_gate#290| state)) #b1) (= ((_ extract 4 4) (|output_gate#290| state)) #b1) (= ((_ extract 5 5) (|output_gate#290| state)) #b1) (= ((_ extract 6 6) (|output_gate#290| state)) #b1) (= ((_ extract 7 7) (|output_gate#290| state)) #b1) (= ((_ extract 8 8) (|output_gate#290| state)) #b1) (= ((_ extract 9 9) (|output_gate#290| state)) #b1) (= ((_ extract 10 10) (|output_gate#290| state)) #b1) (= ((_ extract 11 11) (|output_gate#290| state)) #b1) (= ((_ extract 12 12) (|output_gate#290| state)) #b1) (= ((_ extract 13 13) (|output_gate#290| state)) #b1) (= ((_ extract 14 14) (|output_gate#290| state)) #b1) (= ((_ extract 15 15) (|output_gate#290| state)) #b1) (= ((_ extract 16 16) (|output_gate#290| state)) #b1) (= ((_ extract 17 17) (|output_gate#290| state)) #b1) (= ((_ extract 18 18) (|output_gate#290| state)) #b1) (= ((_ extract 19 19) (|output_gate#290| state)) #b1) (= ((_ extract 20 20) (|output_gate#290| state)) #b1) (= ((_ extract 21 21) (|output_gate#290| state)) #b1) (= ((_ extract 22 22) (|output_gate#290| state)) #b1) (= ((_ extract 23 23) (|output_gate#290| state)) #b1) (= ((_ extract 24 24) (|output_gate#290| state)) #b1) (= ((_ extract 25 25) (|output_gate#290| state)) #b1) (= ((_ extract 26 26) (|output_gate#290| state)) #b1) (= ((_ extract 27 27) (|output_gate#290| state)) #b1) (= ((_ extract 28 28) (|output_gate#290| state)) #b1) (= ((_ extract 29 29) (|output_gate#290| state)) #b1) (= ((_ extract 30 30) (|output_gate#290| state)) #b1) (= ((_ extract 31 31) (|output_gate#290| state)) #b1)))) ; $eq$output_gate_properties.vh:99$229_Y
-(define-fun |output_gate_a 31| ((state |output_gate_s|)) Bool (or (|output_gate#291| state) (not (= ((_ extract 0 0) (|output_gate#124| state)) #b1)))) ; only_a_command_clears
-(define-fun |output_gate#292| ((state |output_gate_s|)) Bool (= (|output_gate#91| state) (|output_gate#90| state))) ; $eq$output_gate_properties.vh:101$235_Y
-(define-fun |output_gate#293| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b0000000000000000 (|output_gate#19| state)))) ; $not$output_gate_properties.vh:101$237_Y
-(define-fun |output_gate#294| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b00000000000000000000000 (|output_gate#92| state)) (|output_gate#293| state))) ; $and$output_gate_properties.vh:101$238_Y
-(define-fun |output_gate#295| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#294| state)) #b1) (= ((_ extract 1 1) (|output_gate#294| state)) #b1) (= ((_ extract 2 2) (|output_gate#294| state)) #b1) (= ((_ extract 3 3) (|output_gate#294| state)) #b1) (= ((_ extract 4 4) (|output_gate#294| state)) #b1) (= ((_ extract 5 5) (|output_gate#294| state)) #b1) (= ((_ extract 6 6) (|output_gate#294| state)) #b1) (= ((_ extract 7 7) (|output_gate#294| state)) #b1) (= ((_ extract 8 8) (|output_gate#294| state)) #b1) (= ((_ extract 9 9) (|output_gate#294| state)) #b1) (= ((_ extract 10 10) (|output_gate#294| state)) #b1) (= ((_ extract 11 11) (|output_gate#294| state)) #b1) (= ((_ extract 12 12) (|output_gate#294| state)) #b1) (= ((_ extract 13 13) (|output_gate#294| state)) #b1) (= ((_ extract 14 14) (|output_gate#294| state)) #b1) (= ((_ extract 15 15) (|output_gate#294| state)) #b1) (= ((_ extract 16 16) (|output_gate#294| state)) #b1) (= ((_ extract 17 17) (|output_gate#294| state)) #b1) (= ((_ extract 18 18) (|output_gate#294| state)) #b1) (= ((_ extract 19 19) (|output_gate#294| state)) #b1) (= ((_ extract 20 20) (|output_gate#294| state)) #b1) (= ((_ extract 21 21) (|output_gate#294| state)) #b1) (= ((_ extract 22 22) (|output_gate#294| state)) #b1) (= ((_ extract 23 23) (|output_gate#294| state)) #b1) (= ((_ extract 24 24) (|output_gate#294| state)) #b1) (= ((_ extract 25 25) (|output_gate#294| state)) #b1) (= ((_ extract 26 26) (|output_gate#294| state)) #b1) (= ((_ extract 27 27) (|output_gate#294| state)) #b1) (= ((_ extract 28 28) (|output_gate#294| state)) #b1) (= ((_ extract 29 29) (|output_gate#294| state)) #b1) (= ((_ extract 30 30) (|output_gate#294| state)) #b1) (= ((_ extract 31 31) (|output_gate#294| state)) #b1)))) ; $eq$output_gate_properties.vh:101$239_Y
-(define-fun |output_gate#296| ((state |output_gate_s|)) Bool (and (or  (|output_gate#292| state) false) (or  (|output_gate#295| state) false))) ; $logic_and$output_gate_properties.vh:101$240_Y
-(define-fun |output_gate_a 32| ((state |output_gate_s|)) Bool (or (|output_gate#296| state) (not (= ((_ extract 0 0) (|output_gate#127| state)) #b1)))) ; only_a_fault_counts
-(define-fun |output_gate#297| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#80| state))) ; $not$output_gate_properties.vh:88$213_Y
-(define-fun |output_gate#298| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#22| state) (|output_gate#297| state))) ; $and$output_gate_properties.vh:88$214_Y
-(define-fun |output_gate#299| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#298| state)) #b1) (= ((_ extract 1 1) (|output_gate#298| state)) #b1) (= ((_ extract 2 2) (|output_gate#298| state)) #b1) (= ((_ extract 3 3) (|output_gate#298| state)) #b1) (= ((_ extract 4 4) (|output_gate#298| state)) #b1) (= ((_ extract 5 5) (|output_gate#298| state)) #b1) (= ((_ extract 6 6) (|output_gate#298| state)) #b1) (= ((_ extract 7 7) (|output_gate#298| state)) #b1) (= ((_ extract 8 8) (|output_gate#298| state)) #b1) (= ((_ extract 9 9) (|output_gate#298| state)) #b1) (= ((_ extract 10 10) (|output_gate#298| state)) #b1) (= ((_ extract 11 11) (|output_gate#298| state)) #b1) (= ((_ extract 12 12) (|output_gate#298| state)) #b1) (= ((_ extract 13 13) (|output_gate#298| state)) #b1) (= ((_ extract 14 14) (|output_gate#298| state)) #b1) (= ((_ extract 15 15) (|output_gate#298| state)) #b1) (= ((_ extract 16 16) (|output_gate#298| state)) #b1) (= ((_ extract 17 17) (|output_gate#298| state)) #b1) (= ((_ extract 18 18) (|output_gate#298| state)) #b1) (= ((_ extract 19 19) (|output_gate#298| state)) #b1) (= ((_ extract 20 20) (|output_gate#298| state)) #b1) (= ((_ extract 21 21) (|output_gate#298| state)) #b1) (= ((_ extract 22 22) (|output_gate#298| state)) #b1) (= ((_ extract 23 23) (|output_gate#298| state)) #b1) (= ((_ extract 24 24) (|output_gate#298| state)) #b1) (= ((_ extract 25 25) (|output_gate#298| state)) #b1) (= ((_ extract 26 26) (|output_gate#298| state)) #b1) (= ((_ extract 27 27) (|output_gate#298| state)) #b1) (= ((_ extract 28 28) (|output_gate#298| state)) #b1) (= ((_ extract 29 29) (|output_gate#298| state)) #b1) (= ((_ extract 30 30) (|output_gate#298| state)) #b1) (= ((_ extract 31 31) (|output_gate#298| state)) #b1)))) ; $eq$output_gate_properties.vh:88$215_Y
-(define-fun |output_gate_a 33| ((state |output_gate_s|)) Bool (or (|output_gate#299| state) (not (= ((_ extract 0 0) (|output_gate#110| state)) #b1)))) ; only_what_is_played
-(define-fun |output_gate#300| ((state |output_gate_s|)) Bool (and (or  (|output_gate#267| state) false) (or  (|output_gate#87| state) false))) ; $logic_and$output_gate_properties.vh:79$195_Y
-(define-fun |output_gate#301| ((state |output_gate_s|)) Bool (and (or  (|output_gate#300| state) false) (or  (|output_gate#253| state) false))) ; $logic_and$output_gate_properties.vh:79$197_Y
-(define-fun |output_gate#302| ((state |output_gate_s|)) Bool (and (or  (|output_gate#301| state) false) (or  (= ((_ extract 0 0) (|output_gate#17| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:79$199_Y
-(define-fun |output_gate_a 34| ((state |output_gate_s|)) Bool (or (|output_gate#302| state) (not (= ((_ extract 0 0) (|output_gate#135| state)) #b1)))) ; reset_is_off
-(define-fun |output_gate#303| ((state |output_gate_s|)) Bool (= (|output_gate#138| state) (ite (|output_gate#8| state) #b1 #b0))) ; $eq$output_gate_properties.vh:121$298_Y
-(define-fun |output_gate#304| ((state |output_gate_s|)) Bool (bvule (|output_gate#7| state) #b00000000111011100110101100101000)) ; $le$output_gate_properties.vh:121$299_Y
-(define-fun |output_gate#305| ((state |output_gate_s|)) Bool (and (or  (|output_gate#303| state) false) (or  (|output_gate#304| state) false))) ; $logic_and$output_gate_properties.vh:121$300_Y
-(define-fun |output_gate_a 35| ((state |output_gate_s|)) Bool (or (|output_gate#305| state) (not (= ((_ extract 0 0) (|output_gate#137| state)) #b1)))) ; rest_has_its_time
-(define-fun |output_gate#306| ((state |output_gate_s|)) (_ BitVec 32) (bvsub #b00000000111011100110101100101000 (|output_gate#7| state))) ; $sub$output_gate_properties.vh:122$301_Y
-(define-fun |output_gate#307| ((state |output_gate_s|)) Bool (= (|output_gate#146| state) (|output_gate#306| state))) ; $eq$output_gate_properties.vh:122$302_Y
-(define-fun |output_gate_a 36| ((state |output_gate_s|)) Bool (or (|output_gate#307| state) (not (= ((_ extract 0 0) (|output_gate#141| state)) #b1)))) ; rest_is_counted
-(define-fun |output_gate#308| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b000000000000000000000000000 (|output_gate#94| state)) (|output_gate#271| state))) ; $and$output_gate_properties.vh:111$265_Y
-(define-fun |output_gate#309| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#308| state)) #b1) (= ((_ extract 1 1) (|output_gate#308| state)) #b1) (= ((_ extract 2 2) (|output_gate#308| state)) #b1) (= ((_ extract 3 3) (|output_gate#308| state)) #b1) (= ((_ extract 4 4) (|output_gate#308| state)) #b1) (= ((_ extract 5 5) (|output_gate#308| state)) #b1) (= ((_ extract 6 6) (|output_gate#308| state)) #b1) (= ((_ extract 7 7) (|output_gate#308| state)) #b1) (= ((_ extract 8 8) (|output_gate#308| state)) #b1) (= ((_ extract 9 9) (|output_gate#308| state)) #b1) (= ((_ extract 10 10) (|output_gate#308| state)) #b1) (= ((_ extract 11 11) (|output_gate#308| state)) #b1) (= ((_ extract 12 12) (|output_gate#308| state)) #b1) (= ((_ extract 13 13) (|output_gate#308| state)) #b1) (= ((_ extract 14 14) (|output_gate#308| state)) #b1) (= ((_ extract 15 15) (|output_gate#308| state)) #b1) (= ((_ extract 16 16) (|output_gate#308| state)) #b1) (= ((_ extract 17 17) (|output_gate#308| state)) #b1) (= ((_ extract 18 18) (|output_gate#308| state)) #b1) (= ((_ extract 19 19) (|output_gate#308| state)) #b1) (= ((_ extract 20 20) (|output_gate#308| state)) #b1) (= ((_ extract 21 21) (|output_gate#308| state)) #b1) (= ((_ extract 22 22) (|output_gate#308| state)) #b1) (= ((_ extract 23 23) (|output_gate#308| state)) #b1) (= ((_ extract 24 24) (|output_gate#308| state)) #b1) (= ((_ extract 25 25) (|output_gate#308| state)) #b1) (= ((_ extract 26 26) (|output_gate#308| state)) #b1) (= ((_ extract 27 27) (|output_gate#308| state)) #b1) (= ((_ extract 28 28) (|output_gate#308| state)) #b1) (= ((_ extract 29 29) (|output_gate#308| state)) #b1) (= ((_ extract 30 30) (|output_gate#308| state)) #b1) (= ((_ extract 31 31) (|output_gate#308| state)) #b1)))) ; $eq$output_gate_properties.vh:111$266_Y
-(define-fun |output_gate_a 37| ((state |output_gate_s|)) Bool (or (|output_gate#309| state) (not (= ((_ extract 0 0) (|output_gate#145| state)) #b1)))) ; rest_is_kept
-(define-fun |output_gate#310| ((state |output_gate_s|)) Bool (bvult (|output_gate#15| state) #b01111010000100100)) ; $lt$output_gate_properties.vh:128$330_Y
-(define-fun |output_gate#311| ((state |output_gate_s|)) (_ BitVec 17) (bvsub #b01111010000100011 (|output_gate#15| state))) ; $sub$output_gate_properties.vh:128$331_Y
-(define-fun |output_gate#312| ((state |output_gate_s|)) Bool (= (concat #b0 (|output_gate#148| state)) (|output_gate#311| state))) ; $eq$output_gate_properties.vh:128$332_Y
-(define-fun |output_gate#313| ((state |output_gate_s|)) Bool (and (or  (|output_gate#310| state) false) (or  (|output_gate#312| state) false))) ; $logic_and$output_gate_properties.vh:128$333_Y
-(define-fun |output_gate_a 38| ((state |output_gate_s|)) Bool (or (|output_gate#313| state) (not (= ((_ extract 0 0) (|output_gate#152| state)) #b1)))) ; settling_is_counted
-(define-fun |output_gate#314| ((state |output_gate_s|)) (_ BitVec 33) (bvadd (concat #b0 (|output_gate#160| state)) (concat #b0 (|output_gate#172| state)))) ; $add$output_gate_properties.vh:125$313_Y
-(define-fun |output_gate#315| ((state |output_gate_s|)) Bool (= (|output_gate#314| state) (|output_gate#192| state))) ; $eq$output_gate_properties.vh:125$315_Y
-(define-fun |output_gate#316| ((state |output_gate_s|)) Bool (= (|output_gate#160| state) (|output_gate#96| state))) ; $eq$output_gate_properties.vh:125$312_Y
-(define-fun |output_gate#317| ((state |output_gate_s|)) Bool (= (|output_gate#172| state) #b00000000000000000000000000000001)) ; $eq$output_gate_properties.vh:125$311_Y
-(define-fun |output_gate#318| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#317| state) (ite (|output_gate#316| state) #b1 #b0) (ite (|output_gate#315| state) #b1 #b0))) ; $ternary$output_gate_properties.vh:125$316_Y
-(define-fun |output_gate_a 39| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#318| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#155| state)) #b1)))) ; silence_is_counted
-(define-fun |output_gate_a 40| ((state |output_gate_s|)) Bool (or (= ((_ extract 1 1) (|output_gate#92| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#159| state)) #b1)))) ; silence_is_kept
-(define-fun |output_gate#319| ((state |output_gate_s|)) Bool (bvule (|output_gate#172| state) (|output_gate#96| state))) ; $le$output_gate_properties.vh:126$318_Y
-(define-fun |output_gate#320| ((state |output_gate_s|)) Bool (or  (|output_gate#319| state) false  (|output_gate#317| state) false)) ; $logic_or$output_gate_properties.vh:126$320_Y
-(define-fun |output_gate_a 41| ((state |output_gate_s|)) Bool (or (|output_gate#320| state) (not (= ((_ extract 0 0) (|output_gate#155| state)) #b1)))) ; silent_in_time
-(define-fun |output_gate_a 42| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#161| state)) #b1)))) ; silent_is_off
-(define-fun |output_gate_a 43| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#92| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#164| state)) #b1)))) ; stop_is_kept
-(define-fun |output_gate_a 44| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#165| state)) #b1)))) ; stopped_is_off
-(define-fun |output_gate#321| ((state |output_gate_s|)) Bool (bvuge (|output_gate#173| state) #b01111010000100100)) ; $ge$output_gate_properties.vh:115$274_Y
-(define-fun |output_gate#322| ((state |output_gate_s|)) Bool (or  (|output_gate#278| state) false  (|output_gate#321| state) false)) ; $logic_or$output_gate_properties.vh:115$275_Y
-(define-fun |output_gate_a 45| ((state |output_gate_s|)) Bool (or (|output_gate#322| state) (not (= ((_ extract 0 0) (|output_gate#110| state)) #b1)))) ; supply_has_settled
-(define-fun |output_gate_a 46| ((state |output_gate_s|)) Bool (or (= ((_ extract 3 3) (|output_gate#92| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#169| state)) #b1)))) ; underrun_is_kept
-(define-fun |output_gate_a 47| ((state |output_gate_s|)) Bool (or (|output_gate#267| state) (not (= ((_ extract 0 0) (|output_gate#170| state)) #b1)))) ; underrun_is_off
-(define-fun |output_gate#323| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#173| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$134_Y
-(define-fun |output_gate#324| ((state |output_gate_s|)) Bool (= (|output_gate#173| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:14$133_Y
-(define-fun |output_gate#325| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#324| state) #b01111010000100100 (|output_gate#323| state))) ; $0\longer$func$output_gate_properties.vh:57$2.$result[16:0]$105
-(define-fun |output_gate#326| ((state |output_gate_s|)) Bool (or  (|output_gate#147| state) false  (|output_gate#280| state) false)) ; $logic_or$output_gate_properties.vh:57$137_Y
-(define-fun |output_gate#327| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#326| state) #b00000000000000000 (|output_gate#325| state))) ; $0\up_q[16:0]
-(define-fun |output_gate#328| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#172| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:71$162_Y
-(define-fun |output_gate#329| ((state |output_gate_s|)) Bool (= (|output_gate#172| state) #b11111111111111111111111111111111)) ; $eq$output_gate_properties.vh:71$161_Y
-(define-fun |output_gate#330| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#329| state) (|output_gate#172| state) (|output_gate#328| state))) ; $ternary$output_gate_properties.vh:71$163_Y
-(define-fun |output_gate#331| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#98| state) #b00000000000000000000000000000001 (|output_gate#330| state))) ; $0\unfed_q[31:0]
-(define-fun |output_gate#332| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#171| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:113$45_Y
-(define-fun |output_gate#333| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#62| state) (|output_gate#332| state) (|output_gate#171| state))) ; $procmux$426_Y
-(define-fun |output_gate#334| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#333| state))) ; $0\underruns_q[31:0]
-(define-fun |output_gate#335| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#160| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:97$34_Y
-(define-fun |output_gate#336| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#17| state)) #b1) (|output_gate#160| state) (|output_gate#335| state))) ; $procmux$455_Y
-(define-fun |output_gate#337| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#98| state) (|output_gate#99| state) (|output_gate#336| state))) ; $procmux$458_Y
-(define-fun |output_gate#338| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#337| state))) ; $0\silence_q[31:0]
-(define-fun |output_gate#339| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#148| state) #b0000000000000001)) ; $sub$output_gate.v:126$47_Y
-(define-fun |output_gate#340| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#42| state) (|output_gate#339| state) #b1111010000100011)) ; $ternary$output_gate.v:126$48_Y
-(define-fun |output_gate#341| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) #b0000000000000000 (|output_gate#340| state))) ; $0\settle_left_q[15:0]
-(define-fun |output_gate#342| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#146| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:106$41_Y
-(define-fun |output_gate#343| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#138| state)) #b1) (|output_gate#342| state) (|output_gate#146| state))) ; $procmux$441_Y
-(define-fun |output_gate#344| ((state |output_gate_s|)) Bool (distinct (|output_gate#64| state) #b00000)) ; $ne$output_gate.v:102$40_Y
-(define-fun |output_gate#345| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#344| state) #b00000000111011100110101100101000 (|output_gate#343| state))) ; $procmux$444_Y
-(define-fun |output_gate#346| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#345| state))) ; $0\rest_left_q[31:0]
-(define-fun |output_gate#347| ((state |output_gate_s|)) Bool (distinct (|output_gate#146| state) #b00000000000000000000000000000001)) ; $ne$output_gate.v:107$42_Y
-(define-fun |output_gate#348| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#138| state)) #b1) (ite (|output_gate#347| state) #b1 #b0) #b0)) ; $procmux$434_Y
-(define-fun |output_gate#349| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#344| state) #b1 (|output_gate#348| state))) ; $procmux$437_Y
-(define-fun |output_gate#350| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#147| state) #b0 (|output_gate#349| state))) ; $0\resting_q[0:0]
-(define-fun |output_gate#351| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#111| state)) (ite (|output_gate#48| state) #b1 #b0)) (concat (ite (|output_gate#130| state) #b1 #b0) (concat (ite (|output_gate#130| state) #b1 #b0) (ite (|output_gate#130| state) #b1 #b0))))) ; $and$output_gate.v:128$50_Y
-(define-fun |output_gate#352| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#147| state) #b000 (|output_gate#351| state))) ; $0\moves_later_q[2:0]
-(define-fun |output_gate#353| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#97| state) #b0000000000000001)) ; $sub$output_gate.v:133$56_Y
-(define-fun |output_gate#354| ((state |output_gate_s|)) Bool (distinct (|output_gate#97| state) #b0000000000000000)) ; $ne$output_gate.v:133$55_Y
-(define-fun |output_gate#355| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#354| state) (|output_gate#353| state) (|output_gate#97| state))) ; $procmux$412_Y
-(define-fun |output_gate#356| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#41| state) #b0000000000000001)) ; $sub$output_gate.v:132$54_Y
-(define-fun |output_gate#357| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#86| state) (|output_gate#356| state) (|output_gate#355| state))) ; $procmux$415_Y
-(define-fun |output_gate#358| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#131| state) (|output_gate#357| state) #b0000000000000000)) ; $procmux$418_Y
-(define-fun |output_gate#359| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#147| state) #b0000000000000000 (|output_gate#358| state))) ; $0\focus_left_q[15:0]
-(define-fun |output_gate#360| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#98| state) (|output_gate#99| state) (|output_gate#96| state))) ; $0\fed_ticks_q[31:0]
-(define-fun |output_gate#361| ((state |output_gate_s|)) Bool (not (or  (|output_gate#147| state) false))) ; $logic_not$output_gate.v:165$62_Y
-(define-fun |output_gate#362| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#95| state)) #b1) false  (|output_gate#98| state) false)) ; $logic_or$output_gate_properties.vh:69$158_Y
-(define-fun |output_gate#363| ((state |output_gate_s|)) Bool (and (or  (|output_gate#361| state) false) (or  (|output_gate#362| state) false))) ; $0\fed_q[0:0]
-(define-fun |output_gate#364| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#128| state) (|output_gate#119| state) (|output_gate#93| state))) ; $procmux$422_Y
-(define-fun |output_gate#365| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#147| state) #b0000000000000000000000000000000000000000000000000000000000000000 (|output_gate#364| state))) ; $0\fault_time_q[63:0]
-(define-fun |output_gate#366| ((state |output_gate_s|)) (_ BitVec 9) (bvand (concat ((_ extract 8 4) (|output_gate#92| state)) #b0000) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (concat (|output_gate#138| state) (|output_gate#138| state))))))))))) ; $and$output_gate.v:101$37_Y
-(define-fun |output_gate#367| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#67| state) (|output_gate#366| state) (|output_gate#92| state))) ; $ternary$output_gate.v:101$38_Y
-(define-fun |output_gate#368| ((state |output_gate_s|)) (_ BitVec 9) (bvor (|output_gate#367| state) (concat (|output_gate#64| state) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#60| state) #b1 #b0) (concat (ite (|output_gate#57| state) #b1 #b0) (ite (|output_gate#56| state) #b1 #b0))))))) ; $or$output_gate.v:101$39_Y
-(define-fun |output_gate#369| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#147| state) #b000000000 (|output_gate#368| state))) ; $0\fault_q[8:0]
-(define-fun |output_gate#370| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#91| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:110$43_Y
-(define-fun |output_gate#371| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#128| state) (|output_gate#370| state) (|output_gate#91| state))) ; $procmux$430_Y
-(define-fun |output_gate#372| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#371| state))) ; $0\fault_count_q[31:0]
-(define-fun |output_gate#373| ((state |output_gate_s|)) Bool (bvule (|output_gate#35| state) #b101)) ; $0\exists_1_q[0:0]
-(define-fun |output_gate#374| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#85| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:130$52_Y
-(define-fun |output_gate#375| ((state |output_gate_s|)) Bool (and (or  (|output_gate#86| state) false) (or  (|output_gate#131| state) false))) ; $logic_and$output_gate.v:130$51_Y
-(define-fun |output_gate#376| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#375| state) (|output_gate#374| state) (|output_gate#85| state))) ; $procmux$408_Y
-(define-fun |output_gate#377| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#376| state))) ; $0\emissions_q[31:0]
-(define-fun |output_gate#378| ((state |output_gate_s|)) Bool (not (or  (|output_gate#34| state) false))) ; $logic_not$output_gate_properties.vh:68$151_Y
-(define-fun |output_gate#379| ((state |output_gate_s|)) Bool (and (or  (|output_gate#361| state) false) (or  (|output_gate#378| state) false))) ; $logic_and$output_gate_properties.vh:68$152_Y
-(define-fun |output_gate#380| ((state |output_gate_s|)) Bool (not (or  (|output_gate#87| state) false))) ; $logic_not$output_gate_properties.vh:68$153_Y
-(define-fun |output_gate#381| ((state |output_gate_s|)) Bool (and (or  (|output_gate#71| state) false) (or  (|output_gate#380| state) false))) ; $logic_and$output_gate_properties.vh:68$154_Y
-(define-fun |output_gate#382| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#77| state)) #b1) false  (|output_gate#381| state) false)) ; $logic_or$output_gate_properties.vh:68$155_Y
-(define-fun |output_gate#383| ((state |output_gate_s|)) Bool (and (or  (|output_gate#379| state) false) (or  (|output_gate#382| state) false))) ; $0\disarmed_q[0:0]
-(define-fun |output_gate#384| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#50| state)) (ite (|output_gate#49| state) #b1 #b0)) (concat (ite (|output_gate#130| state) #b1 #b0) (concat (ite (|output_gate#130| state) #b1 #b0) (ite (|output_gate#130| state) #b1 #b0))))) ; $and$output_gate.v:127$49_Y
-(define-fun |output_gate#385| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#147| state) #b000 (|output_gate#384| state))) ; $0\on_later_q[2:0]
-(define-fun |output_gate#386| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#133| state) #b000 (|output_gate#35| state))) ; $procmux$463_Y
-(define-fun |output_gate#387| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#149| state) #b100 (|output_gate#35| state))) ; $procmux$467_Y
-(define-fun |output_gate#388| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#71| state) #b011 (|output_gate#35| state))) ; $procmux$470_Y
-(define-fun |output_gate#389| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#133| state) #b010 (|output_gate#35| state))) ; $procmux$473_Y
-(define-fun |output_gate#390| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#71| state) #b100 (|output_gate#389| state))) ; $procmux$476_Y
-(define-fun |output_gate#391| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#148| state)) #b1) (= ((_ extract 1 1) (|output_gate#148| state)) #b1) (= ((_ extract 2 2) (|output_gate#148| state)) #b1) (= ((_ extract 3 3) (|output_gate#148| state)) #b1) (= ((_ extract 4 4) (|output_gate#148| state)) #b1) (= ((_ extract 5 5) (|output_gate#148| state)) #b1) (= ((_ extract 6 6) (|output_gate#148| state)) #b1) (= ((_ extract 7 7) (|output_gate#148| state)) #b1) (= ((_ extract 8 8) (|output_gate#148| state)) #b1) (= ((_ extract 9 9) (|output_gate#148| state)) #b1) (= ((_ extract 10 10) (|output_gate#148| state)) #b1) (= ((_ extract 11 11) (|output_gate#148| state)) #b1) (= ((_ extract 12 12) (|output_gate#148| state)) #b1) (= ((_ extract 13 13) (|output_gate#148| state)) #b1) (= ((_ extract 14 14) (|output_gate#148| state)) #b1) (= ((_ extract 15 15) (|output_gate#148| state)) #b1)))) ; $eq$output_gate.v:117$46_Y
-(define-fun |output_gate#392| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#391| state) #b001 (|output_gate#35| state))) ; $procmux$479_Y
-(define-fun |output_gate#393| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#71| state) #b000 (|output_gate#392| state))) ; $procmux$482_Y
-(define-fun |output_gate#394| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#34| state) #b101 (|output_gate#35| state))) ; $procmux$485_Y
-(define-fun |output_gate#395| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#87| state) (|output_gate#394| state) (ite (|output_gate#42| state) (|output_gate#393| state) (ite (|output_gate#43| state) (|output_gate#390| state) (ite (|output_gate#36| state) (|output_gate#388| state) (ite (|output_gate#45| state) (|output_gate#387| state) (ite (|output_gate#47| state) (|output_gate#386| state) #b000))))))) ; $procmux$465_Y
-(define-fun |output_gate#396| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#128| state) #b000 (|output_gate#395| state))) ; $procmux$488_Y
-(define-fun |output_gate#397| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#147| state) #b000 (|output_gate#396| state))) ; $0\state_q[2:0]
-(define-fun |output_gate#398| ((state |output_gate_s|)) Bool (and (or  (|output_gate#131| state) false) (or  (|output_gate#361| state) false))) ; $0\hv_enable_q[0:0]
-(define-fun |output_gate#399| ((state |output_gate_s|)) Bool (or  (|output_gate#86| state) false  (|output_gate#354| state) false)) ; $logic_or$output_gate.v:168$76_Y
-(define-fun |output_gate#400| ((state |output_gate_s|)) Bool (and (or  (|output_gate#398| state) false) (or  (|output_gate#399| state) false))) ; $0\focus_q[0:0]
-(define-fun |output_gate#401| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (ite (|output_gate#400| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1272
-(define-fun |output_gate#402| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#16| state)) #b1) (= ((_ extract 1 1) (|output_gate#16| state)) #b1) (= ((_ extract 2 2) (|output_gate#16| state)) #b1) (= ((_ extract 3 3) (|output_gate#16| state)) #b1) (= ((_ extract 4 4) (|output_gate#16| state)) #b1) (= ((_ extract 5 5) (|output_gate#16| state)) #b1) (= ((_ extract 6 6) (|output_gate#16| state)) #b1) (= ((_ extract 7 7) (|output_gate#16| state)) #b1) (= ((_ extract 8 8) (|output_gate#16| state)) #b1) (= ((_ extract 9 9) (|output_gate#16| state)) #b1) (= ((_ extract 10 10) (|output_gate#16| state)) #b1) (= ((_ extract 11 11) (|output_gate#16| state)) #b1) (= ((_ extract 12 12) (|output_gate#16| state)) #b1) (= ((_ extract 13 13) (|output_gate#16| state)) #b1) (= ((_ extract 14 14) (|output_gate#16| state)) #b1) (= ((_ extract 15 15) (|output_gate#16| state)) #b1) (= ((_ extract 16 16) (|output_gate#16| state)) #b1) (= ((_ extract 17 17) (|output_gate#16| state)) #b1) (= ((_ extract 18 18) (|output_gate#16| state)) #b1) (= ((_ extract 19 19) (|output_gate#16| state)) #b1) (= ((_ extract 20 20) (|output_gate#16| state)) #b1) (= ((_ extract 21 21) (|output_gate#16| state)) #b1) (= ((_ extract 22 22) (|output_gate#16| state)) #b1) (= ((_ extract 23 23) (|output_gate#16| state)) #b1) (= ((_ extract 24 24) (|output_gate#16| state)) #b1) (= ((_ extract 25 25) (|output_gate#16| state)) #b1) (= ((_ extract 26 26) (|output_gate#16| state)) #b1) (= ((_ extract 27 27) (|output_gate#16| state)) #b1) (= ((_ extract 28 28) (|output_gate#16| state)) #b1) (= ((_ extract 29 29) (|output_gate#16| state)) #b1) (= ((_ extract 30 30) (|output_gate#16| state)) #b1) (= ((_ extract 31 31) (|output_gate#16| state)) #b1)))) ; $eq$output_gate.v:135$58_Y
-(define-fun |output_gate#403| ((state |output_gate_s|)) (_ BitVec 1) (bvxor (|output_gate#28| state) (ite (|output_gate#402| state) #b1 #b0))) ; $xor$output_gate.v:167$71_Y
-(define-fun |output_gate#404| ((state |output_gate_s|)) Bool (and (or  (|output_gate#398| state) false) (or  (= ((_ extract 0 0) (|output_gate#403| state)) #b1) false))) ; $0\hv_alive_q[0:0]
-(define-fun |output_gate#405| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (ite (|output_gate#404| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1270
-(define-fun |output_gate#406| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b0 (ite (|output_gate#398| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1274
-(define-fun |output_gate#407| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#20| state)) #b1) false) (or  (|output_gate#54| state) false))) ; $logic_and$output_gate_properties.vh:67$141_Y
-(define-fun |output_gate#408| ((state |output_gate_s|)) Bool (and (or  (|output_gate#407| state) false) (or  (|output_gate#58| state) false))) ; $logic_and$output_gate_properties.vh:67$142_Y
-(define-fun |output_gate#409| ((state |output_gate_s|)) Bool (and (or  (|output_gate#408| state) false) (or  (|output_gate#18| state) false))) ; $logic_and$output_gate_properties.vh:67$143_Y
-(define-fun |output_gate#410| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#63| state)) #b1) (= ((_ extract 1 1) (|output_gate#63| state)) #b1) (= ((_ extract 2 2) (|output_gate#63| state)) #b1) (= ((_ extract 3 3) (|output_gate#63| state)) #b1) (= ((_ extract 4 4) (|output_gate#63| state)) #b1)))) ; $eq$output_gate_properties.vh:67$144_Y
-(define-fun |output_gate#411| ((state |output_gate_s|)) Bool (and (or  (|output_gate#409| state) false) (or  (|output_gate#410| state) false))) ; $logic_and$output_gate_properties.vh:67$145_Y
-(define-fun |output_gate#412| ((state |output_gate_s|)) Bool (not (or  (|output_gate#61| state) false))) ; $logic_not$output_gate_properties.vh:67$146_Y
-(define-fun |output_gate#413| ((state |output_gate_s|)) Bool (and (or  (|output_gate#411| state) false) (or  (|output_gate#412| state) false))) ; $logic_and$output_gate_properties.vh:67$147_Y
-(define-fun |output_gate#414| ((state |output_gate_s|)) Bool (or  (|output_gate#34| state) false  (|output_gate#413| state) false)) ; $logic_or$output_gate_properties.vh:67$148_Y
-(define-fun |output_gate#415| ((state |output_gate_s|)) Bool (and (or  (|output_gate#361| state) false) (or  (|output_gate#414| state) false))) ; $0\allowed_q[0:0]
-(define-fun |output_gate#416| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 1 1) (|output_gate#160| state)) #b1) (= ((_ extract 2 2) (|output_gate#160| state)) #b1) (= ((_ extract 3 3) (|output_gate#160| state)) #b1) (= ((_ extract 4 4) (|output_gate#160| state)) #b1) (= ((_ extract 5 5) (|output_gate#160| state)) #b1) (= ((_ extract 6 6) (|output_gate#160| state)) #b1) (= ((_ extract 7 7) (|output_gate#160| state)) #b1) (= ((_ extract 8 8) (|output_gate#160| state)) #b1) (= ((_ extract 9 9) (|output_gate#160| state)) #b1) (= ((_ extract 10 10) (|output_gate#160| state)) #b1) (= ((_ extract 11 11) (|output_gate#160| state)) #b1) (= ((_ extract 12 12) (|output_gate#160| state)) #b1) (= ((_ extract 13 13) (|output_gate#160| state)) #b1) (= ((_ extract 14 14) (|output_gate#160| state)) #b1) (= ((_ extract 15 15) (|output_gate#160| state)) #b1) (= ((_ extract 16 16) (|output_gate#160| state)) #b1) (= ((_ extract 17 17) (|output_gate#160| state)) #b1) (= ((_ extract 18 18) (|output_gate#160| state)) #b1) (= ((_ extract 19 19) (|output_gate#160| state)) #b1) (= ((_ extract 20 20) (|output_gate#160| state)) #b1) (= ((_ extract 21 21) (|output_gate#160| state)) #b1) (= ((_ extract 22 22) (|output_gate#160| state)) #b1) (= ((_ extract 23 23) (|output_gate#160| state)) #b1) (= ((_ extract 24 24) (|output_gate#160| state)) #b1) (= ((_ extract 25 25) (|output_gate#160| state)) #b1) (= ((_ extract 26 26) (|output_gate#160| state)) #b1) (= ((_ extract 27 27) (|output_gate#160| state)) #b1) (= ((_ extract 28 28) (|output_gate#160| state)) #b1) (= ((_ extract 29 29) (|output_gate#160| state)) #b1) (= ((_ extract 30 30) (|output_gate#160| state)) #b1) (= ((_ extract 31 31) (|output_gate#160| state)) #b1)))) ; $eq$output_gate.v:98$35_Y
-(define-fun |output_gate#417| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#17| state)) #b1) #b1 (ite (|output_gate#416| state) #b1 #b0))) ; $procmux$448_Y
-(define-fun |output_gate#418| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#98| state) #b0 (|output_gate#417| state))) ; $procmux$451_Y
-(define-fun |output_gate#419| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#147| state) #b1 (|output_gate#418| state))) ; $0\silent_q[0:0]
-(define-fun |output_gate#420| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#16| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:136$59_Y
-(define-fun |output_gate#421| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#402| state) #b00000000000000000000011111001111 (|output_gate#420| state))) ; $procmux$393_Y
-(define-fun |output_gate#422| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#131| state) (|output_gate#421| state) #b00000000000000000000000000000000)) ; $procmux$396_Y
-(define-fun |output_gate#423| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000000000000000000000000000 (|output_gate#422| state))) ; $0\alive_left_q[31:0]
-(define-fun |output_gate#424| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#15| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$109_Y
-(define-fun |output_gate#425| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#277| state) #b01111010000100100 (|output_gate#424| state))) ; $0\longer$func$output_gate_properties.vh:52$1.$result[16:0]$103
-(define-fun |output_gate#426| ((state |output_gate_s|)) Bool (not (or  (|output_gate#130| state) false))) ; $logic_not$output_gate_properties.vh:52$111_Y
-(define-fun |output_gate#427| ((state |output_gate_s|)) Bool (or  (|output_gate#147| state) false  (|output_gate#426| state) false)) ; $logic_or$output_gate_properties.vh:52$112_Y
-(define-fun |output_gate#428| ((state |output_gate_s|)) Bool (not (or  (|output_gate#49| state) false))) ; $logic_not$output_gate_properties.vh:52$113_Y
-(define-fun |output_gate#429| ((state |output_gate_s|)) Bool (or  (|output_gate#427| state) false  (|output_gate#428| state) false)) ; $logic_or$output_gate_properties.vh:52$114_Y
-(define-fun |output_gate#430| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#429| state) #b00000000000000000 (|output_gate#425| state))) ; $0\age_q[16:0]
-(define-fun |output_gate#431| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#427| state) #b00000000000000000 (|output_gate#13| state))) ; $0\age_4_q[16:0]
-(define-fun |output_gate#432| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#427| state) #b00000000000000000 (|output_gate#12| state))) ; $0\age_3_q[16:0]
-(define-fun |output_gate#433| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#427| state) #b00000000000000000 (|output_gate#11| state))) ; $0\age_2_q[16:0]
-(define-fun |output_gate#434| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#427| state) #b00000000000000000 (|output_gate#15| state))) ; $0\age_1_q[16:0]
-(define-fun |output_gate#435| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#7| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:72$168_Y
-(define-fun |output_gate#436| ((state |output_gate_s|)) Bool (= (|output_gate#7| state) #b00000000111011100110101100101000)) ; $eq$output_gate_properties.vh:72$167_Y
-(define-fun |output_gate#437| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#436| state) #b00000000111011100110101100101000 (|output_gate#435| state))) ; $ternary$output_gate_properties.vh:72$169_Y
-(define-fun |output_gate#438| ((state |output_gate_s|)) Bool (distinct (|output_gate#63| state) #b00000)) ; $ne$output_gate_properties.vh:72$165_Y
-(define-fun |output_gate#439| ((state |output_gate_s|)) Bool (and (or  (|output_gate#53| state) false) (or  (|output_gate#438| state) false))) ; $logic_and$output_gate_properties.vh:72$166_Y
-(define-fun |output_gate#440| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#439| state) #b00000000000000000000000000000000 (|output_gate#437| state))) ; $ternary$output_gate_properties.vh:72$170_Y
-(define-fun |output_gate#441| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#147| state) #b00000000111011100110101100101000 (|output_gate#440| state))) ; $0\since_limit_q[31:0]
-(define-fun |output_gate#442| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#81| state) (|output_gate#65| state))) ; $and$output_gate.v:165$64_Y
-(define-fun |output_gate#443| ((state |output_gate_s|)) Bool (and (or  (|output_gate#131| state) false) (or  (= ((_ extract 2 2) (|output_gate#111| state)) #b1) false))) ; $logic_and$output_gate.v:165$61_Y
-(define-fun |output_gate#444| ((state |output_gate_s|)) Bool (and (or  (|output_gate#443| state) false) (or  (|output_gate#361| state) false))) ; $logic_and$output_gate.v:165$63_Y
-(define-fun |output_gate#445| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#444| state) (|output_gate#442| state) #b00000000000000000000000000000000)) ; $0\channel_q[31:0]
-(define-fun |output_gate#446| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#21| state)) #b1) #b00000000000000000000000000000000 (|output_gate#445| state))) ; $auto$rtlil.cc:3381:Mux$1276
+(define-fun |output_gate_n shut_o| ((state |output_gate_s|)) Bool (|output_gate#136| state))
+(define-fun |output_gate#161| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#20| state)) #b1) #b0 #b1)) ; $procmux$753_Y
+(define-fun |output_gate#162| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#161| state))) ; $procmux$755_Y
+(define-fun |output_gate#163| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#162| state) #b0)) ; \silence_is_counted_EN
+(define-fun |output_gate_n silence_is_counted_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#163| state)) #b1))
+(declare-fun |output_gate#164| (|output_gate_s|) (_ BitVec 1)) ; \silent_1_q
+(define-fun |output_gate#165| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#164| state)) #b1) #b1 #b0)) ; $procmux$903_Y
+(define-fun |output_gate#166| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#111| state) (|output_gate#165| state) #b0)) ; $procmux$905_Y
+(define-fun |output_gate#167| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#166| state) #b0)) ; \silence_is_kept_EN
+(define-fun |output_gate_n silence_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#167| state)) #b1))
+(declare-fun |output_gate#168| (|output_gate_s|) (_ BitVec 32)) ; \silence_q
+(define-fun |output_gate_n silence_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#168| state))
+(define-fun |output_gate_n silent_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#164| state)) #b1))
+(define-fun |output_gate_n silent_in_time_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#163| state)) #b1))
+(define-fun |output_gate#169| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#165| state) #b0)) ; \silent_is_off_EN
+(define-fun |output_gate_n silent_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#169| state)) #b1))
+(define-fun |output_gate_n silent_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#20| state)) #b1))
+(define-fun |output_gate_n since_limit_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#10| state))
+(define-fun |output_gate_n started_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#8| state)) #b1))
+(define-fun |output_gate_n state_q| ((state |output_gate_s|)) (_ BitVec 3) (|output_gate#37| state))
+(define-fun |output_gate_n stays| ((state |output_gate_s|)) Bool (|output_gate#138| state))
+(define-fun |output_gate#170| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#140| state)) #b1) #b0 #b1)) ; $procmux$917_Y
+(define-fun |output_gate#171| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#111| state) (|output_gate#170| state) #b0)) ; $procmux$919_Y
+(define-fun |output_gate#172| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#171| state) #b0)) ; \stop_is_kept_EN
+(define-fun |output_gate_n stop_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#172| state)) #b1))
+(define-fun |output_gate#173| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#170| state) #b0)) ; \stopped_is_off_EN
+(define-fun |output_gate_n stopped_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#173| state)) #b1))
+(define-fun |output_gate_n stopping_o| ((state |output_gate_s|)) Bool (|output_gate#47| state))
+(define-fun |output_gate_n supply_has_settled_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#118| state)) #b1))
+(define-fun |output_gate_n temperature_good_i| ((state |output_gate_s|)) Bool (|output_gate#60| state))
+(declare-fun |output_gate#174| (|output_gate_s|) (_ BitVec 1)) ; \underrun_1_q
+(define-fun |output_gate_n underrun_1_q| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#174| state)) #b1))
+(define-fun |output_gate_n underrun_i| ((state |output_gate_s|)) Bool (|output_gate#63| state))
+(define-fun |output_gate#175| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#174| state)) #b1) #b1 #b0)) ; $procmux$891_Y
+(define-fun |output_gate#176| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#111| state) (|output_gate#175| state) #b0)) ; $procmux$893_Y
+(define-fun |output_gate#177| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#176| state) #b0)) ; \underrun_is_kept_EN
+(define-fun |output_gate_n underrun_is_kept_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#177| state)) #b1))
+(define-fun |output_gate#178| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#175| state) #b0)) ; \underrun_is_off_EN
+(define-fun |output_gate_n underrun_is_off_EN| ((state |output_gate_s|)) Bool (= ((_ extract 0 0) (|output_gate#178| state)) #b1))
+(declare-fun |output_gate#179| (|output_gate_s|) (_ BitVec 32)) ; \underruns_q
+(define-fun |output_gate_n underruns_o| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#179| state))
+(define-fun |output_gate_n underruns_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#179| state))
+(declare-fun |output_gate#180| (|output_gate_s|) (_ BitVec 32)) ; \unfed_q
+(define-fun |output_gate_n unfed_q| ((state |output_gate_s|)) (_ BitVec 32) (|output_gate#180| state))
+(declare-fun |output_gate#181| (|output_gate_s|) (_ BitVec 17)) ; \up_q
+(define-fun |output_gate_n up_q| ((state |output_gate_s|)) (_ BitVec 17) (|output_gate#181| state))
+(define-fun |output_gate#182| ((state |output_gate_s|)) (_ BitVec 1) (bvnot (ite (|output_gate#70| state) #b1 #b0))) ; $auto$rtlil.cc:3245:Not$1325
+(define-fun |output_gate_u 0| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#182| state)) #b1) (not true))) ; $auto$formalff.cc:987:execute$1326
+(define-fun |output_gate#183| ((state |output_gate_s|)) Bool (bvule (|output_gate#18| state) #b01111010000100100)) ; $le$output_gate_properties.vh:125$297_Y
+(define-fun |output_gate#184| ((state |output_gate_s|)) Bool (bvule (|output_gate#14| state) #b01111010000100100)) ; $le$output_gate_properties.vh:125$298_Y
+(define-fun |output_gate#185| ((state |output_gate_s|)) Bool (and (or  (|output_gate#183| state) false) (or  (|output_gate#184| state) false))) ; $logic_and$output_gate_properties.vh:125$299_Y
+(define-fun |output_gate#186| ((state |output_gate_s|)) Bool (bvule (|output_gate#15| state) #b01111010000100100)) ; $le$output_gate_properties.vh:125$300_Y
+(define-fun |output_gate#187| ((state |output_gate_s|)) Bool (and (or  (|output_gate#185| state) false) (or  (|output_gate#186| state) false))) ; $logic_and$output_gate_properties.vh:125$301_Y
+(define-fun |output_gate#188| ((state |output_gate_s|)) Bool (bvule (|output_gate#16| state) #b01111010000100100)) ; $le$output_gate_properties.vh:125$302_Y
+(define-fun |output_gate#189| ((state |output_gate_s|)) Bool (and (or  (|output_gate#187| state) false) (or  (|output_gate#188| state) false))) ; $logic_and$output_gate_properties.vh:125$303_Y
+(define-fun |output_gate#190| ((state |output_gate_s|)) Bool (bvule (|output_gate#17| state) #b01111010000100100)) ; $le$output_gate_properties.vh:125$304_Y
+(define-fun |output_gate#191| ((state |output_gate_s|)) Bool (and (or  (|output_gate#189| state) false) (or  (|output_gate#190| state) false))) ; $logic_and$output_gate_properties.vh:125$305_Y
+(define-fun |output_gate_a 0| ((state |output_gate_s|)) Bool (or (|output_gate#191| state) (not (= ((_ extract 0 0) (|output_gate#145| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_125_296
+(define-fun |output_gate#192| ((state |output_gate_s|)) Bool (bvule (|output_gate#181| state) #b01111010000100100)) ; $le$output_gate_properties.vh:126$307_Y
+(define-fun |output_gate_a 1| ((state |output_gate_s|)) Bool (or (|output_gate#192| state) (not (= ((_ extract 0 0) (|output_gate#145| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_126_306
+(define-fun |output_gate#193| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#100| state)) #b1) (= ((_ extract 1 1) (|output_gate#100| state)) #b1) (= ((_ extract 2 2) (|output_gate#100| state)) #b1) (= ((_ extract 3 3) (|output_gate#100| state)) #b1) (= ((_ extract 4 4) (|output_gate#100| state)) #b1) (= ((_ extract 5 5) (|output_gate#100| state)) #b1) (= ((_ extract 6 6) (|output_gate#100| state)) #b1) (= ((_ extract 7 7) (|output_gate#100| state)) #b1) (= ((_ extract 8 8) (|output_gate#100| state)) #b1)))) ; $eq$output_gate.v:111$44_Y
+(define-fun |output_gate#194| ((state |output_gate_s|)) Bool (and (or  (|output_gate#193| state) false) (or  (= ((_ extract 0 0) (|output_gate#22| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:129$316_Y
+(define-fun |output_gate#195| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#55| state) #b1 #b0)) ; $procmux$745_Y
+(define-fun |output_gate#196| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#195| state))) ; $procmux$747_Y
+(define-fun |output_gate#197| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#196| state) #b0)) ; $assert$output_gate_properties.vh:129$314_EN
+(define-fun |output_gate_a 2| ((state |output_gate_s|)) Bool (or (|output_gate#194| state) (not (= ((_ extract 0 0) (|output_gate#197| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_129_314
+(define-fun |output_gate#198| ((state |output_gate_s|)) Bool (distinct (|output_gate#180| state) #b00000000000000000000000000000000)) ; $ne$output_gate_properties.vh:130$319_Y
+(define-fun |output_gate#199| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#103| state)) #b1) false) (or  (|output_gate#198| state) false))) ; $logic_and$output_gate_properties.vh:130$320_Y
+(define-fun |output_gate_a 3| ((state |output_gate_s|)) Bool (or (|output_gate#199| state) (not (= ((_ extract 0 0) (|output_gate#163| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_130_318
+(define-fun |output_gate#200| ((state |output_gate_s|)) (_ BitVec 33) (bvadd (concat #b0 (|output_gate#104| state)) #b000000000000000000000000000000001)) ; $add$output_gate_properties.vh:114$265_Y
+(define-fun |output_gate#201| ((state |output_gate_s|)) Bool (bvule (concat #b0 (|output_gate#180| state)) (|output_gate#200| state))) ; $le$output_gate_properties.vh:114$266_Y
+(define-fun |output_gate#202| ((state |output_gate_s|)) Bool (bvule (|output_gate#180| state) #b00000000000000000000000000000010)) ; $le$output_gate_properties.vh:114$267_Y
+(define-fun |output_gate#203| ((state |output_gate_s|)) Bool (or  (|output_gate#201| state) false  (|output_gate#202| state) false)) ; $logic_or$output_gate_properties.vh:114$268_Y
+(define-fun |output_gate#204| ((state |output_gate_s|)) Bool (and (or  (|output_gate#199| state) false) (or  (|output_gate#203| state) false))) ; $logic_and$output_gate_properties.vh:133$339_Y
+(define-fun |output_gate_a 4| ((state |output_gate_s|)) Bool (or (|output_gate#204| state) (not (= ((_ extract 0 0) (|output_gate#197| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_133_332
+(define-fun |output_gate#205| ((state |output_gate_s|)) Bool (= (|output_gate#14| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:136$347_Y
+(define-fun |output_gate#206| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#52| state)) #b1) false) (or  (|output_gate#205| state) false))) ; $logic_and$output_gate_properties.vh:136$348_Y
+(define-fun |output_gate#207| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#119| state)) #b1) #b1 #b0)) ; $procmux$721_Y
+(define-fun |output_gate#208| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#207| state))) ; $procmux$723_Y
+(define-fun |output_gate#209| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#208| state) #b0)) ; $assert$output_gate_properties.vh:136$346_EN
+(define-fun |output_gate_a 5| ((state |output_gate_s|)) Bool (or (|output_gate#206| state) (not (= ((_ extract 0 0) (|output_gate#209| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_136_346
+(define-fun |output_gate#210| ((state |output_gate_s|)) Bool (= (|output_gate#15| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:137$350_Y
+(define-fun |output_gate#211| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#52| state)) #b1) false) (or  (|output_gate#210| state) false))) ; $logic_and$output_gate_properties.vh:137$351_Y
+(define-fun |output_gate#212| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 1 1) (|output_gate#119| state)) #b1) #b1 #b0)) ; $procmux$713_Y
+(define-fun |output_gate#213| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#212| state))) ; $procmux$715_Y
+(define-fun |output_gate#214| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#213| state) #b0)) ; $assert$output_gate_properties.vh:137$349_EN
+(define-fun |output_gate_a 6| ((state |output_gate_s|)) Bool (or (|output_gate#211| state) (not (= ((_ extract 0 0) (|output_gate#214| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_137_349
+(define-fun |output_gate#215| ((state |output_gate_s|)) Bool (= (|output_gate#16| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:138$353_Y
+(define-fun |output_gate#216| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#52| state)) #b1) false) (or  (|output_gate#215| state) false))) ; $logic_and$output_gate_properties.vh:138$354_Y
+(define-fun |output_gate#217| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 2 2) (|output_gate#119| state)) #b1) #b1 #b0)) ; $procmux$705_Y
+(define-fun |output_gate#218| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#217| state))) ; $procmux$707_Y
+(define-fun |output_gate#219| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#218| state) #b0)) ; $assert$output_gate_properties.vh:138$352_EN
+(define-fun |output_gate_a 7| ((state |output_gate_s|)) Bool (or (|output_gate#216| state) (not (= ((_ extract 0 0) (|output_gate#219| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_138_352
+(define-fun |output_gate#220| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#14| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$363_Y
+(define-fun |output_gate#221| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#205| state) #b01111010000100100 (|output_gate#220| state))) ; $ternary$output_gate_properties.vh:14$364_Y
+(define-fun |output_gate#222| ((state |output_gate_s|)) Bool (= (|output_gate#18| state) (|output_gate#221| state))) ; $eq$output_gate_properties.vh:140$366_Y
+(define-fun |output_gate#223| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#52| state)) #b1) false) (or  (|output_gate#222| state) false))) ; $logic_and$output_gate_properties.vh:140$367_Y
+(define-fun |output_gate#224| ((state |output_gate_s|)) Bool (distinct (|output_gate#18| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:140$358_Y
+(define-fun |output_gate#225| ((state |output_gate_s|)) Bool (and (or  (|output_gate#51| state) false) (or  (|output_gate#224| state) false))) ; $logic_and$output_gate_properties.vh:140$359_Y
+(define-fun |output_gate#226| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#225| state) #b1 #b0)) ; $procmux$689_Y
+(define-fun |output_gate#227| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#226| state))) ; $procmux$691_Y
+(define-fun |output_gate#228| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#227| state) #b0)) ; $assert$output_gate_properties.vh:140$365_EN
+(define-fun |output_gate_a 8| ((state |output_gate_s|)) Bool (or (|output_gate#223| state) (not (= ((_ extract 0 0) (|output_gate#228| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_140_365
+(define-fun |output_gate#229| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#15| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$373_Y
+(define-fun |output_gate#230| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#210| state) #b01111010000100100 (|output_gate#229| state))) ; $ternary$output_gate_properties.vh:14$374_Y
+(define-fun |output_gate#231| ((state |output_gate_s|)) Bool (= (|output_gate#14| state) (|output_gate#230| state))) ; $eq$output_gate_properties.vh:141$376_Y
+(define-fun |output_gate#232| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#52| state)) #b1) false) (or  (|output_gate#231| state) false))) ; $logic_and$output_gate_properties.vh:141$377_Y
+(define-fun |output_gate#233| ((state |output_gate_s|)) Bool (distinct (|output_gate#14| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:141$368_Y
+(define-fun |output_gate#234| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#52| state)) #b1) false) (or  (|output_gate#233| state) false))) ; $logic_and$output_gate_properties.vh:141$369_Y
+(define-fun |output_gate#235| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#234| state) #b1 #b0)) ; $procmux$680_Y
+(define-fun |output_gate#236| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#235| state))) ; $procmux$682_Y
+(define-fun |output_gate#237| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#236| state) #b0)) ; $assert$output_gate_properties.vh:141$375_EN
+(define-fun |output_gate_a 9| ((state |output_gate_s|)) Bool (or (|output_gate#232| state) (not (= ((_ extract 0 0) (|output_gate#237| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_141_375
+(define-fun |output_gate#238| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#16| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$383_Y
+(define-fun |output_gate#239| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#215| state) #b01111010000100100 (|output_gate#238| state))) ; $ternary$output_gate_properties.vh:14$384_Y
+(define-fun |output_gate#240| ((state |output_gate_s|)) Bool (= (|output_gate#15| state) (|output_gate#239| state))) ; $eq$output_gate_properties.vh:142$386_Y
+(define-fun |output_gate#241| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#52| state)) #b1) false) (or  (|output_gate#240| state) false))) ; $logic_and$output_gate_properties.vh:142$387_Y
+(define-fun |output_gate#242| ((state |output_gate_s|)) Bool (distinct (|output_gate#15| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:142$378_Y
+(define-fun |output_gate#243| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 1 1) (|output_gate#52| state)) #b1) false) (or  (|output_gate#242| state) false))) ; $logic_and$output_gate_properties.vh:142$379_Y
+(define-fun |output_gate#244| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#243| state) #b1 #b0)) ; $procmux$671_Y
+(define-fun |output_gate#245| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#244| state))) ; $procmux$673_Y
+(define-fun |output_gate#246| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#245| state) #b0)) ; $assert$output_gate_properties.vh:142$385_EN
+(define-fun |output_gate_a 10| ((state |output_gate_s|)) Bool (or (|output_gate#241| state) (not (= ((_ extract 0 0) (|output_gate#246| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_142_385
+(define-fun |output_gate#247| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#17| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$393_Y
+(define-fun |output_gate#248| ((state |output_gate_s|)) Bool (= (|output_gate#17| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:139$356_Y
+(define-fun |output_gate#249| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#248| state) #b01111010000100100 (|output_gate#247| state))) ; $ternary$output_gate_properties.vh:14$394_Y
+(define-fun |output_gate#250| ((state |output_gate_s|)) Bool (= (|output_gate#16| state) (|output_gate#249| state))) ; $eq$output_gate_properties.vh:143$396_Y
+(define-fun |output_gate#251| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false) (or  (|output_gate#250| state) false))) ; $logic_and$output_gate_properties.vh:143$397_Y
+(define-fun |output_gate#252| ((state |output_gate_s|)) Bool (distinct (|output_gate#16| state) #b00000000000000000)) ; $ne$output_gate_properties.vh:143$388_Y
+(define-fun |output_gate#253| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 2 2) (|output_gate#52| state)) #b1) false) (or  (|output_gate#252| state) false))) ; $logic_and$output_gate_properties.vh:143$389_Y
+(define-fun |output_gate#254| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#253| state) #b1 #b0)) ; $procmux$662_Y
+(define-fun |output_gate#255| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#254| state))) ; $procmux$664_Y
+(define-fun |output_gate#256| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#255| state) #b0)) ; $assert$output_gate_properties.vh:143$395_EN
+(define-fun |output_gate_a 11| ((state |output_gate_s|)) Bool (or (|output_gate#251| state) (not (= ((_ extract 0 0) (|output_gate#256| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_143_395
+(define-fun |output_gate#257| ((state |output_gate_s|)) Bool (bvuge (|output_gate#181| state) (|output_gate#17| state))) ; $ge$output_gate_properties.vh:144$399_Y
+(define-fun |output_gate#258| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#27| state)) #b1) #b1 #b0)) ; $procmux$653_Y
+(define-fun |output_gate#259| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (|output_gate#258| state))) ; $procmux$655_Y
+(define-fun |output_gate#260| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#8| state)) #b1) (|output_gate#259| state) #b0)) ; $assert$output_gate_properties.vh:144$398_EN
+(define-fun |output_gate_a 12| ((state |output_gate_s|)) Bool (or (|output_gate#257| state) (not (= ((_ extract 0 0) (|output_gate#260| state)) #b1)))) ; _witness_.assert_assert_output_gate_properties_vh_144_398
+(define-fun |output_gate#261| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#100| state)) #b1) (= ((_ extract 1 1) (|output_gate#100| state)) #b1) (= ((_ extract 2 2) (|output_gate#100| state)) #b1) (= ((_ extract 3 3) (|output_gate#100| state)) #b1) (= ((_ extract 4 4) (|output_gate#100| state)) #b1) (= ((_ extract 5 5) (|output_gate#100| state)) #b1) (= ((_ extract 6 6) (|output_gate#100| state)) #b1) (= ((_ extract 7 7) (|output_gate#100| state)) #b1) (= ((_ extract 8 8) (|output_gate#100| state)) #b1) false false false false false false false))) ; $eq$output_gate_properties.vh:112$259_Y
+(define-fun |output_gate#262| ((state |output_gate_s|)) Bool (and (or  (|output_gate#95| state) false) (or  (|output_gate#261| state) false))) ; $logic_and$output_gate_properties.vh:32$91_Y
+(define-fun |output_gate#263| ((state |output_gate_s|)) Bool (and (or  (|output_gate#262| state) false) (or  (|output_gate#56| state) false))) ; $logic_and$output_gate_properties.vh:32$92_Y
+(define-fun |output_gate#264| ((state |output_gate_s|)) Bool (and (or  (|output_gate#263| state) false) (or  (|output_gate#60| state) false))) ; $logic_and$output_gate_properties.vh:32$93_Y
+(define-fun |output_gate#265| ((state |output_gate_s|)) Bool (and (or  (|output_gate#264| state) false) (or  (|output_gate#106| state) false))) ; $logic_and$output_gate_properties.vh:32$94_Y
+(define-fun |output_gate#266| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#36| state) #b1 #b0)) ; $assume$output_gate_properties.vh:32$89_EN
+(define-fun |output_gate_u 1| ((state |output_gate_s|)) Bool (or (|output_gate#265| state) (not (= ((_ extract 0 0) (|output_gate#266| state)) #b1)))) ; _witness_.assume_assume_output_gate_properties_vh_32_89
+(define-fun |output_gate#267| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#23| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:33$96_Y
+(define-fun |output_gate#268| ((state |output_gate_s|)) Bool (or  (|output_gate#267| state) false  (|output_gate#155| state) false)) ; $logic_or$output_gate_properties.vh:33$97_Y
+(define-fun |output_gate_u 2| ((state |output_gate_s|)) Bool (or (|output_gate#268| state) (not true))) ; _witness_.assume_assume_output_gate_properties_vh_33_95
+(define-fun |output_gate#269| ((state |output_gate_s|)) Bool (|output_gate_is| state)) ; $auto$rtlil.cc:3293:And$1032
+(define-fun |output_gate_u 3| ((state |output_gate_s|)) Bool (or (|output_gate#155| state) (not (|output_gate#269| state)))) ; _witness_.assume_assume_output_gate_properties_vh_36_402
+(define-fun |output_gate#270| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#98| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:105$242_Y
+(define-fun |output_gate#271| ((state |output_gate_s|)) Bool (= (|output_gate#99| state) (|output_gate#270| state))) ; $eq$output_gate_properties.vh:105$243_Y
+(define-fun |output_gate#272| ((state |output_gate_s|)) Bool (= (|output_gate#101| state) (|output_gate#126| state))) ; $eq$output_gate_properties.vh:105$244_Y
+(define-fun |output_gate#273| ((state |output_gate_s|)) Bool (and (or  (|output_gate#271| state) false) (or  (|output_gate#272| state) false))) ; $logic_and$output_gate_properties.vh:105$245_Y
+(define-fun |output_gate_a 13| ((state |output_gate_s|)) Bool (or (|output_gate#273| state) (not (= ((_ extract 0 0) (|output_gate#9| state)) #b1)))) ; a_fault_is_counted
+(define-fun |output_gate#274| ((state |output_gate_s|)) Bool (distinct ((_ extract 8 4) (|output_gate#100| state)) #b00000)) ; $ne$output_gate_properties.vh:116$271_Y
+(define-fun |output_gate_a 14| ((state |output_gate_s|)) Bool (or (|output_gate#274| state) (not (= ((_ extract 0 0) (|output_gate#13| state)) #b1)))) ; a_limit_rests
+(define-fun |output_gate#275| ((state |output_gate_s|)) Bool (not (or  (|output_gate#34| state) false))) ; $logic_not$output_gate_properties.vh:82$199_Y
+(define-fun |output_gate_a 15| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#42| state)) #b1)))) ; beyond_is_off
+(define-fun |output_gate#276| ((state |output_gate_s|)) Bool (= (|output_gate#99| state) (|output_gate#98| state))) ; $eq$output_gate_properties.vh:106$246_Y
+(define-fun |output_gate_a 16| ((state |output_gate_s|)) Bool (or (|output_gate#276| state) (not (= ((_ extract 0 0) (|output_gate#74| state)) #b1)))) ; counted_once
+(define-fun |output_gate#277| ((state |output_gate_s|)) Bool (or  (|output_gate#95| state) false  (|output_gate#47| state) false)) ; $logic_or$output_gate_properties.vh:108$256_Y
+(define-fun |output_gate#278| ((state |output_gate_s|)) Bool (or  (|output_gate#277| state) false  (|output_gate#49| state) false)) ; $logic_or$output_gate_properties.vh:108$258_Y
+(define-fun |output_gate_a 17| ((state |output_gate_s|)) Bool (or (|output_gate#278| state) (not (= ((_ extract 0 0) (|output_gate#81| state)) #b1)))) ; disarm_is_obeyed
+(define-fun |output_gate_a 18| ((state |output_gate_s|)) Bool (or (|output_gate#278| state) (not (= ((_ extract 0 0) (|output_gate#84| state)) #b1)))) ; disarmed_for_good
+(define-fun |output_gate#279| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b000000000000000000000000000 ((_ extract 8 4) (|output_gate#100| state))))) ; $not$output_gate_properties.vh:104$237_Y
+(define-fun |output_gate#280| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b000000000000000000000000000 (|output_gate#87| state)) (|output_gate#279| state))) ; $and$output_gate_properties.vh:104$238_Y
+(define-fun |output_gate#281| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#280| state)) #b1) (= ((_ extract 1 1) (|output_gate#280| state)) #b1) (= ((_ extract 2 2) (|output_gate#280| state)) #b1) (= ((_ extract 3 3) (|output_gate#280| state)) #b1) (= ((_ extract 4 4) (|output_gate#280| state)) #b1) (= ((_ extract 5 5) (|output_gate#280| state)) #b1) (= ((_ extract 6 6) (|output_gate#280| state)) #b1) (= ((_ extract 7 7) (|output_gate#280| state)) #b1) (= ((_ extract 8 8) (|output_gate#280| state)) #b1) (= ((_ extract 9 9) (|output_gate#280| state)) #b1) (= ((_ extract 10 10) (|output_gate#280| state)) #b1) (= ((_ extract 11 11) (|output_gate#280| state)) #b1) (= ((_ extract 12 12) (|output_gate#280| state)) #b1) (= ((_ extract 13 13) (|output_gate#280| state)) #b1) (= ((_ extract 14 14) (|output_gate#280| state)) #b1) (= ((_ extract 15 15) (|output_gate#280| state)) #b1) (= ((_ extract 16 16) (|output_gate#280| state)) #b1) (= ((_ extract 17 17) (|output_gate#280| state)) #b1) (= ((_ extract 18 18) (|output_gate#280| state)) #b1) (= ((_ extract 19 19) (|output_gate#280| state)) #b1) (= ((_ extract 20 20) (|output_gate#280| state)) #b1) (= ((_ extract 21 21) (|output_gate#280| state)) #b1) (= ((_ extract 22 22) (|output_gate#280| state)) #b1) (= ((_ extract 23 23) (|output_gate#280| state)) #b1) (= ((_ extract 24 24) (|output_gate#280| state)) #b1) (= ((_ extract 25 25) (|output_gate#280| state)) #b1) (= ((_ extract 26 26) (|output_gate#280| state)) #b1) (= ((_ extract 27 27) (|output_gate#280| state)) #b1) (= ((_ extract 28 28) (|output_gate#280| state)) #b1) (= ((_ extract 29 29) (|output_gate#280| state)) #b1) (= ((_ extract 30 30) (|output_gate#280| state)) #b1) (= ((_ extract 31 31) (|output_gate#280| state)) #b1)))) ; $eq$output_gate_properties.vh:104$239_Y
+(define-fun |output_gate_a 19| ((state |output_gate_s|)) Bool (or (|output_gate#281| state) (not (= ((_ extract 0 0) (|output_gate#89| state)) #b1)))) ; edges_are_kept
+(define-fun |output_gate#282| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false) (or  (|output_gate#248| state) false))) ; $logic_and$output_gate_properties.vh:139$357_Y
+(define-fun |output_gate_a 20| ((state |output_gate_s|)) Bool (or (|output_gate#282| state) (not (= ((_ extract 0 0) (|output_gate#92| state)) #b1)))) ; edges_once_settled
+(define-fun |output_gate_a 21| ((state |output_gate_s|)) Bool (or (= ((_ extract 2 2) (|output_gate#100| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#113| state)) #b1)))) ; heat_is_kept
+(define-fun |output_gate_a 22| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#114| state)) #b1)))) ; hot_is_off
+(define-fun |output_gate#283| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b000000000000000000000000000 (|output_gate#39| state)) (|output_gate#279| state))) ; $and$output_gate_properties.vh:98$228_Y
+(define-fun |output_gate#284| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#283| state)) #b1) (= ((_ extract 1 1) (|output_gate#283| state)) #b1) (= ((_ extract 2 2) (|output_gate#283| state)) #b1) (= ((_ extract 3 3) (|output_gate#283| state)) #b1) (= ((_ extract 4 4) (|output_gate#283| state)) #b1) (= ((_ extract 5 5) (|output_gate#283| state)) #b1) (= ((_ extract 6 6) (|output_gate#283| state)) #b1) (= ((_ extract 7 7) (|output_gate#283| state)) #b1) (= ((_ extract 8 8) (|output_gate#283| state)) #b1) (= ((_ extract 9 9) (|output_gate#283| state)) #b1) (= ((_ extract 10 10) (|output_gate#283| state)) #b1) (= ((_ extract 11 11) (|output_gate#283| state)) #b1) (= ((_ extract 12 12) (|output_gate#283| state)) #b1) (= ((_ extract 13 13) (|output_gate#283| state)) #b1) (= ((_ extract 14 14) (|output_gate#283| state)) #b1) (= ((_ extract 15 15) (|output_gate#283| state)) #b1) (= ((_ extract 16 16) (|output_gate#283| state)) #b1) (= ((_ extract 17 17) (|output_gate#283| state)) #b1) (= ((_ extract 18 18) (|output_gate#283| state)) #b1) (= ((_ extract 19 19) (|output_gate#283| state)) #b1) (= ((_ extract 20 20) (|output_gate#283| state)) #b1) (= ((_ extract 21 21) (|output_gate#283| state)) #b1) (= ((_ extract 22 22) (|output_gate#283| state)) #b1) (= ((_ extract 23 23) (|output_gate#283| state)) #b1) (= ((_ extract 24 24) (|output_gate#283| state)) #b1) (= ((_ extract 25 25) (|output_gate#283| state)) #b1) (= ((_ extract 26 26) (|output_gate#283| state)) #b1) (= ((_ extract 27 27) (|output_gate#283| state)) #b1) (= ((_ extract 28 28) (|output_gate#283| state)) #b1) (= ((_ extract 29 29) (|output_gate#283| state)) #b1) (= ((_ extract 30 30) (|output_gate#283| state)) #b1) (= ((_ extract 31 31) (|output_gate#283| state)) #b1)))) ; $eq$output_gate_properties.vh:98$229_Y
+(define-fun |output_gate_a 23| ((state |output_gate_s|)) Bool (or (|output_gate#284| state) (not (= ((_ extract 0 0) (|output_gate#116| state)) #b1)))) ; limits_are_kept
+(define-fun |output_gate#285| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#117| state))) ; $not$output_gate_properties.vh:90$216_Y
+(define-fun |output_gate#286| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#24| state) (|output_gate#285| state))) ; $and$output_gate_properties.vh:90$217_Y
+(define-fun |output_gate#287| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#286| state)) #b1) (= ((_ extract 1 1) (|output_gate#286| state)) #b1) (= ((_ extract 2 2) (|output_gate#286| state)) #b1) (= ((_ extract 3 3) (|output_gate#286| state)) #b1) (= ((_ extract 4 4) (|output_gate#286| state)) #b1) (= ((_ extract 5 5) (|output_gate#286| state)) #b1) (= ((_ extract 6 6) (|output_gate#286| state)) #b1) (= ((_ extract 7 7) (|output_gate#286| state)) #b1) (= ((_ extract 8 8) (|output_gate#286| state)) #b1) (= ((_ extract 9 9) (|output_gate#286| state)) #b1) (= ((_ extract 10 10) (|output_gate#286| state)) #b1) (= ((_ extract 11 11) (|output_gate#286| state)) #b1) (= ((_ extract 12 12) (|output_gate#286| state)) #b1) (= ((_ extract 13 13) (|output_gate#286| state)) #b1) (= ((_ extract 14 14) (|output_gate#286| state)) #b1) (= ((_ extract 15 15) (|output_gate#286| state)) #b1) (= ((_ extract 16 16) (|output_gate#286| state)) #b1) (= ((_ extract 17 17) (|output_gate#286| state)) #b1) (= ((_ extract 18 18) (|output_gate#286| state)) #b1) (= ((_ extract 19 19) (|output_gate#286| state)) #b1) (= ((_ extract 20 20) (|output_gate#286| state)) #b1) (= ((_ extract 21 21) (|output_gate#286| state)) #b1) (= ((_ extract 22 22) (|output_gate#286| state)) #b1) (= ((_ extract 23 23) (|output_gate#286| state)) #b1) (= ((_ extract 24 24) (|output_gate#286| state)) #b1) (= ((_ extract 25 25) (|output_gate#286| state)) #b1) (= ((_ extract 26 26) (|output_gate#286| state)) #b1) (= ((_ extract 27 27) (|output_gate#286| state)) #b1) (= ((_ extract 28 28) (|output_gate#286| state)) #b1) (= ((_ extract 29 29) (|output_gate#286| state)) #b1) (= ((_ extract 30 30) (|output_gate#286| state)) #b1) (= ((_ extract 31 31) (|output_gate#286| state)) #b1)))) ; $eq$output_gate_properties.vh:90$218_Y
+(define-fun |output_gate_a 24| ((state |output_gate_s|)) Bool (or (|output_gate#287| state) (not (= ((_ extract 0 0) (|output_gate#118| state)) #b1)))) ; mask_is_kept
+(define-fun |output_gate#288| ((state |output_gate_s|)) Bool (= (|output_gate#18| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:135$345_Y
+(define-fun |output_gate_a 25| ((state |output_gate_s|)) Bool (or (|output_gate#288| state) (not (= ((_ extract 0 0) (|output_gate#122| state)) #b1)))) ; moves_once_settled
+(define-fun |output_gate#289| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#24| state)) #b1) (= ((_ extract 1 1) (|output_gate#24| state)) #b1) (= ((_ extract 2 2) (|output_gate#24| state)) #b1) (= ((_ extract 3 3) (|output_gate#24| state)) #b1) (= ((_ extract 4 4) (|output_gate#24| state)) #b1) (= ((_ extract 5 5) (|output_gate#24| state)) #b1) (= ((_ extract 6 6) (|output_gate#24| state)) #b1) (= ((_ extract 7 7) (|output_gate#24| state)) #b1) (= ((_ extract 8 8) (|output_gate#24| state)) #b1) (= ((_ extract 9 9) (|output_gate#24| state)) #b1) (= ((_ extract 10 10) (|output_gate#24| state)) #b1) (= ((_ extract 11 11) (|output_gate#24| state)) #b1) (= ((_ extract 12 12) (|output_gate#24| state)) #b1) (= ((_ extract 13 13) (|output_gate#24| state)) #b1) (= ((_ extract 14 14) (|output_gate#24| state)) #b1) (= ((_ extract 15 15) (|output_gate#24| state)) #b1) (= ((_ extract 16 16) (|output_gate#24| state)) #b1) (= ((_ extract 17 17) (|output_gate#24| state)) #b1) (= ((_ extract 18 18) (|output_gate#24| state)) #b1) (= ((_ extract 19 19) (|output_gate#24| state)) #b1) (= ((_ extract 20 20) (|output_gate#24| state)) #b1) (= ((_ extract 21 21) (|output_gate#24| state)) #b1) (= ((_ extract 22 22) (|output_gate#24| state)) #b1) (= ((_ extract 23 23) (|output_gate#24| state)) #b1) (= ((_ extract 24 24) (|output_gate#24| state)) #b1) (= ((_ extract 25 25) (|output_gate#24| state)) #b1) (= ((_ extract 26 26) (|output_gate#24| state)) #b1) (= ((_ extract 27 27) (|output_gate#24| state)) #b1) (= ((_ extract 28 28) (|output_gate#24| state)) #b1) (= ((_ extract 29 29) (|output_gate#24| state)) #b1) (= ((_ extract 30 30) (|output_gate#24| state)) #b1) (= ((_ extract 31 31) (|output_gate#24| state)) #b1)))) ; $eq$output_gate_properties.vh:119$278_Y
+(define-fun |output_gate#290| ((state |output_gate_s|)) Bool (or  (|output_gate#289| state) false  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false)) ; $logic_or$output_gate_properties.vh:119$279_Y
+(define-fun |output_gate_a 26| ((state |output_gate_s|)) Bool (or (|output_gate#290| state) (not (= ((_ extract 0 0) (|output_gate#118| state)) #b1)))) ; no_channel_alone
+(define-fun |output_gate#291| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:40$100_Y
+(define-fun |output_gate#292| ((state |output_gate_s|)) Bool (and (or  (|output_gate#289| state) false) (or  (|output_gate#291| state) false))) ; $logic_and$output_gate_properties.vh:40$101_Y
+(define-fun |output_gate#293| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#30| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:120$280_Y
+(define-fun |output_gate#294| ((state |output_gate_s|)) Bool (and (or  (|output_gate#292| state) false) (or  (|output_gate#293| state) false))) ; $logic_and$output_gate_properties.vh:40$103_Y
+(define-fun |output_gate#295| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#33| state)) #b1) false))) ; $logic_not$output_gate_properties.vh:120$281_Y
+(define-fun |output_gate#296| ((state |output_gate_s|)) Bool (and (or  (|output_gate#294| state) false) (or  (|output_gate#295| state) false))) ; $logic_and$output_gate_properties.vh:40$105_Y
+(define-fun |output_gate_a 27| ((state |output_gate_s|)) Bool (or (|output_gate#296| state) (not (= ((_ extract 0 0) (|output_gate#123| state)) #b1)))) ; no_clock_is_off
+(define-fun |output_gate#297| ((state |output_gate_s|)) Bool (and (or  (|output_gate#293| state) false) (or  (|output_gate#295| state) false))) ; $logic_and$output_gate_properties.vh:120$282_Y
+(define-fun |output_gate#298| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#27| state)) #b1) false  (|output_gate#297| state) false)) ; $logic_or$output_gate_properties.vh:120$283_Y
+(define-fun |output_gate_a 28| ((state |output_gate_s|)) Bool (or (|output_gate#298| state) (not (= ((_ extract 0 0) (|output_gate#118| state)) #b1)))) ; no_sign_of_life_alone
+(define-fun |output_gate_a 29| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#125| state)) #b1)))) ; nonsense_is_off
+(define-fun |output_gate_a 30| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#22| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#129| state)) #b1)))) ; on_once_armed
+(define-fun |output_gate#299| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#103| state)) #b1) false) (or  (|output_gate#203| state) false))) ; $logic_and$output_gate_properties.vh:114$269_Y
+(define-fun |output_gate_a 31| ((state |output_gate_s|)) Bool (or (|output_gate#299| state) (not (= ((_ extract 0 0) (|output_gate#129| state)) #b1)))) ; on_while_fed
+(define-fun |output_gate_a 32| ((state |output_gate_s|)) Bool (or (|output_gate#261| state) (not (= ((_ extract 0 0) (|output_gate#129| state)) #b1)))) ; on_without_fault
+(define-fun |output_gate#300| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b0000000000000000 (|output_gate#2| state)))) ; $not$output_gate_properties.vh:107$249_Y
+(define-fun |output_gate#301| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b00000000000000000000000 (|output_gate#100| state)) (|output_gate#300| state))) ; $and$output_gate_properties.vh:107$250_Y
+(define-fun |output_gate#302| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#301| state)) #b1) (= ((_ extract 1 1) (|output_gate#301| state)) #b1) (= ((_ extract 2 2) (|output_gate#301| state)) #b1) (= ((_ extract 3 3) (|output_gate#301| state)) #b1) (= ((_ extract 4 4) (|output_gate#301| state)) #b1) (= ((_ extract 5 5) (|output_gate#301| state)) #b1) (= ((_ extract 6 6) (|output_gate#301| state)) #b1) (= ((_ extract 7 7) (|output_gate#301| state)) #b1) (= ((_ extract 8 8) (|output_gate#301| state)) #b1) (= ((_ extract 9 9) (|output_gate#301| state)) #b1) (= ((_ extract 10 10) (|output_gate#301| state)) #b1) (= ((_ extract 11 11) (|output_gate#301| state)) #b1) (= ((_ extract 12 12) (|output_gate#301| state)) #b1) (= ((_ extract 13 13) (|output_gate#301| state)) #b1) (= ((_ extract 14 14) (|output_gate#301| state)) #b1) (= ((_ extract 15 15) (|output_gate#301| state)) #b1) (= ((_ extract 16 16) (|output_gate#301| state)) #b1) (= ((_ extract 17 17) (|output_gate#301| state)) #b1) (= ((_ extract 18 18) (|output_gate#301| state)) #b1) (= ((_ extract 19 19) (|output_gate#301| state)) #b1) (= ((_ extract 20 20) (|output_gate#301| state)) #b1) (= ((_ extract 21 21) (|output_gate#301| state)) #b1) (= ((_ extract 22 22) (|output_gate#301| state)) #b1) (= ((_ extract 23 23) (|output_gate#301| state)) #b1) (= ((_ extract 24 24) (|output_gate#301| state)) #b1) (= ((_ extract 25 25) (|output_gate#301| state)) #b1) (= ((_ extract 26 26) (|output_gate#301| state)) #b1) (= ((_ extract 27 27) (|output_gate#301| state)) #b1) (= ((_ extract 28 28) (|output_gate#301| state)) #b1) (= ((_ extract 29 29) (|output_gate#301| state)) #b1) (= ((_ extract 30 30) (|output_gate#301| state)) #b1) (= ((_ extract 31 31) (|output_gate#301| state)) #b1)))) ; $eq$output_gate_properties.vh:107$251_Y
+(define-fun |output_gate_a 33| ((state |output_gate_s|)) Bool (or (|output_gate#302| state) (not (= ((_ extract 0 0) (|output_gate#132| state)) #b1)))) ; only_a_cause_is_kept
+(define-fun |output_gate#303| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (concat #b00000000000000000000000 (|output_gate#100| state)))) ; $not$output_gate_properties.vh:102$233_Y
+(define-fun |output_gate#304| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b0000000000000000 (|output_gate#2| state)) (|output_gate#303| state))) ; $and$output_gate_properties.vh:102$234_Y
+(define-fun |output_gate#305| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#304| state)) #b1) (= ((_ extract 1 1) (|output_gate#304| state)) #b1) (= ((_ extract 2 2) (|output_gate#304| state)) #b1) (= ((_ extract 3 3) (|output_gate#304| state)) #b1) (= ((_ extract 4 4) (|output_gate#304| state)) #b1) (= ((_ extract 5 5) (|output_gate#304| state)) #b1) (= ((_ extract 6 6) (|output_gate#304| state)) #b1) (= ((_ extract 7 7) (|output_gate#304| state)) #b1) (= ((_ extract 8 8) (|output_gate#304| state)) #b1) (= ((_ extract 9 9) (|output_gate#304| state)) #b1) (= ((_ extract 10 10) (|output_gate#304| state)) #b1) (= ((_ extract 11 11) (|output_gate#304| state)) #b1) (= ((_ extract 12 12) (|output_gate#304| state)) #b1) (= ((_ extract 13 13) (|output_gate#304| state)) #b1) (= ((_ extract 14 14) (|output_gate#304| state)) #b1) (= ((_ extract 15 15) (|output_gate#304| state)) #b1) (= ((_ extract 16 16) (|output_gate#304| state)) #b1) (= ((_ extract 17 17) (|output_gate#304| state)) #b1) (= ((_ extract 18 18) (|output_gate#304| state)) #b1) (= ((_ extract 19 19) (|output_gate#304| state)) #b1) (= ((_ extract 20 20) (|output_gate#304| state)) #b1) (= ((_ extract 21 21) (|output_gate#304| state)) #b1) (= ((_ extract 22 22) (|output_gate#304| state)) #b1) (= ((_ extract 23 23) (|output_gate#304| state)) #b1) (= ((_ extract 24 24) (|output_gate#304| state)) #b1) (= ((_ extract 25 25) (|output_gate#304| state)) #b1) (= ((_ extract 26 26) (|output_gate#304| state)) #b1) (= ((_ extract 27 27) (|output_gate#304| state)) #b1) (= ((_ extract 28 28) (|output_gate#304| state)) #b1) (= ((_ extract 29 29) (|output_gate#304| state)) #b1) (= ((_ extract 30 30) (|output_gate#304| state)) #b1) (= ((_ extract 31 31) (|output_gate#304| state)) #b1)))) ; $eq$output_gate_properties.vh:102$235_Y
+(define-fun |output_gate_a 34| ((state |output_gate_s|)) Bool (or (|output_gate#305| state) (not (= ((_ extract 0 0) (|output_gate#135| state)) #b1)))) ; only_a_command_clears
+(define-fun |output_gate#306| ((state |output_gate_s|)) (_ BitVec 32) (bvnot (|output_gate#85| state))) ; $not$output_gate_properties.vh:91$219_Y
+(define-fun |output_gate#307| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#24| state) (|output_gate#306| state))) ; $and$output_gate_properties.vh:91$220_Y
+(define-fun |output_gate#308| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#307| state)) #b1) (= ((_ extract 1 1) (|output_gate#307| state)) #b1) (= ((_ extract 2 2) (|output_gate#307| state)) #b1) (= ((_ extract 3 3) (|output_gate#307| state)) #b1) (= ((_ extract 4 4) (|output_gate#307| state)) #b1) (= ((_ extract 5 5) (|output_gate#307| state)) #b1) (= ((_ extract 6 6) (|output_gate#307| state)) #b1) (= ((_ extract 7 7) (|output_gate#307| state)) #b1) (= ((_ extract 8 8) (|output_gate#307| state)) #b1) (= ((_ extract 9 9) (|output_gate#307| state)) #b1) (= ((_ extract 10 10) (|output_gate#307| state)) #b1) (= ((_ extract 11 11) (|output_gate#307| state)) #b1) (= ((_ extract 12 12) (|output_gate#307| state)) #b1) (= ((_ extract 13 13) (|output_gate#307| state)) #b1) (= ((_ extract 14 14) (|output_gate#307| state)) #b1) (= ((_ extract 15 15) (|output_gate#307| state)) #b1) (= ((_ extract 16 16) (|output_gate#307| state)) #b1) (= ((_ extract 17 17) (|output_gate#307| state)) #b1) (= ((_ extract 18 18) (|output_gate#307| state)) #b1) (= ((_ extract 19 19) (|output_gate#307| state)) #b1) (= ((_ extract 20 20) (|output_gate#307| state)) #b1) (= ((_ extract 21 21) (|output_gate#307| state)) #b1) (= ((_ extract 22 22) (|output_gate#307| state)) #b1) (= ((_ extract 23 23) (|output_gate#307| state)) #b1) (= ((_ extract 24 24) (|output_gate#307| state)) #b1) (= ((_ extract 25 25) (|output_gate#307| state)) #b1) (= ((_ extract 26 26) (|output_gate#307| state)) #b1) (= ((_ extract 27 27) (|output_gate#307| state)) #b1) (= ((_ extract 28 28) (|output_gate#307| state)) #b1) (= ((_ extract 29 29) (|output_gate#307| state)) #b1) (= ((_ extract 30 30) (|output_gate#307| state)) #b1) (= ((_ extract 31 31) (|output_gate#307| state)) #b1)))) ; $eq$output_gate_properties.vh:91$221_Y
+(define-fun |output_gate_a 35| ((state |output_gate_s|)) Bool (or (|output_gate#308| state) (not (= ((_ extract 0 0) (|output_gate#118| state)) #b1)))) ; only_what_is_played
+(define-fun |output_gate#309| ((state |output_gate_s|)) Bool (and (or  (|output_gate#275| state) false) (or  (|output_gate#95| state) false))) ; $logic_and$output_gate_properties.vh:82$201_Y
+(define-fun |output_gate#310| ((state |output_gate_s|)) Bool (and (or  (|output_gate#309| state) false) (or  (|output_gate#261| state) false))) ; $logic_and$output_gate_properties.vh:82$203_Y
+(define-fun |output_gate#311| ((state |output_gate_s|)) Bool (and (or  (|output_gate#310| state) false) (or  (= ((_ extract 0 0) (|output_gate#20| state)) #b1) false))) ; $logic_and$output_gate_properties.vh:82$205_Y
+(define-fun |output_gate_a 36| ((state |output_gate_s|)) Bool (or (|output_gate#311| state) (not (= ((_ extract 0 0) (|output_gate#143| state)) #b1)))) ; reset_is_off
+(define-fun |output_gate#312| ((state |output_gate_s|)) Bool (= (|output_gate#146| state) (ite (|output_gate#11| state) #b1 #b0))) ; $eq$output_gate_properties.vh:127$309_Y
+(define-fun |output_gate#313| ((state |output_gate_s|)) Bool (bvule (|output_gate#10| state) #b00000000111011100110101100101000)) ; $le$output_gate_properties.vh:127$310_Y
+(define-fun |output_gate#314| ((state |output_gate_s|)) Bool (and (or  (|output_gate#312| state) false) (or  (|output_gate#313| state) false))) ; $logic_and$output_gate_properties.vh:127$311_Y
+(define-fun |output_gate_a 37| ((state |output_gate_s|)) Bool (or (|output_gate#314| state) (not (= ((_ extract 0 0) (|output_gate#145| state)) #b1)))) ; rest_has_its_time
+(define-fun |output_gate#315| ((state |output_gate_s|)) (_ BitVec 32) (bvsub #b00000000111011100110101100101000 (|output_gate#10| state))) ; $sub$output_gate_properties.vh:128$312_Y
+(define-fun |output_gate#316| ((state |output_gate_s|)) Bool (= (|output_gate#154| state) (|output_gate#315| state))) ; $eq$output_gate_properties.vh:128$313_Y
+(define-fun |output_gate_a 38| ((state |output_gate_s|)) Bool (or (|output_gate#316| state) (not (= ((_ extract 0 0) (|output_gate#149| state)) #b1)))) ; rest_is_counted
+(define-fun |output_gate#317| ((state |output_gate_s|)) (_ BitVec 32) (bvand (concat #b000000000000000000000000000 (|output_gate#102| state)) (|output_gate#279| state))) ; $and$output_gate_properties.vh:117$276_Y
+(define-fun |output_gate#318| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#317| state)) #b1) (= ((_ extract 1 1) (|output_gate#317| state)) #b1) (= ((_ extract 2 2) (|output_gate#317| state)) #b1) (= ((_ extract 3 3) (|output_gate#317| state)) #b1) (= ((_ extract 4 4) (|output_gate#317| state)) #b1) (= ((_ extract 5 5) (|output_gate#317| state)) #b1) (= ((_ extract 6 6) (|output_gate#317| state)) #b1) (= ((_ extract 7 7) (|output_gate#317| state)) #b1) (= ((_ extract 8 8) (|output_gate#317| state)) #b1) (= ((_ extract 9 9) (|output_gate#317| state)) #b1) (= ((_ extract 10 10) (|output_gate#317| state)) #b1) (= ((_ extract 11 11) (|output_gate#317| state)) #b1) (= ((_ extract 12 12) (|output_gate#317| state)) #b1) (= ((_ extract 13 13) (|output_gate#317| state)) #b1) (= ((_ extract 14 14) (|output_gate#317| state)) #b1) (= ((_ extract 15 15) (|output_gate#317| state)) #b1) (= ((_ extract 16 16) (|output_gate#317| state)) #b1) (= ((_ extract 17 17) (|output_gate#317| state)) #b1) (= ((_ extract 18 18) (|output_gate#317| state)) #b1) (= ((_ extract 19 19) (|output_gate#317| state)) #b1) (= ((_ extract 20 20) (|output_gate#317| state)) #b1) (= ((_ extract 21 21) (|output_gate#317| state)) #b1) (= ((_ extract 22 22) (|output_gate#317| state)) #b1) (= ((_ extract 23 23) (|output_gate#317| state)) #b1) (= ((_ extract 24 24) (|output_gate#317| state)) #b1) (= ((_ extract 25 25) (|output_gate#317| state)) #b1) (= ((_ extract 26 26) (|output_gate#317| state)) #b1) (= ((_ extract 27 27) (|output_gate#317| state)) #b1) (= ((_ extract 28 28) (|output_gate#317| state)) #b1) (= ((_ extract 29 29) (|output_gate#317| state)) #b1) (= ((_ extract 30 30) (|output_gate#317| state)) #b1) (= ((_ extract 31 31) (|output_gate#317| state)) #b1)))) ; $eq$output_gate_properties.vh:117$277_Y
+(define-fun |output_gate_a 39| ((state |output_gate_s|)) Bool (or (|output_gate#318| state) (not (= ((_ extract 0 0) (|output_gate#153| state)) #b1)))) ; rest_is_kept
+(define-fun |output_gate#319| ((state |output_gate_s|)) Bool (bvult (|output_gate#18| state) #b01111010000100100)) ; $lt$output_gate_properties.vh:134$341_Y
+(define-fun |output_gate#320| ((state |output_gate_s|)) (_ BitVec 17) (bvsub #b01111010000100011 (|output_gate#18| state))) ; $sub$output_gate_properties.vh:134$342_Y
+(define-fun |output_gate#321| ((state |output_gate_s|)) Bool (= (concat #b0 (|output_gate#156| state)) (|output_gate#320| state))) ; $eq$output_gate_properties.vh:134$343_Y
+(define-fun |output_gate#322| ((state |output_gate_s|)) Bool (and (or  (|output_gate#319| state) false) (or  (|output_gate#321| state) false))) ; $logic_and$output_gate_properties.vh:134$344_Y
+(define-fun |output_gate_a 40| ((state |output_gate_s|)) Bool (or (|output_gate#322| state) (not (= ((_ extract 0 0) (|output_gate#160| state)) #b1)))) ; settling_is_counted
+(define-fun |output_gate#323| ((state |output_gate_s|)) (_ BitVec 33) (bvadd (concat #b0 (|output_gate#168| state)) (concat #b0 (|output_gate#180| state)))) ; $add$output_gate_properties.vh:131$324_Y
+(define-fun |output_gate#324| ((state |output_gate_s|)) Bool (= (|output_gate#323| state) (|output_gate#200| state))) ; $eq$output_gate_properties.vh:131$326_Y
+(define-fun |output_gate#325| ((state |output_gate_s|)) Bool (= (|output_gate#168| state) (|output_gate#104| state))) ; $eq$output_gate_properties.vh:131$323_Y
+(define-fun |output_gate#326| ((state |output_gate_s|)) Bool (= (|output_gate#180| state) #b00000000000000000000000000000001)) ; $eq$output_gate_properties.vh:131$322_Y
+(define-fun |output_gate#327| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#326| state) (ite (|output_gate#325| state) #b1 #b0) (ite (|output_gate#324| state) #b1 #b0))) ; $ternary$output_gate_properties.vh:131$327_Y
+(define-fun |output_gate_a 41| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#327| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#163| state)) #b1)))) ; silence_is_counted
+(define-fun |output_gate_a 42| ((state |output_gate_s|)) Bool (or (= ((_ extract 1 1) (|output_gate#100| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#167| state)) #b1)))) ; silence_is_kept
+(define-fun |output_gate#328| ((state |output_gate_s|)) Bool (bvule (|output_gate#180| state) (|output_gate#104| state))) ; $le$output_gate_properties.vh:132$329_Y
+(define-fun |output_gate#329| ((state |output_gate_s|)) Bool (or  (|output_gate#328| state) false  (|output_gate#326| state) false)) ; $logic_or$output_gate_properties.vh:132$331_Y
+(define-fun |output_gate_a 43| ((state |output_gate_s|)) Bool (or (|output_gate#329| state) (not (= ((_ extract 0 0) (|output_gate#163| state)) #b1)))) ; silent_in_time
+(define-fun |output_gate_a 44| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#169| state)) #b1)))) ; silent_is_off
+(define-fun |output_gate_a 45| ((state |output_gate_s|)) Bool (or (= ((_ extract 0 0) (|output_gate#100| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#172| state)) #b1)))) ; stop_is_kept
+(define-fun |output_gate_a 46| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#173| state)) #b1)))) ; stopped_is_off
+(define-fun |output_gate#330| ((state |output_gate_s|)) Bool (bvuge (|output_gate#181| state) #b01111010000100100)) ; $ge$output_gate_properties.vh:121$285_Y
+(define-fun |output_gate#331| ((state |output_gate_s|)) Bool (or  (|output_gate#289| state) false  (|output_gate#330| state) false)) ; $logic_or$output_gate_properties.vh:121$286_Y
+(define-fun |output_gate_a 47| ((state |output_gate_s|)) Bool (or (|output_gate#331| state) (not (= ((_ extract 0 0) (|output_gate#118| state)) #b1)))) ; supply_has_settled
+(define-fun |output_gate_a 48| ((state |output_gate_s|)) Bool (or (= ((_ extract 3 3) (|output_gate#100| state)) #b1) (not (= ((_ extract 0 0) (|output_gate#177| state)) #b1)))) ; underrun_is_kept
+(define-fun |output_gate_a 49| ((state |output_gate_s|)) Bool (or (|output_gate#275| state) (not (= ((_ extract 0 0) (|output_gate#178| state)) #b1)))) ; underrun_is_off
+(define-fun |output_gate#332| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#181| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$138_Y
+(define-fun |output_gate#333| ((state |output_gate_s|)) Bool (= (|output_gate#181| state) #b01111010000100100)) ; $eq$output_gate_properties.vh:14$137_Y
+(define-fun |output_gate#334| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#333| state) #b01111010000100100 (|output_gate#332| state))) ; $0\longer$func$output_gate_properties.vh:60$2.$result[16:0]$109
+(define-fun |output_gate#335| ((state |output_gate_s|)) Bool (or  (|output_gate#155| state) false  (|output_gate#291| state) false)) ; $logic_or$output_gate_properties.vh:60$141_Y
+(define-fun |output_gate#336| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#335| state) #b00000000000000000 (|output_gate#334| state))) ; $0\up_q[16:0]
+(define-fun |output_gate#337| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#180| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:74$166_Y
+(define-fun |output_gate#338| ((state |output_gate_s|)) Bool (= (|output_gate#180| state) #b11111111111111111111111111111111)) ; $eq$output_gate_properties.vh:74$165_Y
+(define-fun |output_gate#339| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#338| state) (|output_gate#180| state) (|output_gate#337| state))) ; $ternary$output_gate_properties.vh:74$167_Y
+(define-fun |output_gate#340| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#106| state) #b00000000000000000000000000000001 (|output_gate#339| state))) ; $0\unfed_q[31:0]
+(define-fun |output_gate#341| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#179| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:115$48_Y
+(define-fun |output_gate#342| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#64| state) (|output_gate#341| state) (|output_gate#179| state))) ; $procmux$437_Y
+(define-fun |output_gate#343| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#342| state))) ; $0\underruns_q[31:0]
+(define-fun |output_gate#344| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#168| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:99$35_Y
+(define-fun |output_gate#345| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#20| state)) #b1) (|output_gate#168| state) (|output_gate#344| state))) ; $procmux$466_Y
+(define-fun |output_gate#346| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#106| state) (|output_gate#107| state) (|output_gate#345| state))) ; $procmux$469_Y
+(define-fun |output_gate#347| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#346| state))) ; $0\silence_q[31:0]
+(define-fun |output_gate#348| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#156| state) #b0000000000000001)) ; $sub$output_gate.v:128$50_Y
+(define-fun |output_gate#349| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#44| state) (|output_gate#348| state) #b1111010000100011)) ; $ternary$output_gate.v:128$51_Y
+(define-fun |output_gate#350| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#155| state) #b0000000000000000 (|output_gate#349| state))) ; $0\settle_left_q[15:0]
+(define-fun |output_gate#351| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#154| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:108$42_Y
+(define-fun |output_gate#352| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#146| state)) #b1) (|output_gate#351| state) (|output_gate#154| state))) ; $procmux$452_Y
+(define-fun |output_gate#353| ((state |output_gate_s|)) Bool (distinct (|output_gate#66| state) #b00000)) ; $ne$output_gate.v:104$41_Y
+(define-fun |output_gate#354| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#353| state) #b00000000111011100110101100101000 (|output_gate#352| state))) ; $procmux$455_Y
+(define-fun |output_gate#355| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#354| state))) ; $0\rest_left_q[31:0]
+(define-fun |output_gate#356| ((state |output_gate_s|)) Bool (distinct (|output_gate#154| state) #b00000000000000000000000000000001)) ; $ne$output_gate.v:109$43_Y
+(define-fun |output_gate#357| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#146| state)) #b1) (ite (|output_gate#356| state) #b1 #b0) #b0)) ; $procmux$445_Y
+(define-fun |output_gate#358| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#353| state) #b1 (|output_gate#357| state))) ; $procmux$448_Y
+(define-fun |output_gate#359| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#155| state) #b0 (|output_gate#358| state))) ; $0\resting_q[0:0]
+(define-fun |output_gate#360| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#119| state)) (ite (|output_gate#50| state) #b1 #b0)) (concat (ite (|output_gate#138| state) #b1 #b0) (concat (ite (|output_gate#138| state) #b1 #b0) (ite (|output_gate#138| state) #b1 #b0))))) ; $and$output_gate.v:130$53_Y
+(define-fun |output_gate#361| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#155| state) #b000 (|output_gate#360| state))) ; $0\moves_later_q[2:0]
+(define-fun |output_gate#362| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#105| state) #b0000000000000001)) ; $sub$output_gate.v:135$59_Y
+(define-fun |output_gate#363| ((state |output_gate_s|)) Bool (distinct (|output_gate#105| state) #b0000000000000000)) ; $ne$output_gate.v:135$58_Y
+(define-fun |output_gate#364| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#363| state) (|output_gate#362| state) (|output_gate#105| state))) ; $procmux$423_Y
+(define-fun |output_gate#365| ((state |output_gate_s|)) (_ BitVec 16) (bvsub (|output_gate#43| state) #b0000000000000001)) ; $sub$output_gate.v:134$57_Y
+(define-fun |output_gate#366| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#94| state) (|output_gate#365| state) (|output_gate#364| state))) ; $procmux$426_Y
+(define-fun |output_gate#367| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#139| state) (|output_gate#366| state) #b0000000000000000)) ; $procmux$429_Y
+(define-fun |output_gate#368| ((state |output_gate_s|)) (_ BitVec 16) (ite (|output_gate#155| state) #b0000000000000000 (|output_gate#367| state))) ; $0\focus_left_q[15:0]
+(define-fun |output_gate#369| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#106| state) (|output_gate#107| state) (|output_gate#104| state))) ; $0\fed_ticks_q[31:0]
+(define-fun |output_gate#370| ((state |output_gate_s|)) Bool (not (or  (|output_gate#155| state) false))) ; $logic_not$output_gate.v:167$65_Y
+(define-fun |output_gate#371| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#103| state)) #b1) false  (|output_gate#106| state) false)) ; $logic_or$output_gate_properties.vh:72$162_Y
+(define-fun |output_gate#372| ((state |output_gate_s|)) Bool (and (or  (|output_gate#370| state) false) (or  (|output_gate#371| state) false))) ; $0\fed_q[0:0]
+(define-fun |output_gate#373| ((state |output_gate_s|)) Bool (and (or  (|output_gate#136| state) false) (or  (|output_gate#193| state) false))) ; $logic_and$output_gate.v:111$45_Y
+(define-fun |output_gate#374| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#373| state) (|output_gate#127| state) (|output_gate#101| state))) ; $procmux$433_Y
+(define-fun |output_gate#375| ((state |output_gate_s|)) (_ BitVec 64) (ite (|output_gate#155| state) #b0000000000000000000000000000000000000000000000000000000000000000 (|output_gate#374| state))) ; $0\fault_time_q[63:0]
+(define-fun |output_gate#376| ((state |output_gate_s|)) (_ BitVec 9) (bvand (concat ((_ extract 8 4) (|output_gate#100| state)) #b0000) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (concat (|output_gate#146| state) (|output_gate#146| state))))))))))) ; $and$output_gate.v:103$38_Y
+(define-fun |output_gate#377| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#69| state) (|output_gate#376| state) (|output_gate#100| state))) ; $ternary$output_gate.v:103$39_Y
+(define-fun |output_gate#378| ((state |output_gate_s|)) (_ BitVec 9) (bvor (|output_gate#377| state) (concat (|output_gate#66| state) (concat (ite (|output_gate#64| state) #b1 #b0) (concat (ite (|output_gate#62| state) #b1 #b0) (concat (ite (|output_gate#59| state) #b1 #b0) (ite (|output_gate#58| state) #b1 #b0))))))) ; $or$output_gate.v:103$40_Y
+(define-fun |output_gate#379| ((state |output_gate_s|)) (_ BitVec 9) (ite (|output_gate#155| state) #b000000000 (|output_gate#378| state))) ; $0\fault_q[8:0]
+(define-fun |output_gate#380| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#99| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:112$46_Y
+(define-fun |output_gate#381| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#373| state) (|output_gate#380| state) (|output_gate#99| state))) ; $procmux$441_Y
+(define-fun |output_gate#382| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#381| state))) ; $0\fault_count_q[31:0]
+(define-fun |output_gate#383| ((state |output_gate_s|)) Bool (bvule (|output_gate#37| state) #b101)) ; $0\exists_1_q[0:0]
+(define-fun |output_gate#384| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#93| state) #b00000000000000000000000000000001)) ; $add$output_gate.v:132$55_Y
+(define-fun |output_gate#385| ((state |output_gate_s|)) Bool (and (or  (|output_gate#94| state) false) (or  (|output_gate#139| state) false))) ; $logic_and$output_gate.v:132$54_Y
+(define-fun |output_gate#386| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#385| state) (|output_gate#384| state) (|output_gate#93| state))) ; $procmux$419_Y
+(define-fun |output_gate#387| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#386| state))) ; $0\emissions_q[31:0]
+(define-fun |output_gate#388| ((state |output_gate_s|)) Bool (not (or  (|output_gate#36| state) false))) ; $logic_not$output_gate_properties.vh:71$155_Y
+(define-fun |output_gate#389| ((state |output_gate_s|)) Bool (and (or  (|output_gate#370| state) false) (or  (|output_gate#388| state) false))) ; $logic_and$output_gate_properties.vh:71$156_Y
+(define-fun |output_gate#390| ((state |output_gate_s|)) Bool (not (or  (|output_gate#95| state) false))) ; $logic_not$output_gate_properties.vh:71$157_Y
+(define-fun |output_gate#391| ((state |output_gate_s|)) Bool (and (or  (|output_gate#76| state) false) (or  (|output_gate#390| state) false))) ; $logic_and$output_gate_properties.vh:71$158_Y
+(define-fun |output_gate#392| ((state |output_gate_s|)) Bool (or  (= ((_ extract 0 0) (|output_gate#82| state)) #b1) false  (|output_gate#391| state) false)) ; $logic_or$output_gate_properties.vh:71$159_Y
+(define-fun |output_gate#393| ((state |output_gate_s|)) Bool (and (or  (|output_gate#389| state) false) (or  (|output_gate#392| state) false))) ; $0\disarmed_q[0:0]
+(define-fun |output_gate#394| ((state |output_gate_s|)) (_ BitVec 3) (bvand (concat ((_ extract 1 0) (|output_gate#52| state)) (ite (|output_gate#51| state) #b1 #b0)) (concat (ite (|output_gate#138| state) #b1 #b0) (concat (ite (|output_gate#138| state) #b1 #b0) (ite (|output_gate#138| state) #b1 #b0))))) ; $and$output_gate.v:129$52_Y
+(define-fun |output_gate#395| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#155| state) #b000 (|output_gate#394| state))) ; $0\on_later_q[2:0]
+(define-fun |output_gate#396| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#141| state) #b000 (|output_gate#37| state))) ; $procmux$474_Y
+(define-fun |output_gate#397| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#157| state) #b100 (|output_gate#37| state))) ; $procmux$478_Y
+(define-fun |output_gate#398| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#76| state) #b011 (|output_gate#37| state))) ; $procmux$481_Y
+(define-fun |output_gate#399| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#141| state) #b010 (|output_gate#37| state))) ; $procmux$484_Y
+(define-fun |output_gate#400| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#76| state) #b100 (|output_gate#399| state))) ; $procmux$487_Y
+(define-fun |output_gate#401| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#156| state)) #b1) (= ((_ extract 1 1) (|output_gate#156| state)) #b1) (= ((_ extract 2 2) (|output_gate#156| state)) #b1) (= ((_ extract 3 3) (|output_gate#156| state)) #b1) (= ((_ extract 4 4) (|output_gate#156| state)) #b1) (= ((_ extract 5 5) (|output_gate#156| state)) #b1) (= ((_ extract 6 6) (|output_gate#156| state)) #b1) (= ((_ extract 7 7) (|output_gate#156| state)) #b1) (= ((_ extract 8 8) (|output_gate#156| state)) #b1) (= ((_ extract 9 9) (|output_gate#156| state)) #b1) (= ((_ extract 10 10) (|output_gate#156| state)) #b1) (= ((_ extract 11 11) (|output_gate#156| state)) #b1) (= ((_ extract 12 12) (|output_gate#156| state)) #b1) (= ((_ extract 13 13) (|output_gate#156| state)) #b1) (= ((_ extract 14 14) (|output_gate#156| state)) #b1) (= ((_ extract 15 15) (|output_gate#156| state)) #b1)))) ; $eq$output_gate.v:119$49_Y
+(define-fun |output_gate#402| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#401| state) #b001 (|output_gate#37| state))) ; $procmux$490_Y
+(define-fun |output_gate#403| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#76| state) #b000 (|output_gate#402| state))) ; $procmux$493_Y
+(define-fun |output_gate#404| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#36| state) #b101 (|output_gate#37| state))) ; $procmux$496_Y
+(define-fun |output_gate#405| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#95| state) (|output_gate#404| state) (ite (|output_gate#44| state) (|output_gate#403| state) (ite (|output_gate#45| state) (|output_gate#400| state) (ite (|output_gate#38| state) (|output_gate#398| state) (ite (|output_gate#47| state) (|output_gate#397| state) (ite (|output_gate#49| state) (|output_gate#396| state) #b000))))))) ; $procmux$476_Y
+(define-fun |output_gate#406| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#136| state) #b000 (|output_gate#405| state))) ; $procmux$499_Y
+(define-fun |output_gate#407| ((state |output_gate_s|)) (_ BitVec 3) (ite (|output_gate#155| state) #b000 (|output_gate#406| state))) ; $0\state_q[2:0]
+(define-fun |output_gate#408| ((state |output_gate_s|)) Bool (and (or  (|output_gate#139| state) false) (or  (|output_gate#370| state) false))) ; $0\hv_enable_q[0:0]
+(define-fun |output_gate#409| ((state |output_gate_s|)) Bool (or  (|output_gate#94| state) false  (|output_gate#363| state) false)) ; $logic_or$output_gate.v:170$79_Y
+(define-fun |output_gate#410| ((state |output_gate_s|)) Bool (and (or  (|output_gate#408| state) false) (or  (|output_gate#409| state) false))) ; $0\focus_q[0:0]
+(define-fun |output_gate#411| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (ite (|output_gate#410| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1309
+(define-fun |output_gate#412| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#19| state)) #b1) (= ((_ extract 1 1) (|output_gate#19| state)) #b1) (= ((_ extract 2 2) (|output_gate#19| state)) #b1) (= ((_ extract 3 3) (|output_gate#19| state)) #b1) (= ((_ extract 4 4) (|output_gate#19| state)) #b1) (= ((_ extract 5 5) (|output_gate#19| state)) #b1) (= ((_ extract 6 6) (|output_gate#19| state)) #b1) (= ((_ extract 7 7) (|output_gate#19| state)) #b1) (= ((_ extract 8 8) (|output_gate#19| state)) #b1) (= ((_ extract 9 9) (|output_gate#19| state)) #b1) (= ((_ extract 10 10) (|output_gate#19| state)) #b1) (= ((_ extract 11 11) (|output_gate#19| state)) #b1) (= ((_ extract 12 12) (|output_gate#19| state)) #b1) (= ((_ extract 13 13) (|output_gate#19| state)) #b1) (= ((_ extract 14 14) (|output_gate#19| state)) #b1) (= ((_ extract 15 15) (|output_gate#19| state)) #b1) (= ((_ extract 16 16) (|output_gate#19| state)) #b1) (= ((_ extract 17 17) (|output_gate#19| state)) #b1) (= ((_ extract 18 18) (|output_gate#19| state)) #b1) (= ((_ extract 19 19) (|output_gate#19| state)) #b1) (= ((_ extract 20 20) (|output_gate#19| state)) #b1) (= ((_ extract 21 21) (|output_gate#19| state)) #b1) (= ((_ extract 22 22) (|output_gate#19| state)) #b1) (= ((_ extract 23 23) (|output_gate#19| state)) #b1) (= ((_ extract 24 24) (|output_gate#19| state)) #b1) (= ((_ extract 25 25) (|output_gate#19| state)) #b1) (= ((_ extract 26 26) (|output_gate#19| state)) #b1) (= ((_ extract 27 27) (|output_gate#19| state)) #b1) (= ((_ extract 28 28) (|output_gate#19| state)) #b1) (= ((_ extract 29 29) (|output_gate#19| state)) #b1) (= ((_ extract 30 30) (|output_gate#19| state)) #b1) (= ((_ extract 31 31) (|output_gate#19| state)) #b1)))) ; $eq$output_gate.v:137$61_Y
+(define-fun |output_gate#413| ((state |output_gate_s|)) (_ BitVec 1) (bvxor (|output_gate#30| state) (ite (|output_gate#412| state) #b1 #b0))) ; $xor$output_gate.v:169$74_Y
+(define-fun |output_gate#414| ((state |output_gate_s|)) Bool (and (or  (|output_gate#408| state) false) (or  (= ((_ extract 0 0) (|output_gate#413| state)) #b1) false))) ; $0\hv_alive_q[0:0]
+(define-fun |output_gate#415| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (ite (|output_gate#414| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1307
+(define-fun |output_gate#416| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b0 (ite (|output_gate#408| state) #b1 #b0))) ; $auto$rtlil.cc:3381:Mux$1311
+(define-fun |output_gate#417| ((state |output_gate_s|)) Bool (and (or  (= ((_ extract 0 0) (|output_gate#22| state)) #b1) false) (or  (|output_gate#56| state) false))) ; $logic_and$output_gate_properties.vh:70$145_Y
+(define-fun |output_gate#418| ((state |output_gate_s|)) Bool (and (or  (|output_gate#417| state) false) (or  (|output_gate#60| state) false))) ; $logic_and$output_gate_properties.vh:70$146_Y
+(define-fun |output_gate#419| ((state |output_gate_s|)) Bool (and (or  (|output_gate#418| state) false) (or  (|output_gate#21| state) false))) ; $logic_and$output_gate_properties.vh:70$147_Y
+(define-fun |output_gate#420| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 0 0) (|output_gate#65| state)) #b1) (= ((_ extract 1 1) (|output_gate#65| state)) #b1) (= ((_ extract 2 2) (|output_gate#65| state)) #b1) (= ((_ extract 3 3) (|output_gate#65| state)) #b1) (= ((_ extract 4 4) (|output_gate#65| state)) #b1)))) ; $eq$output_gate_properties.vh:70$148_Y
+(define-fun |output_gate#421| ((state |output_gate_s|)) Bool (and (or  (|output_gate#419| state) false) (or  (|output_gate#420| state) false))) ; $logic_and$output_gate_properties.vh:70$149_Y
+(define-fun |output_gate#422| ((state |output_gate_s|)) Bool (not (or  (|output_gate#63| state) false))) ; $logic_not$output_gate_properties.vh:70$150_Y
+(define-fun |output_gate#423| ((state |output_gate_s|)) Bool (and (or  (|output_gate#421| state) false) (or  (|output_gate#422| state) false))) ; $logic_and$output_gate_properties.vh:70$151_Y
+(define-fun |output_gate#424| ((state |output_gate_s|)) Bool (or  (|output_gate#36| state) false  (|output_gate#423| state) false)) ; $logic_or$output_gate_properties.vh:70$152_Y
+(define-fun |output_gate#425| ((state |output_gate_s|)) Bool (and (or  (|output_gate#370| state) false) (or  (|output_gate#424| state) false))) ; $0\allowed_q[0:0]
+(define-fun |output_gate#426| ((state |output_gate_s|)) Bool (not (or  (= ((_ extract 1 1) (|output_gate#168| state)) #b1) (= ((_ extract 2 2) (|output_gate#168| state)) #b1) (= ((_ extract 3 3) (|output_gate#168| state)) #b1) (= ((_ extract 4 4) (|output_gate#168| state)) #b1) (= ((_ extract 5 5) (|output_gate#168| state)) #b1) (= ((_ extract 6 6) (|output_gate#168| state)) #b1) (= ((_ extract 7 7) (|output_gate#168| state)) #b1) (= ((_ extract 8 8) (|output_gate#168| state)) #b1) (= ((_ extract 9 9) (|output_gate#168| state)) #b1) (= ((_ extract 10 10) (|output_gate#168| state)) #b1) (= ((_ extract 11 11) (|output_gate#168| state)) #b1) (= ((_ extract 12 12) (|output_gate#168| state)) #b1) (= ((_ extract 13 13) (|output_gate#168| state)) #b1) (= ((_ extract 14 14) (|output_gate#168| state)) #b1) (= ((_ extract 15 15) (|output_gate#168| state)) #b1) (= ((_ extract 16 16) (|output_gate#168| state)) #b1) (= ((_ extract 17 17) (|output_gate#168| state)) #b1) (= ((_ extract 18 18) (|output_gate#168| state)) #b1) (= ((_ extract 19 19) (|output_gate#168| state)) #b1) (= ((_ extract 20 20) (|output_gate#168| state)) #b1) (= ((_ extract 21 21) (|output_gate#168| state)) #b1) (= ((_ extract 22 22) (|output_gate#168| state)) #b1) (= ((_ extract 23 23) (|output_gate#168| state)) #b1) (= ((_ extract 24 24) (|output_gate#168| state)) #b1) (= ((_ extract 25 25) (|output_gate#168| state)) #b1) (= ((_ extract 26 26) (|output_gate#168| state)) #b1) (= ((_ extract 27 27) (|output_gate#168| state)) #b1) (= ((_ extract 28 28) (|output_gate#168| state)) #b1) (= ((_ extract 29 29) (|output_gate#168| state)) #b1) (= ((_ extract 30 30) (|output_gate#168| state)) #b1) (= ((_ extract 31 31) (|output_gate#168| state)) #b1)))) ; $eq$output_gate.v:100$36_Y
+(define-fun |output_gate#427| ((state |output_gate_s|)) (_ BitVec 1) (ite (= ((_ extract 0 0) (|output_gate#20| state)) #b1) #b1 (ite (|output_gate#426| state) #b1 #b0))) ; $procmux$459_Y
+(define-fun |output_gate#428| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#106| state) #b0 (|output_gate#427| state))) ; $procmux$462_Y
+(define-fun |output_gate#429| ((state |output_gate_s|)) (_ BitVec 1) (ite (|output_gate#155| state) #b1 (|output_gate#428| state))) ; $0\silent_q[0:0]
+(define-fun |output_gate#430| ((state |output_gate_s|)) (_ BitVec 32) (bvsub (|output_gate#19| state) #b00000000000000000000000000000001)) ; $sub$output_gate.v:138$62_Y
+(define-fun |output_gate#431| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#412| state) #b00000000000000000000011111001111 (|output_gate#430| state))) ; $procmux$404_Y
+(define-fun |output_gate#432| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#139| state) (|output_gate#431| state) #b00000000000000000000000000000000)) ; $procmux$407_Y
+(define-fun |output_gate#433| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000000000000000000000000000 (|output_gate#432| state))) ; $0\alive_left_q[31:0]
+(define-fun |output_gate#434| ((state |output_gate_s|)) (_ BitVec 17) (bvadd (|output_gate#18| state) #b00000000000000001)) ; $add$output_gate_properties.vh:14$113_Y
+(define-fun |output_gate#435| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#288| state) #b01111010000100100 (|output_gate#434| state))) ; $0\longer$func$output_gate_properties.vh:55$1.$result[16:0]$107
+(define-fun |output_gate#436| ((state |output_gate_s|)) Bool (not (or  (|output_gate#138| state) false))) ; $logic_not$output_gate_properties.vh:55$115_Y
+(define-fun |output_gate#437| ((state |output_gate_s|)) Bool (or  (|output_gate#155| state) false  (|output_gate#436| state) false)) ; $logic_or$output_gate_properties.vh:55$116_Y
+(define-fun |output_gate#438| ((state |output_gate_s|)) Bool (not (or  (|output_gate#51| state) false))) ; $logic_not$output_gate_properties.vh:55$117_Y
+(define-fun |output_gate#439| ((state |output_gate_s|)) Bool (or  (|output_gate#437| state) false  (|output_gate#438| state) false)) ; $logic_or$output_gate_properties.vh:55$118_Y
+(define-fun |output_gate#440| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#439| state) #b00000000000000000 (|output_gate#435| state))) ; $0\age_q[16:0]
+(define-fun |output_gate#441| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#437| state) #b00000000000000000 (|output_gate#16| state))) ; $0\age_4_q[16:0]
+(define-fun |output_gate#442| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#437| state) #b00000000000000000 (|output_gate#15| state))) ; $0\age_3_q[16:0]
+(define-fun |output_gate#443| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#437| state) #b00000000000000000 (|output_gate#14| state))) ; $0\age_2_q[16:0]
+(define-fun |output_gate#444| ((state |output_gate_s|)) (_ BitVec 17) (ite (|output_gate#437| state) #b00000000000000000 (|output_gate#18| state))) ; $0\age_1_q[16:0]
+(define-fun |output_gate#445| ((state |output_gate_s|)) (_ BitVec 32) (bvadd (|output_gate#10| state) #b00000000000000000000000000000001)) ; $add$output_gate_properties.vh:75$174_Y
+(define-fun |output_gate#446| ((state |output_gate_s|)) Bool (= (|output_gate#10| state) #b00000000111011100110101100101000)) ; $eq$output_gate_properties.vh:75$173_Y
+(define-fun |output_gate#447| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#446| state) #b00000000111011100110101100101000 (|output_gate#445| state))) ; $ternary$output_gate_properties.vh:75$175_Y
+(define-fun |output_gate#448| ((state |output_gate_s|)) Bool (distinct (|output_gate#65| state) #b00000)) ; $ne$output_gate_properties.vh:75$169_Y
+(define-fun |output_gate#449| ((state |output_gate_s|)) Bool (and (or  (|output_gate#55| state) false) (or  (|output_gate#448| state) false))) ; $logic_and$output_gate_properties.vh:75$170_Y
+(define-fun |output_gate#450| ((state |output_gate_s|)) Bool (or  false (= ((_ extract 1 1) (|output_gate#65| state)) #b1) (= ((_ extract 2 2) (|output_gate#65| state)) #b1) false false)) ; $ne$output_gate_properties.vh:75$171_Y
+(define-fun |output_gate#451| ((state |output_gate_s|)) Bool (or  (|output_gate#449| state) false  (|output_gate#450| state) false)) ; $logic_or$output_gate_properties.vh:75$172_Y
+(define-fun |output_gate#452| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#451| state) #b00000000000000000000000000000000 (|output_gate#447| state))) ; $ternary$output_gate_properties.vh:75$176_Y
+(define-fun |output_gate#453| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#155| state) #b00000000111011100110101100101000 (|output_gate#452| state))) ; $0\since_limit_q[31:0]
+(define-fun |output_gate#454| ((state |output_gate_s|)) (_ BitVec 32) (bvand (|output_gate#86| state) (|output_gate#67| state))) ; $and$output_gate.v:167$67_Y
+(define-fun |output_gate#455| ((state |output_gate_s|)) Bool (and (or  (|output_gate#139| state) false) (or  (= ((_ extract 2 2) (|output_gate#119| state)) #b1) false))) ; $logic_and$output_gate.v:167$64_Y
+(define-fun |output_gate#456| ((state |output_gate_s|)) Bool (and (or  (|output_gate#455| state) false) (or  (|output_gate#370| state) false))) ; $logic_and$output_gate.v:167$66_Y
+(define-fun |output_gate#457| ((state |output_gate_s|)) (_ BitVec 32) (ite (|output_gate#456| state) (|output_gate#454| state) #b00000000000000000000000000000000)) ; $0\channel_q[31:0]
+(define-fun |output_gate#458| ((state |output_gate_s|)) (_ BitVec 32) (ite (= ((_ extract 0 0) (|output_gate#23| state)) #b1) #b00000000000000000000000000000000 (|output_gate#457| state))) ; $auto$rtlil.cc:3381:Mux$1313
 (define-fun |output_gate_a| ((state |output_gate_s|)) Bool (and
   (|output_gate_a 0| state)
   (|output_gate_a 1| state)
@@ -686,6 +704,8 @@
   (|output_gate_a 45| state)
   (|output_gate_a 46| state)
   (|output_gate_a 47| state)
+  (|output_gate_a 48| state)
+  (|output_gate_a 49| state)
 ))
 (define-fun |output_gate_u| ((state |output_gate_s|)) Bool (and
   (|output_gate_u 0| state)
@@ -694,59 +714,60 @@
   (|output_gate_u 3| state)
 ))
 (define-fun |output_gate_i| ((state |output_gate_s|)) Bool 
-  (= (= ((_ extract 0 0) (|output_gate#5| state)) #b1) false) ; started_q
+  (= (= ((_ extract 0 0) (|output_gate#8| state)) #b1) false) ; started_q
 )
 (define-fun |output_gate_h| ((state |output_gate_s|)) Bool true)
 (define-fun |output_gate_t| ((state |output_gate_s|) (next_state |output_gate_s|)) Bool (and
-  (= (|output_gate#327| state) (|output_gate#173| next_state)) ; $procdff$982 \up_q
-  (= (|output_gate#331| state) (|output_gate#172| next_state)) ; $procdff$986 \unfed_q
-  (= (|output_gate#334| state) (|output_gate#171| next_state)) ; $procdff$946 \underruns_q
-  (= (ite (|output_gate#61| state) #b1 #b0) (|output_gate#166| next_state)) ; $procdff$992 \underrun_1_q
-  (= (|output_gate#338| state) (|output_gate#160| next_state)) ; $procdff$940 \silence_q
-  (= (|output_gate#17| state) (|output_gate#156| next_state)) ; $procdff$970 \silent_1_q
-  (= (|output_gate#341| state) (|output_gate#148| next_state)) ; $procdff$948 \settle_left_q
-  (= (|output_gate#346| state) (|output_gate#146| next_state)) ; $procdff$943 \rest_left_q
-  (= (|output_gate#138| state) (|output_gate#142| next_state)) ; $procdff$976 \resting_1_q
-  (= (|output_gate#350| state) (|output_gate#138| next_state)) ; $procdff$944 \resting_q
-  (= (ite (|output_gate#54| state) #b1 #b0) (|output_gate#132| next_state)) ; $procdff$968 \permit_1_q
-  (= (|output_gate#119| state) (|output_gate#118| next_state)) ; $procdff$997 \now_1_q
-  (= (|output_gate#352| state) (|output_gate#111| next_state)) ; $procdff$950 \moves_later_q
-  (= (|output_gate#65| state) (|output_gate#109| next_state)) ; $procdff$972 \mask_1_q
-  (= (|output_gate#25| state) (|output_gate#101| next_state)) ; $procdff$975 \hv_1_q
-  (= (|output_gate#359| state) (|output_gate#97| next_state)) ; $procdff$951 \focus_left_q
-  (= (|output_gate#360| state) (|output_gate#96| next_state)) ; $procdff$985 \fed_ticks_q
-  (= (ite (|output_gate#363| state) #b1 #b0) (|output_gate#95| next_state)) ; $procdff$987 \fed_q
-  (= ((_ extract 8 4) (|output_gate#92| state)) (|output_gate#94| next_state)) ; $procdff$974 \faults_1_q
-  (= (|output_gate#365| state) (|output_gate#93| next_state)) ; $procdff$947 \fault_time_q
-  (= (|output_gate#369| state) (|output_gate#92| next_state)) ; $procdff$942 \fault_q
-  (= (|output_gate#372| state) (|output_gate#91| next_state)) ; $procdff$945 \fault_count_q
-  (= (|output_gate#91| state) (|output_gate#90| next_state)) ; $procdff$996 \fault_count_1_q
-  (= (ite (|output_gate#373| state) #b1 #b0) (|output_gate#89| next_state)) ; $procdff$971 \exists_1_q
-  (= (|output_gate#377| state) (|output_gate#85| next_state)) ; $procdff$952 \emissions_q
-  (= (|output_gate#81| state) (|output_gate#80| next_state)) ; $procdff$995 \drive_1_q
-  (= (ite (|output_gate#383| state) #b1 #b0) (|output_gate#77| next_state)) ; $procdff$984 \disarmed_q
-  (= (ite (|output_gate#71| state) #b1 #b0) (|output_gate#70| next_state)) ; $procdff$990 \disarm_1_q
-  (= (ite (|output_gate#58| state) #b1 #b0) (|output_gate#69| next_state)) ; $procdff$969 \cool_1_q
-  (= (ite (|output_gate#67| state) #b1 #b0) (|output_gate#66| next_state)) ; $procdff$991 \clear_1_q
-  (= (|output_gate#385| state) (|output_gate#50| next_state)) ; $procdff$949 \on_later_q
-  (= (|output_gate#63| state) (|output_gate#37| next_state)) ; $procdff$973 \limits_1_q
-  (= (|output_gate#397| state) (|output_gate#35| next_state)) ; $procdff$939 \state_q
-  (= (ite (|output_gate#34| state) #b1 #b0) (|output_gate#33| next_state)) ; $procdff$989 \arm_1_q
-  (= (|output_gate#401| state) (|output_gate#30| next_state)) ; $procdff$962 \_witness_.anyinit_procdff_962
-  (= (|output_gate#405| state) (|output_gate#27| next_state)) ; $procdff$965 \_witness_.anyinit_procdff_965
-  (= (|output_gate#406| state) (|output_gate#24| next_state)) ; $procdff$959 \_witness_.anyinit_procdff_959
-  (= (ite (|output_gate#415| state) #b1 #b0) (|output_gate#20| next_state)) ; $procdff$983 \allowed_q
-  (= (concat #b0000000 (|output_gate#92| state)) (|output_gate#19| next_state)) ; $procdff$994 \all_faults_1_q
-  (= (|output_gate#419| state) (|output_gate#17| next_state)) ; $procdff$941 \silent_q
-  (= (|output_gate#423| state) (|output_gate#16| next_state)) ; $procdff$953 \alive_left_q
-  (= (|output_gate#430| state) (|output_gate#15| next_state)) ; $procdff$977 \age_q
-  (= (|output_gate#431| state) (|output_gate#14| next_state)) ; $procdff$981 \age_4_q
-  (= (|output_gate#432| state) (|output_gate#13| next_state)) ; $procdff$980 \age_3_q
-  (= (|output_gate#433| state) (|output_gate#12| next_state)) ; $procdff$979 \age_2_q
-  (= (|output_gate#434| state) (|output_gate#11| next_state)) ; $procdff$978 \age_1_q
-  (= (|output_gate#441| state) (|output_gate#7| next_state)) ; $procdff$988 \since_limit_q
-  (= #b1 (|output_gate#5| next_state)) ; $procdff$966 \started_q
-  (= (ite (|output_gate#147| state) #b1 #b0) (|output_gate#3| next_state)) ; $procdff$967 \rst_1_q
-  (= (ite (|output_gate#128| state) #b1 #b0) (|output_gate#1| next_state)) ; $procdff$993 \shut_1_q
-  (= (|output_gate#446| state) (|output_gate#0| next_state)) ; $procdff$956 \_witness_.anyinit_procdff_956
+  (= (|output_gate#336| state) (|output_gate#181| next_state)) ; $procdff$1007 \up_q
+  (= (|output_gate#340| state) (|output_gate#180| next_state)) ; $procdff$1011 \unfed_q
+  (= (|output_gate#343| state) (|output_gate#179| next_state)) ; $procdff$971 \underruns_q
+  (= (ite (|output_gate#63| state) #b1 #b0) (|output_gate#174| next_state)) ; $procdff$1018 \underrun_1_q
+  (= (|output_gate#347| state) (|output_gate#168| next_state)) ; $procdff$965 \silence_q
+  (= (|output_gate#20| state) (|output_gate#164| next_state)) ; $procdff$995 \silent_1_q
+  (= (|output_gate#350| state) (|output_gate#156| next_state)) ; $procdff$973 \settle_left_q
+  (= (|output_gate#355| state) (|output_gate#154| next_state)) ; $procdff$968 \rest_left_q
+  (= (|output_gate#146| state) (|output_gate#150| next_state)) ; $procdff$1001 \resting_1_q
+  (= (|output_gate#359| state) (|output_gate#146| next_state)) ; $procdff$969 \resting_q
+  (= (ite (|output_gate#56| state) #b1 #b0) (|output_gate#140| next_state)) ; $procdff$993 \permit_1_q
+  (= (|output_gate#127| state) (|output_gate#126| next_state)) ; $procdff$1023 \now_1_q
+  (= (|output_gate#361| state) (|output_gate#119| next_state)) ; $procdff$975 \moves_later_q
+  (= (|output_gate#67| state) (|output_gate#117| next_state)) ; $procdff$997 \mask_1_q
+  (= (|output_gate#27| state) (|output_gate#109| next_state)) ; $procdff$1000 \hv_1_q
+  (= (|output_gate#368| state) (|output_gate#105| next_state)) ; $procdff$976 \focus_left_q
+  (= (|output_gate#369| state) (|output_gate#104| next_state)) ; $procdff$1010 \fed_ticks_q
+  (= (ite (|output_gate#372| state) #b1 #b0) (|output_gate#103| next_state)) ; $procdff$1012 \fed_q
+  (= ((_ extract 8 4) (|output_gate#100| state)) (|output_gate#102| next_state)) ; $procdff$999 \faults_1_q
+  (= (|output_gate#375| state) (|output_gate#101| next_state)) ; $procdff$972 \fault_time_q
+  (= (|output_gate#379| state) (|output_gate#100| next_state)) ; $procdff$967 \fault_q
+  (= (|output_gate#382| state) (|output_gate#99| next_state)) ; $procdff$970 \fault_count_q
+  (= (|output_gate#99| state) (|output_gate#98| next_state)) ; $procdff$1022 \fault_count_1_q
+  (= (ite (|output_gate#383| state) #b1 #b0) (|output_gate#97| next_state)) ; $procdff$996 \exists_1_q
+  (= (|output_gate#387| state) (|output_gate#93| next_state)) ; $procdff$977 \emissions_q
+  (= (concat #b00 (concat ((_ extract 2 1) (|output_gate#65| state)) #b0)) (|output_gate#87| next_state)) ; $procdff$1014 \edges_1_q
+  (= (|output_gate#86| state) (|output_gate#85| next_state)) ; $procdff$1021 \drive_1_q
+  (= (ite (|output_gate#393| state) #b1 #b0) (|output_gate#82| next_state)) ; $procdff$1009 \disarmed_q
+  (= (ite (|output_gate#76| state) #b1 #b0) (|output_gate#75| next_state)) ; $procdff$1016 \disarm_1_q
+  (= (ite (|output_gate#60| state) #b1 #b0) (|output_gate#71| next_state)) ; $procdff$994 \cool_1_q
+  (= (ite (|output_gate#69| state) #b1 #b0) (|output_gate#68| next_state)) ; $procdff$1017 \clear_1_q
+  (= (|output_gate#395| state) (|output_gate#52| next_state)) ; $procdff$974 \on_later_q
+  (= (|output_gate#65| state) (|output_gate#39| next_state)) ; $procdff$998 \limits_1_q
+  (= (|output_gate#407| state) (|output_gate#37| next_state)) ; $procdff$964 \state_q
+  (= (ite (|output_gate#36| state) #b1 #b0) (|output_gate#35| next_state)) ; $procdff$1015 \arm_1_q
+  (= (|output_gate#411| state) (|output_gate#32| next_state)) ; $procdff$987 \_witness_.anyinit_procdff_987
+  (= (|output_gate#415| state) (|output_gate#29| next_state)) ; $procdff$990 \_witness_.anyinit_procdff_990
+  (= (|output_gate#416| state) (|output_gate#26| next_state)) ; $procdff$984 \_witness_.anyinit_procdff_984
+  (= (ite (|output_gate#425| state) #b1 #b0) (|output_gate#22| next_state)) ; $procdff$1008 \allowed_q
+  (= (|output_gate#429| state) (|output_gate#20| next_state)) ; $procdff$966 \silent_q
+  (= (|output_gate#433| state) (|output_gate#19| next_state)) ; $procdff$978 \alive_left_q
+  (= (|output_gate#440| state) (|output_gate#18| next_state)) ; $procdff$1002 \age_q
+  (= (|output_gate#441| state) (|output_gate#17| next_state)) ; $procdff$1006 \age_4_q
+  (= (|output_gate#442| state) (|output_gate#16| next_state)) ; $procdff$1005 \age_3_q
+  (= (|output_gate#443| state) (|output_gate#15| next_state)) ; $procdff$1004 \age_2_q
+  (= (|output_gate#444| state) (|output_gate#14| next_state)) ; $procdff$1003 \age_1_q
+  (= (|output_gate#453| state) (|output_gate#10| next_state)) ; $procdff$1013 \since_limit_q
+  (= #b1 (|output_gate#8| next_state)) ; $procdff$991 \started_q
+  (= (ite (|output_gate#155| state) #b1 #b0) (|output_gate#6| next_state)) ; $procdff$992 \rst_1_q
+  (= (concat #b0000000 (|output_gate#100| state)) (|output_gate#2| next_state)) ; $procdff$1020 \all_faults_1_q
+  (= (ite (|output_gate#136| state) #b1 #b0) (|output_gate#1| next_state)) ; $procdff$1019 \shut_1_q
+  (= (|output_gate#458| state) (|output_gate#0| next_state)) ; $procdff$981 \_witness_.anyinit_procdff_981
 )) ; end of module output_gate
