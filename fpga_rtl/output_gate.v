@@ -2,7 +2,8 @@
 // Channels move only while armed, permitted, cool, within the limits and fed by the host; else they are low, as is
 // the high-voltage enable.
 // A fault is kept, with its cause, until it is cleared by command; a cause counts for as long as anything is on, the
-// words on their way after a ramp down included. A state that does not exist counts as off.
+// words on their way after a ramp down included, and edges too many, which are found out later, once all is off too. A state
+// that does not exist counts as off.
 // What a limit of the stages has shut stays so for REST_TICKS, whatever is commanded: to trip it again and again gains nothing.
 // The high voltage has HV_SETTLE_TICKS before the first word of a ramp up. Without a clock the outputs are low too.
 `default_nettype none
@@ -52,6 +53,7 @@ module output_gate #(
 );
     localparam [2:0] OFF = 3'd0, RAMP_UP = 3'd1, ON = 3'd2, STOPPING = 3'd3, RAMP_DOWN = 3'd4, SETTLING = 3'd5;
     localparam [15:0] OF_LIMITS = 16'b11111 << `FAULT_SHORT_PULSE;  // causes that come from limits_i
+    localparam [15:0] OF_EDGES  = 16'b00110 << `FAULT_SHORT_PULSE;  // those of them that edges made before count for: total edges, channel edges
     localparam        SETTLE_BITS = $clog2(HV_SETTLE_TICKS + 32'd2);
     localparam [31:0] LAST_SETTLE = HV_SETTLE_TICKS == 32'd0 ? 32'd0 : HV_SETTLE_TICKS - 32'd1;
     localparam        ALIVE_BITS  = ALIVE_HALF_TICKS > 32'd1 ? $clog2(ALIVE_HALF_TICKS) : 1;
@@ -86,7 +88,7 @@ module output_gate #(
     assign wrong[`FAULT_OVER_TEMPERATURE] = !temperature_good_i;
     assign wrong[`FAULT_UNDERRUN]         = underrun_i;
     assign wrong[`FAULT_DUTY:`FAULT_SHORT_PULSE] = limits_i;
-    wire [`FAULT_CAUSES-1:0] cause = wrong & {`FAULT_CAUSES{live_q}};
+    wire [`FAULT_CAUSES-1:0] cause = wrong & ({`FAULT_CAUSES{live_q}} | OF_EDGES[`FAULT_CAUSES-1:0]);
     wire       shut  = |cause;
     wire       stays = exists && wrong == {`FAULT_CAUSES{1'b0}};  // live or not: of nothing, nothing stays
     wire       open  = on_later_q[2] && stays;
@@ -108,7 +110,7 @@ module output_gate #(
             rest_left_q <= rest_left_q - 32'd1;
             resting_q   <= rest_left_q != 32'd1;
         end
-        if (shut) begin
+        if (shut && fault_q == {`FAULT_CAUSES{1'b0}}) begin  // edges too many add to a fault that is there
             fault_count_q <= fault_count_q + 32'd1;
             fault_time_q  <= now_i;
         end

@@ -115,14 +115,16 @@ module safety_island #(
         temperature_ok_q  <= {temperature_ok_q[0], temperature_ok_i};
         if (off_o) begin                   // what is asked for while anything is on does not count
             heartbeat_ticks_q <= most_heartbeat ? HEARTBEAT_TICKS_MAX[HEARTBEAT_BITS-1:0] : heartbeat_ticks_i[HEARTBEAT_BITS-1:0];
-            channel_edges_q   <= most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] : channel_edges_i[EDGE_BITS-1:0];
-            total_edges_q     <= most_total ? TOTAL_EDGES_MAX[TOTAL_BITS-1:0] : total_edges_i[TOTAL_BITS-1:0];
             emission_ticks_q  <= most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] : emission_ticks_i[EMISSION_BITS-1:0];
             duty_share_q      <= most_share ? DUTY_SHARE_MAX[16:0] : duty_share_i;
             duty_ticks_q      <= most_duty ? DUTY_TICKS_MAX[DUTY_BITS-1:0] : duty_ticks_i[DUTY_BITS-1:0];
             pulse_ticks_q     <= least_pulse ? PULSE_TICKS_MIN[15:0] : pulse_ticks_i;
         end
-        if (arm) link_q <= link_i;
+        if (arm) begin                     // edges are judged once all is off too: by what was allowed when they were made
+            link_q          <= link_i;
+            channel_edges_q <= most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] : channel_edges_i[EDGE_BITS-1:0];
+            total_edges_q   <= most_total ? TOTAL_EDGES_MAX[TOTAL_BITS-1:0] : total_edges_i[TOTAL_BITS-1:0];
+        end
         if (rst_i) begin
             link_q            <= 1'b0;
             run_permit_q      <= 2'b00;

@@ -236,7 +236,9 @@ module stage_limits #(
     wire [AGE_BITS-1:0] age = begins_q ? {AGE_BITS{1'b0}} : age_q;
     wire        late    = emission_i && age >= emission_ticks_i;
     wire [17:0] flow    = {1'b0, active_i, 16'd0} - {1'b0, duty_share_i};
-    wire [LEVEL_BITS:0] level = {1'b0, level_q} + {{LEVEL_BITS-17{flow[17]}}, flow};
+    wire [LEVEL_BITS-1:0] level = level_q + {{LEVEL_BITS-18{flow[17]}}, flow};
+    wire        empty   = level_q < {{LEVEL_BITS-17{1'b0}}, duty_share_i};  // but for this tick: what flows out is more
+    wire        full    = &level_q[LEVEL_BITS-1:17];                        // what flows in may be more; far beyond any limit
     wire        part_tick = level_q[15:0] != 16'd0;
     wire [DUTY_BITS+2:0] duty_left = {2'b00, duty_ticks_i, 1'b0} - {1'b0, level_q[LEVEL_BITS-1:16], part_tick};
 
@@ -266,8 +268,8 @@ module stage_limits #(
         if (!emission_i) age_q <= {AGE_BITS{1'b0}};
         else             age_q <= late ? age : age + 1'b1;
         duty_q  <= active_i && duty_left[DUTY_BITS+2];  // negative
-        if (level[LEVEL_BITS] && flow[17])               level_q <= {LEVEL_BITS{1'b0}};
-        else if (!level[LEVEL_BITS])                     level_q <= level[LEVEL_BITS-1:0];
+        if (!active_i && empty)       level_q <= {LEVEL_BITS{1'b0}};
+        else if (!(active_i && full)) level_q <= level;
 
         if (rst_i) begin
             begun_q       <= 1'b0;

@@ -187,7 +187,7 @@ class Register(IntEnum):
     DUTY_TICKS = 19, Kind.SETTING, 32, "ticks of emission that may run ahead of DUTY_SHARE", "DUTY_TICKS_MAX", 0, "DUTY_TICKS_MAX"
     FAULT = 20, Kind.LIVE, 16, "causes of the fault, kept until CLEAR, and EDGE_WINDOW_TICKS if of a limit"
     FAULT_CHANNELS = 21, Kind.LIVE, 32, "channels of a SHORT_PULSE or CHANNEL_EDGES, kept until CLEAR"
-    FAULT_COUNT = 22, Kind.COUNTER, 32, "times that a fault shut the outputs"
+    FAULT_COUNT = 22, Kind.COUNTER, 32, "times that there was a fault; causes that add to one count with it"
     FAULT_TIME_LOW = 23, Kind.TIME_LOW, 32, "tick of the last of them; keeps its HIGH"
     FAULT_TIME_HIGH = 24, Kind.TIME_HIGH, 32, "high half of the time whose LOW this link read last"
     INPUTS = 25, Kind.LIVE, 3, "levels of the pins: run permit (0), temperature good (1), trigger (2)", "the pins"

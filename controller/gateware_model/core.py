@@ -116,7 +116,7 @@ class Core:
 
     def step(self, tick: int) -> None:
         """Do everything that happens in `tick`."""
-        cause = self._gate.cause(tick)
+        cause, faulted = self._gate.cause(tick), bool(self._gate.faults)
         trigger = ended = noted = False
         if tick == self._sequencer.arrival_tick() and not self._sequencer.pass_arrived_words():
             self._events.add(Event(tick + 1, EventKind.UNDERRUN))
@@ -180,7 +180,9 @@ class Core:
             self._telemetry.input_tick = tick
         if cause:
             self._telemetry.counts[Register.UNDERRUNS] += Fault.UNDERRUN in cause
-            self._telemetry.counts[Register.FAULT_COUNT] += 1
+            if not faulted:
+                self._telemetry.counts[Register.FAULT_COUNT] += 1
+                self._gate.fault_tick = tick
             self._gate.shut(tick, cause)
             self.commands.drop(tick)
             self._player.drop(tick)

@@ -14,7 +14,8 @@ from controller.gateware_model.pins import Pins, Segment, ramp_bits, turned_ramp
 from controller.gateware_model.registers import RegisterFile
 
 PIN_TICKS = 4  # from the state of player and ramp to the pins: memory, register, multiplexer, gate
-LIMITS = Fault.SHORT_PULSE | Fault.CHANNEL_EDGES | Fault.TOTAL_EDGES | Fault.LONG_EMISSION | Fault.DUTY
+EDGES = Fault.CHANNEL_EDGES | Fault.TOTAL_EDGES  # found out some ticks after they were made, so that they count while off too
+LIMITS = Fault.SHORT_PULSE | EDGES | Fault.LONG_EMISSION | Fault.DUTY
 ALIVE_HZ_4 = 40_000  # twice the frequency of `hv_alive_o`, 20 kHz: it changes twice in a period
 _LIMITS_SHIFT = int(Fault.SHORT_PULSE).bit_length() - 1
 
@@ -60,19 +61,19 @@ class OutputGate:
         return self.state in (GateState.SETTLING, GateState.RAMP_UP, GateState.STOPPING, GateState.RAMP_DOWN)
 
     def live(self, tick: int) -> bool:
-        """Whether anything is on in `tick`, the pins at least, so that a cause leads to a fault."""
+        """Whether anything is on in `tick`, the pins at least, so that every cause leads to a fault."""
         return self.state is not GateState.OFF or tick < self._live_until
 
     def next_change(self, now: int) -> int | None:
         """Tick of the next end of a ramp or foreseeable fault from `now` on; None if there is none."""
         if not self.live(now):
-            return None
+            return self.limits.next_excess_edge(now)
         ticks = [self.silent_from if all(self.permits.values()) else now]
         limit = self.limits.next_change(now)
         if limit is not None:
             ticks.append(limit)
         if self.state is GateState.OFF:
-            return change if (change := max(min(ticks), now)) < self._live_until else None
+            return change if (change := max(min(ticks), now)) < self._live_until else self.limits.next_excess_edge(now)
         if self.state is GateState.SETTLING:
             ticks.append(self._settled_tick)
         elif self.state is GateState.STOPPING:
@@ -83,9 +84,9 @@ class OutputGate:
 
     def cause(self, tick: int) -> Fault:
         """Causes for which the outputs must be switched off in `tick`, except an underrun."""
-        if not self.live(tick):
-            return Fault(0)
         cause = Fault(self.limits.cause(tick) << _LIMITS_SHIFT)
+        if not self.live(tick):
+            return cause & EDGES
         if not self.permits[Permit.RUN]:
             cause |= Fault.NO_PERMIT
         if not self.permits[Permit.TEMPERATURE]:
@@ -154,7 +155,6 @@ class OutputGate:
         self.faults |= cause
         if cause & LIMITS:
             self._rest_until = tick + 1 + self._registers.parameters.edge_window_ticks
-        self.fault_tick = tick
         self.state = GateState.OFF
         self._live_until = tick + 1
         self.pins.put_word(tick + 1, 0, hv=0)

@@ -99,6 +99,13 @@ class StageLimits:
         activity = self._activity.next_change(now)
         return min(ticks if activity is None else [*ticks, activity], default=None)
 
+    def next_excess_edge(self, now: int) -> int | None:
+        """First tick from `now` on in which an edge made before is found to be one too many; None if there is none."""
+        edges = CHANNEL_EDGES | TOTAL_EDGES
+        return min(
+            (tick for plan in self._plans for tick, cause in plan.causes.items() if tick >= now and cause & edges), default=None
+        )
+
     def cause(self, tick: int) -> int:
         """Bits of the causes that are high in `tick`."""
         value = self._activity.cause(tick)

@@ -19,7 +19,9 @@ reg        allowed_q;                        // armed, and no cause of a fault s
 reg        disarmed_q;                       // disarmed, and not armed since
 reg [31:0] fed_ticks_q, unfed_q;             // heartbeat_ticks_i of the last heartbeat, clocks since
 reg        fed_q;                            // there was one
-reg [31:0] since_limit_q;                    // clocks since a limit has shut, up to REST_TICKS
+reg [31:0] since_limit_q;                    // clocks since a limit has shut, or edges were too many, up to REST_TICKS
+wire [4:0] edges = limits_i & OF_EDGES[`FAULT_DUTY:`FAULT_SHORT_PULSE];      // too many
+reg  [4:0] edges_1_q;
 reg        arm_1_q, disarm_1_q, clear_1_q, underrun_1_q, shut_1_q;
 reg [15:0] all_faults_1_q;
 reg [31:0] drive_1_q, fault_count_1_q;
@@ -46,6 +48,7 @@ always @(posedge clk_i) begin
     exists_1_q  <= state_q <= SETTLING;      // the highest code there is
     mask_1_q    <= channel_mask_i;
     limits_1_q  <= limits_i;
+    edges_1_q   <= edges;
     hv_1_q      <= hv_enable_o;
     faults_1_q  <= fault_o[`FAULT_DUTY:`FAULT_SHORT_PULSE];
     resting_1_q <= resting_q;
@@ -69,7 +72,7 @@ always @(posedge clk_i) begin
     fed_q       <= !rst_i && (fed_q || heartbeat_i);
     fed_ticks_q <= heartbeat_i ? heartbeat_ticks_i : fed_ticks_q;
     unfed_q     <= heartbeat_i ? 1 : unfed_q == 32'hFFFFFFFF ? unfed_q : unfed_q + 1;
-    since_limit_q <= rst_i ? REST_TICKS : live_q && limits_i != 0 ? 0 : since_limit_q == REST_TICKS ? REST_TICKS : since_limit_q + 1;
+    since_limit_q <= rst_i ? REST_TICKS : (live_q && limits_i != 0) || edges != 0 ? 0 : since_limit_q == REST_TICKS ? REST_TICKS : since_limit_q + 1;
 end
 
 wire any = channel_o != 0 || hv_enable_o || hv_alive_o || focus_o;
@@ -97,8 +100,11 @@ always @* if (started_q) begin
     end
     if (!rst_1_q) begin
         if (!clear_1_q)    only_a_command_clears: assert ((all_faults_1_q & ~fault_o) == 0);
-        if (shut_1_q)      a_fault_is_counted:    assert (fault_count_o == fault_count_1_q + 32'd1 && fault_time_o == now_1_q);
-        if (!shut_1_q)     only_a_fault_counts:   assert (fault_count_o == fault_count_1_q && (fault_o & ~all_faults_1_q) == 0);
+        // whatever is on: a channel has its turn when it may be off again
+        edges_are_kept:    assert ((edges_1_q & ~fault_o[`FAULT_DUTY:`FAULT_SHORT_PULSE]) == 0);
+        if (shut_1_q && all_faults_1_q == 0) a_fault_is_counted: assert (fault_count_o == fault_count_1_q + 32'd1 && fault_time_o == now_1_q);
+        else               counted_once:          assert (fault_count_o == fault_count_1_q);
+        if (!shut_1_q)     only_a_cause_is_kept:  assert ((fault_o & ~all_faults_1_q) == 0);
         if (disarm_1_q && !arm_1_q) disarm_is_obeyed:      assert (state_q == OFF || state_q == STOPPING || state_q == RAMP_DOWN);
     end
     // on only if armed since the last fault, fed since, and without a fault

@@ -8,7 +8,7 @@ reg [EMISSION_BITS-1:0]  emission_1_q;
 reg [DUTY_BITS-1:0]      duty_1_q;
 reg [15:0]               pulse_1_q;
 reg [16:0]               share_1_q;
-reg                      link_1_q;
+reg                      link_1_q, arm_1_q;
 
 initial assume (rst_i);
 always @* assume (!clock_lost_i || rst_i);
@@ -17,6 +17,7 @@ always @(posedge clk_i) begin
     started_q     <= 1;
     rst_1_q       <= rst_i;
     off_1_q       <= off_o;
+    arm_1_q       <= arm;
     heartbeat_1_q <= heartbeat_ticks_q;
     edges_1_q     <= channel_edges_q;
     total_1_q     <= total_edges_q;
@@ -38,6 +39,8 @@ always @* if (started_q) begin
         limits_rest:      assert (heartbeat_ticks_q == heartbeat_1_q && channel_edges_q == edges_1_q && total_edges_q == total_1_q
                                   && emission_ticks_q == emission_1_q && duty_ticks_q == duty_1_q && pulse_ticks_q == pulse_1_q
                                   && duty_share_q == share_1_q && link_q == link_1_q);
+    if (!rst_1_q && !arm_1_q)
+        limits_of_edges_rest: assert (channel_edges_q == edges_1_q && total_edges_q == total_1_q);
     if (heartbeat) one_link_feeds: assert (arm_i || (heard_i && link_i == link_q));
     if (arm)       arming_is_safe: assert (off_o && fault_o == 16'd0 && run_permit_o && temperature_ok_o);
 end

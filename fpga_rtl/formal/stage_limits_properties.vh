@@ -46,6 +46,7 @@ end
 // Edges of the channel: all of them; when it had its turn; when it had that at the end of the last part with this number
 reg [ACCOUNT_BITS-1:0] edges_all_q, turned_q, turned_before_q, at_end_q, at_end_before_q;
 reg                    had_q, ended_q, at_1_q, at_2_q, ends_1_q, ends_2_q, uses_1_q, uses_2_q, edges_due_q;
+reg                    uses_3_q, moved_1_q, moved_2_q;
 reg [1:0]              run_q;                // clocks since reset, up to 3
 wire                   at     = turn_q == one;
 wire                   uses   = at && part_q == slot;
@@ -67,6 +68,8 @@ always @(posedge clk_i) begin
     {at_2_q, at_1_q}     <= {at_1_q, at};
     {ends_2_q, ends_1_q} <= {ends_1_q, end_at};
     {uses_2_q, uses_1_q} <= {uses_1_q, uses};
+    {moved_2_q, moved_1_q} <= {moved_1_q, moved_q};
+    uses_3_q             <= uses_2_q;
     end_age_q            <= end_age_q + 32'd1;
     edges_due_q          <= uses_2_q && turned_q != turned_before_q && in_window > {{ACCOUNT_BITS-EDGE_BITS{1'b0}}, channel_edges_i};
     if (at) begin
@@ -85,6 +88,7 @@ always @(posedge clk_i) begin
         edges_all_q <= {ACCOUNT_BITS{1'b0}};
         turned_q    <= {ACCOUNT_BITS{1'b0}};
         {had_q, ended_q, at_1_q, at_2_q, ends_1_q, ends_2_q, uses_1_q, uses_2_q, edges_due_q} <= 9'd0;
+        {uses_3_q, moved_2_q, moved_1_q} <= 3'd0;
     end
 end
 
@@ -104,6 +108,9 @@ always @* if (started_q) begin
     // that an interval of EDGE_WINDOW_TICKS up to any edge that the turn counts begins behind it
     if (at_2_q)           no_edge_is_lost:       assert (made_q == turned_q);
     if (edges_due_q)      edges_are_seen:        assert (cause_o[1]);
+    // output_gate takes these two at any time: at rest, or with no more edges than the limit, there is none
+    if (uses_3_q && cause_o[1]) only_new_edges_are_too_many: assert (edges_due_q);
+    if (cause_o[2])       only_moves_are_too_many: assert (moved_2_q);
     if (uses && parts_full_q) window_is_long:    assert (end_age_q >= 32'd15 * PART_TICKS + 32'd32 && 32'd15 * PART_TICKS >= EDGE_WINDOW_TICKS);
 
     // what induction must know of the inside

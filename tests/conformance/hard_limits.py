@@ -1,14 +1,14 @@
 """What the pins did, judged by the limits that the gateware was built with, whatever the host asked for.
 
-One fault adds edges of its own: the change that trips a limit, the drop of the outputs, and the drop of another fault just
-before. It may add them once in a window, as the stages rest for one then.
+One fault adds edges of its own: the change that trips a limit, and the drop of the outputs. It may add them once in a window, as
+the stages rest for one then.
 """
 
 from itertools import pairwise
 
 import numpy as np
 
-FAULT_EDGES = 3  # of one channel
+FAULT_EDGES = 2  # of one channel
 FAULT_TICKS = 3  # from a change to the outputs low
 DECIDED_TICKS = 36  # from an edge of a channel that is too many to its cause, at most: there may be more of them meanwhile
 DUTY_SLACK_TICKS = 40  # what moves on the pins, and what the gateware calls active

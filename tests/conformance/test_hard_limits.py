@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hard_limits import broken_limits
-from pin_script import BUILD_HASH, PARAMETERS, Script, readable
+from pin_script import BUILD_HASH, IDLE_WORD, PARAMETERS, Script, assert_same, perform_on_both, readable
 
 from controller.board.board import load_board
 from controller.board.lookup import find_board
@@ -15,6 +15,7 @@ from controller.fpga import frames
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
 from controller.fpga.registers import Control, Fault, Register, Start
+from controller.fpga.status import parse_status
 from controller.gateware_model.gateware import Permit
 from controller.gateware_model.model import GatewareModel
 
@@ -153,3 +154,44 @@ def test_the_judge_sees_a_limit_that_is_not_built_in(name, looser, said):
         if any(said in sentence for sentence in broken_limits(capture, judge, WORD_TICKS)):
             return
     pytest.fail(f"nothing said of {name}")
+
+
+def late_edges(permit_tick, limit):
+    """Few edges are allowed; the permit is lost while an emission makes more. What is kept then, through CLEAR and ARM."""
+    run = Script()
+    run.settings()
+    run.send(frames.pack_write, *limit)
+    run.arm()
+    run.upload(0, np.array([IDLE_WORD, ~IDLE_WORD & 0xFFFFFFFF] * 5, np.uint32))
+    run.send(frames.pack_play, 0)
+    run.wait(20)
+    start = run.trigger()
+    run.permit(False, start + permit_tick)
+    run.permit(True, start + permit_tick + 3)
+    run.wait(150)
+    for register in (Register.FAULT, Register.FAULT_CHANNELS, Register.FAULT_COUNT, Register.FAULT_TIME_LOW):
+        run.send(frames.pack_read, register)
+    run.control(Control.CLEAR)
+    run.arm()
+    run.status()
+    run.wait(PARAMETERS.edge_window_ticks)
+    run.control(Control.CLEAR)
+    run.arm()
+    run.status()
+    run.status()
+    return run
+
+
+@pytest.mark.parametrize("limit", [(Register.CHANNEL_EDGES, 14), (Register.TOTAL_EDGES, 320)], ids=lambda limit: limit[0].name)
+def test_edges_too_many_are_kept_whatever_else_shuts_the_outputs_before_they_are_found_out(rtl, limit):
+    excess = Fault.CHANNEL_EDGES if limit[0] is Register.CHANNEL_EDGES else Fault.TOTAL_EDGES
+    kept = []
+    for permit_tick in range(10, 90):
+        model, compiled = perform_on_both(late_edges(permit_tick, limit), rtl)
+        assert_same(model, compiled)
+        statuses = [parse_status(answer) for answer in model[0] if len(answer) >= FRAME_BYTES]
+        kept.append(statuses[-12].faults)
+        assert statuses[-1].faults == Fault(0)
+    assert kept[0] == Fault.NO_PERMIT
+    assert kept[-1] == excess
+    assert Fault.NO_PERMIT | excess in kept

@@ -76,6 +76,8 @@ PROOFS = {
             "a fault that heals": Bug(": fault_q) | cause", ": {`FAULT_CAUSES{1'b0}}) | cause", "only_a_command_clears"),
             "a fault that is not kept": Bug(": fault_q) | cause", ": fault_q)", "a_fault_is_counted|.*_(is|are)_kept"),
             "a fault that counts twice": Bug("fault_count_q + 32'd1", "fault_count_q + 32'd2", "a_fault_is_counted"),
+            "edges too many that are lost once all is off": Bug(" | OF_EDGES[`FAULT_CAUSES-1:0])", ")", "edges_are_kept"),
+            "a fault that is counted again": Bug("if (shut && fault_q == {`FAULT_CAUSES{1'b0}})", "if (shut)", "counted_once"),
             "a host that is never silent": Bug("silence_q[31:1] == 31'd0;", "1'b0;", "silent_in_time"),
             "2^32 ticks for a heartbeat of none": Bug(
                 "silence_q[31:1] == 31'd0;", "silence_q == 32'd1;", "silence_is_counted|on_while_fed"
@@ -195,7 +197,7 @@ PROOFS = {
             "a pulse a tick shorter": Bug("since_q  <= 16'd1;", "since_q  <= 16'd2;", "ticks_are_counted"),
             "an emission a tick longer": Bug("age >= emission_ticks_i", "age > emission_ticks_i", "long_emission_is_seen"),
             "a part of a tick that is not looked at": Bug("level_q[15:0] != 16'd0", "1'b0", "duty_is_seen"),
-            "a bucket that flows over into nothing": Bug("else if (!level[LEVEL_BITS]) ", "else ", "bucket_holds_the_sum"),
+            "a bucket that flows over into nothing": Bug("!(active_i && full)", "1'b1", "bucket_holds_the_sum"),
             "a bit that counts every change": Bug(
                 "low_bit[k-1].into & low_bit[k-1].count_q;", "low_bit[k-1].into;", "low_bits_count"
             ),
@@ -207,6 +209,10 @@ PROOFS = {
             "fifteen parts that are less than a window": Bug("/ 32'd480", "/ 32'd512", "window_is_long"),
             "a channel that is never too busy": Bug(
                 "too_many = new_q &&", "too_many = new_q && made_turn_q != 5'd7 &&", "edges_are_seen"
+            ),
+            "old edges that are too many again": Bug("too_many = new_q &&", "too_many =", "only_new_edges_are_too_many"),
+            "all channels too busy at rest": Bug(
+                "total_edges_q <= 1'b0;", "total_edges_q <= all_left[TOTAL_BITS-1];", "only_moves_are_too_many"
             ),
         },
     ),
@@ -220,6 +226,7 @@ PROOFS = {
             "the host's emissions": Bug("most_emission ? EMISSION_TICKS_MAX[EMISSION_BITS-1:0] :", "", "emission_is_clamped"),
             "every channel": Bug("channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i", "no_stage_no_move"),
             "limits that change while armed": Bug("if (off_o) begin", "begin", "limits_rest"),
+            "edges judged by what is asked for later": Bug("if (arm) begin ", "if (arm || off_o) begin ", "limits_of_edges_rest"),
             "the other link": Bug("heard_i && !off_o && link_i == link_q", "heard_i && !off_o", "one_link_feeds"),
             "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
         },

@@ -74,6 +74,77 @@ async def what_is_asked_for_while_anything_is_on_does_not_count(dut):
     assert await toggled(dut, 0x2, DECIDED_TICKS) == 13
 
 
+async def off_with_the_edge(dut, way):
+    """One edge more of channel 1, upwards, and in that clock what has the outputs off before its turn can come."""
+    if way == "ramp down":
+        dut.settled_i.value = 1
+        await pulse(dut, dut.disarm_i)
+        await clocks(dut)
+        await pulse(dut, dut.ramp_done_i)
+        await clocks(dut, DRIVE_TICKS - 1)
+    else:
+        dut.run_permit_i.value = 0
+        await clocks(dut)
+    dut.drive_i.value = 0x2
+    await clocks(dut, 2)
+    assert dut.hv_enable_o.value == 0
+    dut.run_permit_i.value = 1
+
+
+@cocotb.test(timeout_time=200, timeout_unit="us")
+async def edges_too_many_that_are_found_out_once_all_is_off_are_a_fault_like_any_other(dut):
+    for way, other in (("ramp down", Fault(0)), ("permit", Fault.NO_PERMIT)):
+        for wait in range(0, 32, 5):
+            await armed(dut, channel_edges=40)
+            await clocks(dut, wait)
+            assert await toggled(dut, 0x2, 5, edges=40) is None
+            await clocks(dut, DECIDED_TICKS)
+            await off_with_the_edge(dut, way)
+            assert fault(dut) == other, "its turn has not been"
+            await clocks(dut, DECIDED_TICKS)
+            assert fault(dut) == other | Fault.CHANNEL_EDGES, way
+            assert int(dut.fault_channels_o.value) & 0x2
+            assert dut.fault_count_o.value == 1
+            await pulse(dut, dut.clear_i)
+            assert fault(dut) == Fault.CHANNEL_EDGES, "cleared before a window has passed"
+            await pulse(dut, dut.arm_i)
+            assert dut.off_o.value == 1
+        await clocks(dut, 480)
+        await pulse(dut, dut.clear_i)
+        assert not fault(dut)
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def edges_too_many_of_all_that_are_found_out_once_all_is_off_are_a_fault_like_any_other(dut):
+    await armed(dut, total_edges=161)
+    assert await toggled(dut, 0xFFFF, 5, edges=10) is None
+    dut.run_permit_i.value = 0
+    await clocks(dut)
+    dut.drive_i.value = 0xFFFF
+    await clocks(dut, 2)
+    assert fault(dut) == Fault.NO_PERMIT
+    await clocks(dut, 4)
+    assert fault(dut) == Fault.NO_PERMIT | Fault.TOTAL_EDGES
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def limits_asked_for_once_all_is_off_neither_hide_edges_made_before_nor_make_them_too_many(dut):
+    for asked, later, found in ((12, 40, Fault.CHANNEL_EDGES), (40, 12, Fault(0))):
+        await armed(dut, channel_edges=asked)
+        assert await toggled(dut, 0x2, 5, edges=12) is None
+        await off_with_the_edge(dut, "ramp down")
+        dut.channel_edges_i.value = later
+        await clocks(dut, DECIDED_TICKS)
+        assert fault(dut) == found
+    for asked, later, found in ((160, 300, Fault.TOTAL_EDGES), (300, 160, Fault(0))):
+        await armed(dut, total_edges=asked)
+        assert await toggled(dut, 0xFFFF, 5, edges=10) is None
+        await off_with_the_edge(dut, "ramp down")
+        dut.total_edges_i.value = later
+        await clocks(dut, DECIDED_TICKS)
+        assert fault(dut) == found
+
+
 @cocotb.test(timeout_time=100, timeout_unit="us")
 async def asked_for_shorter_pulses_it_takes_those_built_in(dut):
     for asked, ticks, bad in ((0, 3, False), (0, 2, True), (2, 2, True), (5, 3, True), (5, 5, False)):
