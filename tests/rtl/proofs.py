@@ -59,7 +59,7 @@ PROOFS = {
         "output_gate.v",
         {
             "causes that count only in a state": Bug(
-                "(on || on_later_q != 3'd0);", "on;", "(stop|heat|silence|limits|underrun)_(is|are)_kept|live_is_anything_on"
+                "on || on_later_q != 3'd0", "on", "(stop|heat|silence|limits|underrun)_(is|are)_kept|live_is_anything_on"
             ),
             "any other code for a state": Bug("exists      = on || state_q == OFF", "exists      = 1'b1", "nonsense_is_off"),
             "outputs that wait for the clock": Bug("posedge clk_i or posedge clock_lost_i", "posedge clk_i", "no_clock_is_off"),

@@ -205,8 +205,7 @@ class Bench:
 
     def player_reads(self):
         s = self.settings
-        word = self.reference.memory[s["play_buffer"]].get(s["play_word"]) if s["play"] else None
-        return word
+        return self.reference.memory[s["play_buffer"]].get(s["play_word"]) if s["play"] else None
 
     def ask(self, **settings):
         if settings.get("argument", self.settings["argument"]) != self.settings["argument"]:
