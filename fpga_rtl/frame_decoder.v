@@ -37,24 +37,23 @@ module frame_decoder (
     reg        landing_busy_q, landing_live_q;
     reg [9:0]  count_q;                 // bytes so far, held at its highest: no frame is that long
     reg [31:0] recent_q;                // last four bytes
-    reg        word_valid_q;            // recent_q is a word behind the header
+    reg        word_valid_q;            // recent_q is a word of the payload that the header promises
+    reg        length_good_q, lands_q;  // of the header; it is one of a LOAD for the landing buffer
     reg [7:0]  word_number_q;
     reg signed [39:0] ahead_q;          // 65536ths of a clock by which the words would outlast the frame so far
 
     wire is_load = type_q == `TYPE_LOAD;
     wire is_long = is_load || type_q == `TYPE_TEST;
-    reg  in_payload, length_good, whole;
+    reg  length_good, whole;
     always @* begin
-        in_payload  = 1'b0;
         length_good = 1'b0;
         whole       = 1'b0;
-        if (word_valid_q || release_i) begin
-            in_payload  = word_valid_q && word_number_q < {1'b0, length_q[8:2]};
+        if (byte_valid_i) begin
             length_good = is_long
                 ? length_q >= `LOAD_PAYLOAD_MIN_BYTES && length_q <= `LOAD_PAYLOAD_MAX_BYTES && length_q[1:0] == 2'b00
                 : length_q == `SHORT_PAYLOAD_BYTES;
-            whole       = length_good && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
         end
+        if (release_i) whole = length_good_q && !partial_i && {7'd0, count_q} == {1'b0, length_q} + 17'd12;
     end
 
     wire [31:0] crc;
@@ -65,7 +64,10 @@ module frame_decoder (
     always @(posedge clk_i) begin
         word_valid_q <= 1'b0;
         if (byte_valid_i) begin
-            word_valid_q  <= count_q[9:3] != 7'd0 && count_q[1:0] == 2'd3;
+            // the header rests since byte 7
+            length_good_q <= length_good;
+            lands_q       <= is_load && sync_good_q && argument_q < {12'd0, `CHUNKS};
+            word_valid_q  <= count_q[9:3] != 7'd0 && count_q[1:0] == 2'd3 && count_q[9:2] - 8'd2 < {1'b0, length_q[8:2]};
             word_number_q <= count_q[9:2] - 8'd2;
             recent_q <= {byte_i, recent_q[31:8]};
             if (count_q != 10'h3FF) count_q <= count_q + 10'd1;
@@ -83,7 +85,7 @@ module frame_decoder (
         end
 
         if (ahead_q[39:38] != 2'b10)  // long behind: it stays so
-            ahead_q <= ahead_q - 40'sd65536 + (in_payload ? $signed({8'd0, bit_period_i}) : 40'sd0);
+            ahead_q <= ahead_q - 40'sd65536 + (word_valid_q ? $signed({8'd0, bit_period_i}) : 40'sd0);
         if (select_i) ahead_q <= 40'sd0;
 
         accept_q <= 1'b0;
@@ -98,6 +100,7 @@ module frame_decoder (
 
         if (select_i) begin
             sync_good_q    <= 1'b0;
+            length_good_q  <= 1'b0;
             length_q       <= 16'd0;
             type_q         <= `TYPE_NOP;
             count_q        <= 10'd0;
@@ -119,6 +122,8 @@ module frame_decoder (
             ahead_q        <= 40'sd0;
             count_q        <= 10'd0;
             recent_q       <= 32'd0;
+            length_good_q  <= 1'b0;
+            lands_q        <= 1'b0;
             word_valid_q   <= 1'b0;
             word_number_q  <= 8'd0;
         end
@@ -134,10 +139,10 @@ module frame_decoder (
     assign landing_live_o  = landing_live_q;
     assign payload_words_o = length_q[8:2];
     assign fast_o          = !ahead_q[39];
-    assign word_valid_o    = in_payload && length_good;
+    assign word_valid_o    = word_valid_q && length_good_q;
     assign word_number_o   = word_number_q;
     assign word_o          = recent_q;
-    assign load_word_o     = in_payload && is_load && sync_good_q && length_good && argument_q < {12'd0, `CHUNKS};
+    assign load_word_o     = word_valid_q && length_good_q && lands_q;
 
 `ifdef FORMAL
     `include "frame_decoder_properties.vh"

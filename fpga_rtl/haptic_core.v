@@ -198,7 +198,7 @@ module haptic_core #(
         .judge_i(judge), .accept_i(accept), .read_i(read), .write_i(write),
         .address_i(argument), .words_i(words[127:0]),
         .read_result_o(register_result), .write_result_o(write_result), .data_o(register_data),
-        .off_i(off), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
+        .off_i(off), .faulted_i(faulted), .quiet_i((off || armed) && quiet && queue == 4'd0), .permitted_i(run_permit && temperature_ok),
         .uart_i(from_uart), .refused_i({uart_refuse, spi_refuse}), .gap_i(gap),
         // generated: connections
         .fault_i(fault),
@@ -239,10 +239,10 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   faulted, missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
-    wire [1:0]             head_start;
+    wire                   head_triggered, head_scheduled, head_immediate;
     wire [31:0]            head_period, head_mask, play_data, drive;
     wire [63:0]            head_when;
     wire                   ramp_bit, ramp_done, playing, delayed, repeating, start, ended, waiting;
@@ -273,7 +273,7 @@ module haptic_core #(
         .slot_good_i(slot_good), .slot_buffer_i(slot_buffer), .slot_words_i(slot_words),
         .slot_intact_i(slot_intact), .slot_checking_i(slot_checking),
         .landing_i(landing), .arriving_i(chunks[0]), .fast_i(fast),
-        .armed_i(armed), .faulted_i(fault != 16'd0), .queued_i(queue), .full_i(queue_full),
+        .armed_i(armed), .faulted_i(faulted), .queued_i(queue), .full_i(queue_full),
         .good_o(play_good), .result_o(play_result), .live_o(play_live), .buffer_o(play_buffer), .length_o(play_length)
     );
 
@@ -283,7 +283,7 @@ module haptic_core #(
         .push_i(play && play_good), .buffer_i(play_buffer), .length_i(play_length), .live_i(play_live),
         .pop_i(pop), .drop_i(stop || disarm || shut),
         .valid_o(head), .buffer_o(head_buffer), .first_o(head_first), .length_o(head_length), .count_o(head_count),
-        .start_o(head_start), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
+        .triggered_o(head_triggered), .scheduled_o(head_scheduled), .immediate_o(head_immediate), .polarity_o(head_polarity), .period_ticks_o(head_period), .mask_o(head_mask),
         .when_o(head_when), .delayed_o(head_delayed), .delayed_one_o(head_delayed_one), .live_o(head_live), .landing_i(landing), .landing_used_o(queue_uses_landing),
         .queued_o(queue), .full_o(queue_full),
         .address_i(argument[5:0]), .read_result_o(queue_result), .read_data_o(queue_data)
@@ -299,7 +299,8 @@ module haptic_core #(
         .clk_i(clk_i), .rst_i(rst_i), .idle_word_i(idle_word), .bit_period_i(bit_period),
         .armed_i(armed), .stop_i(stop), .disarm_i(disarm), .fault_i(shut), .trigger_i(trigger), .now_i(now),
         .head_i(head), .head_buffer_i(head_buffer), .head_first_i(head_first), .head_length_i(head_length),
-        .head_count_i(head_count), .head_start_i(head_start), .head_polarity_i(head_polarity),
+        .head_triggered_i(head_triggered), .head_scheduled_i(head_scheduled), .head_immediate_i(head_immediate),
+        .head_count_i(head_count), .head_polarity_i(head_polarity),
         .head_period_ticks_i(head_period), .head_mask_i(head_mask), .head_when_i(head_when), .head_delayed_i(head_delayed), .head_delayed_one_i(head_delayed_one), .head_live_i(head_live),
         .pop_o(pop), .landing_i(landing), .landing_used_o(player_uses_landing), .live_o(player_live),
         .read_o(play_read), .read_buffer_o(read_buffer), .read_word_o(read_word), .read_chunk_o(read_chunk), .read_within_o(read_within),
@@ -328,13 +329,13 @@ module haptic_core #(
         .run_permit_o(run_permit), .temperature_ok_o(temperature_ok),
         .off_o(off), .settling_o(settling), .ramp_up_o(ramp_up), .armed_o(armed), .stopping_o(stopping), .ramp_down_o(ramp_down),
         .alive_o(alive), .shut_o(shut),
-        .fault_o(fault), .fault_channels_o(fault_channels), .fault_count_o(fault_count), .fault_time_o(fault_time),
+        .fault_o(fault), .faulted_o(faulted), .fault_channels_o(fault_channels), .fault_count_o(fault_count), .fault_time_o(fault_time),
         .duty_level_o(duty_level), .underruns_o(underruns), .emissions_o(emissions),
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );
 
     indicator_pins indicator_pins (
-        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .waiting_i(waiting), .fault_i(fault != 16'd0),
+        .clk_i(clk_i), .rst_i(rst_i), .clock_lost_i(clock_lost_i), .waiting_i(waiting), .fault_i(faulted),
         .waiting_o(waiting_o), .fault_o(fault_o)
     );
 

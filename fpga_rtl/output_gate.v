@@ -42,6 +42,7 @@ module output_gate #(
     output wire        alive_o,            // the host was heard in time
     output wire        shut_o,             // a fault is shutting the outputs in this clock
     output wire [15:0] fault_o,            // causes, kept
+    output wire        faulted_o,          // any of them
     output wire [31:0] fault_count_o,
     output wire [63:0] fault_time_o,
     output wire [31:0] underruns_o,
@@ -63,6 +64,7 @@ module output_gate #(
     reg [31:0] silence_q;                  // ticks left until the host counts as silent
     reg        silent_q;                   // none
     reg [`FAULT_CAUSES-1:0] fault_q;       // a new cause: a record in controller/fpga/registers.py, and its line below
+    reg        faulted_q;                  // any
     reg [31:0] rest_left_q;                // ticks for which a fault by a limit cannot be cleared
     reg        resting_q;
     reg [31:0] fault_count_q, underruns_q;
@@ -92,6 +94,8 @@ module output_gate #(
     wire       shut  = |cause;
     wire       stays = exists && wrong == {`FAULT_CAUSES{1'b0}};  // live or not: of nothing, nothing stays
     wire       open  = on_later_q[2] && stays;
+    // what a clear leaves
+    wire [`FAULT_CAUSES-1:0] rests = fault_q & OF_LIMITS[`FAULT_CAUSES-1:0] & {`FAULT_CAUSES{resting_q}};
 
     always @(posedge clk_i) begin
         if (heartbeat_i) begin
@@ -102,7 +106,8 @@ module output_gate #(
             silent_q  <= silence_q[31:1] == 31'd0;  // 0, which no host can ask for, is silence too and not 2^32 ticks
         end
 
-        fault_q <= (clear_i ? fault_q & OF_LIMITS[`FAULT_CAUSES-1:0] & {`FAULT_CAUSES{resting_q}} : fault_q) | cause;
+        fault_q   <= (clear_i ? rests : fault_q) | cause;
+        faulted_q <= (clear_i ? rests != {`FAULT_CAUSES{1'b0}} : faulted_q) || shut;
         if (cause[`FAULT_DUTY:`FAULT_SHORT_PULSE] != 5'd0) begin
             rest_left_q <= REST_TICKS;
             resting_q   <= 1'b1;
@@ -110,7 +115,7 @@ module output_gate #(
             rest_left_q <= rest_left_q - 32'd1;
             resting_q   <= rest_left_q != 32'd1;
         end
-        if (shut && fault_q == {`FAULT_CAUSES{1'b0}}) begin  // edges too many add to a fault that is there
+        if (shut && !faulted_q) begin  // edges too many add to a fault that is there
             fault_count_q <= fault_count_q + 32'd1;
             fault_time_q  <= now_i;
         end
@@ -145,6 +150,7 @@ module output_gate #(
             silence_q    <= 32'd0;
             silent_q     <= 1'b1;
             fault_q       <= {`FAULT_CAUSES{1'b0}};
+            faulted_q     <= 1'b0;
             rest_left_q   <= 32'd0;
             resting_q     <= 1'b0;
             fault_count_q <= 32'd0;
@@ -184,6 +190,7 @@ module output_gate #(
     assign shut_o      = shut;
     assign stopping_o  = state_q == STOPPING;
     assign fault_o     = {{16-`FAULT_CAUSES{1'b0}}, fault_q};
+    assign faulted_o   = faulted_q;
     assign fault_count_o = fault_count_q;
     assign fault_time_o  = fault_time_q;
     assign underruns_o   = underruns_q;

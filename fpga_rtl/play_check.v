@@ -183,6 +183,10 @@ module play_check #(
     assign live_o   = live_q;
     assign buffer_o = live_q ? landing_i : slot_buffer_i;
     assign length_o = length_q;
+
+`ifdef FORMAL
+    `include "play_check_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

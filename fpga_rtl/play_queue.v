@@ -24,7 +24,7 @@ module play_queue #(
     output wire [9:0]             first_o,
     output wire [9:0]             length_o,
     output wire [15:0]            count_o,
-    output wire [1:0]             start_o,
+    output wire                   triggered_o, scheduled_o, immediate_o,  // with valid_o: what it begins with
     output wire                   polarity_o,
     output wire [31:0]            period_ticks_o,
     output wire [31:0]            mask_o,
@@ -61,6 +61,7 @@ module play_queue #(
     reg [9:0]             first_q;
     reg [15:0]            repeats_q;
     reg [1:0]             start_q;
+    reg                   triggered_q, scheduled_q, immediate_q;
     reg                   polarity_q;
     reg [31:0]            period_q, mask_q;
     reg [63:0]            when_q;
@@ -99,6 +100,9 @@ module play_queue #(
             endcase
             if (index_later_q == 3'd5) begin
                 valid_q       <= 1'b1;
+                triggered_q   <= start_q == `START_TRIGGER;
+                scheduled_q   <= start_q == `START_TIME;
+                immediate_q   <= start_q == `START_NOW;
                 delayed_q     <= start_q != `START_TIME && when_q[31:0] != 32'd0;
                 delayed_one_q <= when_q[31:0] == 32'd1;
             end
@@ -106,6 +110,7 @@ module play_queue #(
 
         if (pop_i) begin
             valid_q         <= 1'b0;
+            {triggered_q, scheduled_q, immediate_q} <= 3'b000;
             used_q[head_q]  <= 1'b0;
             head_q          <= head_q + 3'd1;
             live_q          <= 1'b0;
@@ -120,6 +125,7 @@ module play_queue #(
         count_q <= count_q + {3'd0, push_i} - {3'd0, pop_i};
         if (drop_i || rst_i) begin
             valid_q   <= 1'b0;
+            {triggered_q, scheduled_q, immediate_q} <= 3'b000;
             fetch_q   <= 1'b0;
             fetched_q <= 1'b0;
             used_q    <= {PLAYS{1'b0}};
@@ -163,7 +169,9 @@ module play_queue #(
     assign length_o       = length_q[head_q];
     assign first_o        = first_q;
     assign count_o        = repeats_q;
-    assign start_o        = start_q;
+    assign triggered_o    = triggered_q;
+    assign scheduled_o    = scheduled_q;
+    assign immediate_o    = immediate_q;
     assign polarity_o     = polarity_q;
     assign period_ticks_o = period_q;
     assign mask_o         = mask_q;

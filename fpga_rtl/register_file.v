@@ -39,6 +39,7 @@ module register_file #(
     output wire [7:0]  write_result_o,
     output wire [31:0] data_o,             // of the register that is asked for
     // state
+    input  wire        faulted_i,          // fault_i is not 0
     input  wire        off_i,
     input  wire        quiet_i,            // nothing plays or waits
     input  wire        permitted_i,        // run permit and temperature
@@ -344,13 +345,13 @@ module register_file #(
     end
 
     wire unlocked = unlocked_q[uart_i];
-    wire arm_good = unlocked && off_i && fault_i == 16'd0 && permitted_i;
+    wire arm_good = unlocked && off_i && !faulted_i && permitted_i;
     reg [7:0] control_result;
     always @* begin
         if (!judge_i)   control_result = `RESULT_OK;
         else if (unlock_q)   control_result = key_good_q ? `RESULT_OK : `RESULT_BAD_KEY;
         else if (arm_q) control_result = !unlocked ? `RESULT_LOCKED : !off_i ? `RESULT_ARMED
-                                       : fault_i != 16'd0 ? `RESULT_FAULTED : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
+                                       : faulted_i ? `RESULT_FAULTED : !permitted_i ? `RESULT_NO_PERMIT : `RESULT_OK;
         else            control_result = disarm_q || clear_q || stop_q || trigger_q ? `RESULT_OK : `RESULT_BAD_VALUE;
     end
 
@@ -397,6 +398,10 @@ module register_file #(
     assign clear_o   = clear;
     assign stop_o    = stop;
     assign trigger_o = trigger;
+
+`ifdef FORMAL
+    `include "register_file_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

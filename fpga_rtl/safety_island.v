@@ -61,6 +61,7 @@ module safety_island #(
     output wire        alive_o,            // the host was heard in time
     output wire        shut_o,             // a fault is shutting the outputs in this clock
     output wire [15:0] fault_o,            // causes, kept
+    output wire        faulted_o,          // any of them
     output wire [31:0] fault_channels_o,   // of a short pulse or edges too many
     output wire [31:0] fault_count_o,
     output wire [63:0] fault_time_o,
@@ -107,7 +108,7 @@ module safety_island #(
     wire [15:0] fault;
     wire        run_permit     = run_permit_q[1];
     wire        temperature_ok = temperature_ok_q[1];
-    wire        arm            = arm_i && off_o && fault == 16'd0 && run_permit && temperature_ok;
+    wire        arm            = arm_i && off_o && !faulted_o && run_permit && temperature_ok;
     wire        heartbeat      = arm || (heard_i && !off_o && link_i == link_q);  // the link that armed, from its ARM on
 
     always @(posedge clk_i) begin
@@ -163,7 +164,7 @@ module safety_island #(
         .bit_ticks_i(bit_ticks_i), .drive_i(drive_i), .now_i(now_i), .ended_i(ended_i),
         .off_o(off_o), .settling_o(settling_o), .ramp_up_o(ramp_up_o), .armed_o(armed_o), .stopping_o(stopping_o),
         .ramp_down_o(ramp_down_o), .alive_o(alive_o), .shut_o(shut_o),
-        .fault_o(fault), .fault_count_o(fault_count_o), .fault_time_o(fault_time_o), .underruns_o(underruns_o),
+        .fault_o(fault), .faulted_o(faulted_o), .fault_count_o(fault_count_o), .fault_time_o(fault_time_o), .underruns_o(underruns_o),
         .emissions_o(emissions_o),
         .channel_o(channel_o), .hv_enable_o(hv_enable_o), .hv_alive_o(hv_alive_o), .focus_o(focus_o)
     );

@@ -170,7 +170,7 @@ module stage_limits #(
     wire                    wraps   = low_1_q < account[LOW_BITS-1:0];
     wire [ACCOUNT_BITS-1:0] counts  = made_q - base_q;
     wire                    too_many = new_q && counts > {{ACCOUNT_BITS-EDGE_BITS{1'b0}}, channel_edges_i};
-    wire [31:0]             edge_too_many = {31'd0, too_many} << made_turn_q;
+    reg  [31:0]             made_one_q;           // made_turn_q, one bit a channel
 
 `ifdef SYNTHESIS
     wire awake = 1'b1;
@@ -200,6 +200,7 @@ module stage_limits #(
             made_q      <= {account[ACCOUNT_BITS-1:LOW_BITS] + {{ACCOUNT_BITS-LOW_BITS-1{1'b0}}, wraps}, low_1_q};
             base_q      <= fetched_full_q ? oldest_q : {ACCOUNT_BITS{1'b0}};
             made_turn_q <= fetched_q;
+            made_one_q  <= 32'd1 << fetched_q;
             made_part_q <= fetched_part_q;
             made_last_q <= fetched_last_q;
 
@@ -244,6 +245,7 @@ module stage_limits #(
 
     reg        short_q, edges_q, total_edges_q, late_q, duty_q;
     reg [31:0] channels_q;
+    reg        none_q;                           // channels_q is 0
 
     always @(posedge clk_i) begin
         begun_q       <= part_begins;
@@ -261,7 +263,8 @@ module stage_limits #(
 
         short_q <= short_pulse != 32'd0;
         edges_q <= too_many;
-        if (clear_i || channels_q == 32'd0) channels_q <= short_pulse | edge_too_many;
+        none_q  <= (clear_i || none_q) && short_pulse == 32'd0 && !too_many;
+        if (clear_i || none_q) channels_q <= short_pulse | (made_one_q & {32{too_many}});
 
         late_q <= late;
         begins_q <= start_i;
@@ -282,6 +285,7 @@ module stage_limits #(
             level_q       <= {LEVEL_BITS{1'b0}};
             {duty_q, late_q, total_edges_q, edges_q, short_q} <= 5'd0;
             channels_q    <= 32'd0;
+            none_q        <= 1'b1;
         end
     end
 

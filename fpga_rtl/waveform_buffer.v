@@ -70,7 +70,8 @@ module waveform_buffer #(
     reg [SLOT_BITS-1:0]   check_slot_q;
     reg [SLOTS-1:0]       checked_slot_q;       // the same, a bit for each
     reg [BUFFER_BITS-1:0] check_buffer_q;
-    reg [9:0]             check_word_q, check_words_q;
+    reg [9:0]             check_word_q, check_last_q;
+    reg                   walks_q;              // a word of it is read in this clock, or owed
     reg [31:0]            expected_q;
     reg [2:0]             reading_q;            // of the three clocks a word takes
     reg                   owed_q;               // its pair is to be read in this clock, as the player had the one before
@@ -120,8 +121,7 @@ module waveform_buffer #(
     wire                   write       = write_i && !load_busy_i && count_good;
     wire [9:0]             write_word  = {chunk, 7'd0} - {6'd0, chunk, 1'b0} - {7'd0, chunk} + {3'd0, write_word_i};
 
-    wire                   reading     = check_q && check_word_q != check_words_q;
-    wire                   check_reads = (reading && !check_word_q[0]) || owed_q;
+    wire                   check_reads = (walks_q && !check_word_q[0]) || owed_q;
     wire                   fetch       = (check_q ? check_reads : read_memory) && !play_read_i;
     wire [31:0]            even, odd;
     // A word is written a clock later: its way to all blocks is a long one, and nothing reads it before its frame has ended
@@ -215,7 +215,7 @@ module waveform_buffer #(
         end
     end
 
-    wire        checked  = check_q && !reading && reading_q == 3'd0;
+    wire        checked  = check_q && !walks_q && reading_q == 3'd0;
     reg         odd_now_q;               // the word whose CRC is taken in this clock is an odd one
     reg  [31:0] data;
     always @* begin
@@ -234,9 +234,12 @@ module waveform_buffer #(
     end
 
     always @(posedge clk_i) begin
-        if (check_q)      reading_q <= {reading_q[1:0], reading};
+        if (check_q)      reading_q <= {reading_q[1:0], walks_q};
         if (reading_q[2]) odd_now_q <= !odd_now_q;
-        if (reading) check_word_q <= check_word_q + 10'd1;
+        if (walks_q) begin
+            check_word_q <= check_word_q + 10'd1;
+            walks_q      <= check_word_q != check_last_q;
+        end
         if (checked) begin
             check_q <= 1'b0;
             if (crc == expected_q) intact_q <= intact_q | checked_slot_q;
@@ -255,7 +258,8 @@ module waveform_buffer #(
             checked_slot_q <= slot_q;
             check_buffer_q <= landing_q;
             check_word_q   <= 10'd0;
-            check_words_q  <= word0_i[9:0];
+            check_last_q   <= word0_i[9:0] - 10'd1;
+            walks_q        <= 1'b1;
             expected_q     <= word1_i;
         end
 
@@ -273,7 +277,8 @@ module waveform_buffer #(
             checked_slot_q <= {SLOTS{1'b0}};
             check_buffer_q <= {BUFFER_BITS{1'b0}};
             check_word_q   <= 10'd0;
-            check_words_q  <= 10'd0;
+            check_last_q   <= 10'd0;
+            walks_q        <= 1'b0;
             expected_q     <= 32'd0;
             reading_q      <= 3'd0;
             odd_now_q      <= 1'b0;
@@ -314,6 +319,10 @@ module waveform_buffer #(
     assign landing_o       = landing_q;
     assign missing_o       = !chunks_q[play_chunk_i] || play_within_i >= chunk_words[play_chunk_i];
     assign play_data_o     = play_data_q;
+
+`ifdef FORMAL
+    `include "waveform_buffer_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

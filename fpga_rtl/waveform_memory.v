@@ -70,6 +70,9 @@ module waveform_memory #(
             assign odd_o  = beyond_q ? beyond_odd : main_odd;
         end
     endgenerate
+`ifdef FORMAL
+    `include "waveform_memory_properties.vh"
+`endif
 endmodule
 
 `default_nettype wire

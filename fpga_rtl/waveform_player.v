@@ -27,7 +27,7 @@ module waveform_player #(
     input  wire [9:0]             head_first_i,
     input  wire [9:0]             head_length_i,
     input  wire [15:0]            head_count_i,    // 0: endless
-    input  wire [1:0]             head_start_i,
+    input  wire                   head_triggered_i, head_scheduled_i, head_immediate_i,  // with head_i: what it begins with
     input  wire                   head_polarity_i,
     input  wire [31:0]            head_period_ticks_i,
     input  wire [31:0]            head_mask_i,
@@ -107,7 +107,7 @@ module waveform_player #(
 
     wire boundary  = playing_q && hold_over_q;
     wire last      = boundary && last_q;
-    wire due       = repeating_q && !delayed_q && elapsed_over_q && !wants;
+    wire due       = repeating_q && !delayed_q && elapsed_over_q && !wants;  // with the end of the last word, or later
     wire released  = delayed_q && elapsed_over_q;
     wire starts    = due || released || (wants && !delay);  // unless halted
     wire start     = starts && !halted;
@@ -115,9 +115,8 @@ module waveform_player #(
         by_trigger = 1'b0;
         wants      = 1'b0;
         if (head_i) begin
-            by_trigger = head_start_i == `START_TRIGGER && trigger_i;
-            wants      = room && (by_trigger || (head_start_i == `START_TIME && due_q)
-                                  || (head_start_i == `START_NOW && (!repeating_q || endless_q)));
+            by_trigger = head_triggered_i && trigger_i;
+            wants      = room && (by_trigger || due_q || (head_immediate_i && (!repeating_q || endless_q)));
         end
     end
     wire [16:0] next_fraction = {1'b0, fraction_q} + {1'b0, bit_period_i[15:0]};
@@ -135,29 +134,35 @@ module waveform_player #(
         before_q <= ahead_q;
         due_q    <= 1'b0;
         missed_q <= 1'b0;
-        if (head_i && head_start_i == `START_TIME) begin
+        if (head_scheduled_i) begin
             due_q    <= head_when_i == ahead_q;
             missed_q <= head_when_i < ahead_q && !pop_o;
         end
 
         // words of an emission, and the idle word behind it
-        hold_over_q <= playing_q && hold_full;
-        if (playing_q || resting_q) hold_q <= hold_q + 16'd1;
         if (playing_q || ramping_i) resting_q <= 1'b1;
         else if (hold_full)         resting_q <= 1'b0;
         if (playing_q) last_q <= number_q == final_q;
-        if (boundary) begin
-            hold_q     <= goes_on && next_fraction[16] ? 16'd1 : 16'd2;
+        hold_over_q <= playing_q && hold_full;
+        if (boundary)                                    hold_q <= goes_on && next_fraction[16] ? 16'd1 : 16'd2;
+        else if (playing_q || (resting_q && !hold_full)) hold_q <= hold_q + 16'd1;
+        else                                             hold_q <= 16'd2;
+        if (ramping_i && !playing_q) hold_q <= 16'd2;
+        if (!playing_q || last) begin        // what plays next is a first word
+            fraction_q <= bit_period_i[15:0];
+            number_q   <= 10'd0;
+            chunk_q    <= 3'd0;
+            within_q   <= 7'd0;
+        end else if (boundary) begin
             fraction_q <= next_fraction[15:0];
             number_q   <= number_q + 10'd1;
             within_q   <= within_q == 7'd124 ? 7'd0 : within_q + 7'd1;
             if (within_q == 7'd124) chunk_q <= chunk_q + 3'd1;
-            if (last || halting_q) begin
-                playing_q <= 1'b0;
-                halting_q <= 1'b0;
-            end
         end
-        if (ramping_i && !playing_q) hold_q <= 16'd2;
+        if (boundary && (last_q || halting_q)) begin
+            playing_q <= 1'b0;
+            halting_q <= 1'b0;
+        end
         underrun_q <= playing_q && live_q && missing_i;
         read_q     <= start || boundary;
 
@@ -189,12 +194,6 @@ module waveform_player #(
         end
         if (start) begin
             playing_q       <= 1'b1;
-            number_q        <= 10'd0;
-            chunk_q         <= 3'd0;
-            within_q        <= 7'd0;
-            hold_q          <= 16'd2;
-            hold_over_q     <= 1'b0;
-            fraction_q      <= bit_period_i[15:0];
             emission_time_q <= before_q;
         end
         if (halted) begin
@@ -286,7 +285,7 @@ module waveform_player #(
     assign repeating_o     = repeating_q;
     assign settled_o       = !playing_q && !resting_q;
     assign quiet_o         = !running && !resting_q;
-    assign waiting_o       = head_i && head_start_i == `START_TRIGGER && room;
+    assign waiting_o       = head_triggered_i && room;
     assign triggers_o      = triggers_q;
     assign ignored_o       = ignored_q;
     assign missed_o        = missed_count_q;

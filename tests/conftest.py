@@ -1,5 +1,6 @@
 """What the tests share: the simulated board, and one small bank of it."""
 
+import gc
 import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # two processes of tests keep two cores busy
@@ -35,6 +36,12 @@ def pytest_xdist_auto_num_workers(config):
 
 def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))
+
+
+def pytest_collection_finish():
+    """Each run of the loop begins with a garbage collection, which need not walk all tests and modules every time."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_testnodedown(node):

@@ -19,6 +19,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
 from controller.commands.output import show
 from controller.errors import BankError, UpdateError, UsageError
+from controller.fpga.bitstream import differences, read_identity
 from controller.fpga.build_hash import build_hash
 from controller.fpga.registers import PROTOCOL_VERSION
 from controller.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
@@ -180,7 +181,7 @@ def _pieces(section: Section) -> Iterator[tuple[int, int]]:
 
 
 def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path | bytes]:
-    """Bitstreams by the names under which boards load them."""
+    """Bitstreams by the names under which boards load them; each is one that the bring-up of its boards takes."""
     found = {file.name: file for file in files}
     if len(found) < len(files):
         raise UsageError("two bitstreams have the same name: boards know them by their names")
@@ -188,4 +189,6 @@ def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, P
         loaded = Path(board.gateware.bitstream).name if board.gateware else None
         if loaded and loaded not in found:
             raise UpdateError(f"board {name} loads gateware {loaded}: give it with --gateware")
+        if loaded and (complaints := differences(read_identity(found[loaded]), board, build_hash(data_folder("fpga_rtl")))):
+            raise UpdateError(f"{found[loaded]}: bring-up of board {name} would refuse it: {'; '.join(complaints)}")
     return {f"gateware/{name}": file for name, file in found.items()}

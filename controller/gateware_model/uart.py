@@ -41,6 +41,7 @@ class UartPeripheral:
         self._left = 0  # of the COBS block
         self._frame = bytearray()
         self._answer_from = 0  # the first tick in which another answer may be begun
+        self._free_from = 0  # and that in which its start bit may be
         self._fraction = 0  # of a tick, in 256ths, that the transmitter has left
 
     def receive(self, byte: int) -> tuple[bool, Frame | None]:
@@ -72,17 +73,18 @@ class UartPeripheral:
         return begins, None
 
     def answer(self, tick: int, status: bytes) -> None:
-        """Send `status` for a frame that begins in `tick`, unless the previous answer is still being sent."""
+        """Send `status` for a frame that begins in `tick`, unless the last byte of the answer before has not yet begun."""
         if tick < self._answer_from:
             return
         wire = cobs_encoded(status[:FRAME_BYTES])
         bits = "".join("0" + f"{byte:08b}"[::-1] + "1" for byte in wire)
-        start, bit_256 = tick + ANSWER_TICKS, self.timing.bit_256
+        start, bit_256 = max(tick + ANSWER_TICKS, self._free_from), self.timing.bit_256
         for number, (before, level) in enumerate(zip("1" + bits[:-1], bits, strict=True)):
             if level != before:
                 self.tx_ticks.append(start + (self._fraction + number * bit_256 >> 8))
         self._answer_from = start + (self._fraction + 10 * (len(wire) - 1) * bit_256 >> 8)
-        self._fraction = self._fraction + len(bits) * bit_256 & 0xFF
+        whole_ticks, self._fraction = divmod(self._fraction + len(bits) * bit_256, 256)
+        self._free_from = start + whole_ticks
 
     def take_tx(self, now: int) -> list[int]:
         """Remove and return the changes of the transmit line up to `now`."""

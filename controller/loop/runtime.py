@@ -93,7 +93,6 @@ def no_garbage_collection() -> Iterator[None]:
     The loop makes no reference cycles. On exit the collector is on again.
     """
     gc.collect()
-    gc.freeze()
     gc.disable()
     for length in range(1, TUPLE_LENGTHS):
         _ = [tuple([None] * length) for _ in range(FREE_TUPLES)]
@@ -101,4 +100,3 @@ def no_garbage_collection() -> Iterator[None]:
         yield
     finally:
         gc.enable()
-        gc.unfreeze()

@@ -95,14 +95,15 @@ def surface_spectrum(
     step_hz = (high_hz - low_hz) / count
     frequency: Floats = low_hz + step_hz * (np.arange(count, dtype=np.float64) + 0.5)
     density = np.empty(count)
+    weights = modes.mean_square / modes.mass_kg**2
     for start in range(0, count, BLOCK):
         if start % TRANSFORMED == 0:  # a plate that rings for 10 s has a million frequencies
             some = min(count - start, TRANSFORMED)
             ends_hz = [low_hz + step_hz * (start + 0.5), low_hz + step_hz * (start + some + 0.5)]
             slopes = zoom_fft(steps, ends_hz, some, fs=board.waveform.bit_clock_hz, axis=0)  # of dV/dt: (frequency, channel)
-        s = 2j * np.pi * frequency[start : start + BLOCK]
-        slope = slopes[start % TRANSFORMED :][:BLOCK] * driver.transfer(s)[:, None]
-        stiffness = modes.mass_kg[:, None] * (modes.angular_frequency[:, None] ** 2 + 2 * modes.decay_rate[:, None] * s + s**2)
-        velocity = (forces @ slope.T) / stiffness
-        density[start : start + BLOCK] = np.sum((velocity.real**2 + velocity.imag**2) * modes.mean_square[:, None], axis=0) * 2
+        omega = 2 * np.pi * frequency[start : start + BLOCK]
+        slope = slopes[start % TRANSFORMED :][:BLOCK] * driver.transfer(1j * omega)[:, None]
+        force2 = (forces @ slope.real.T) ** 2 + (forces @ slope.imag.T) ** 2  # (mode, frequency), as all below
+        stiffness2 = (modes.angular_frequency[:, None] ** 2 - omega**2) ** 2 + (2 * modes.decay_rate[:, None] * omega) ** 2
+        density[start : start + BLOCK] = 2 * weights @ (force2 / stiffness2)
     return frequency, density, step_hz

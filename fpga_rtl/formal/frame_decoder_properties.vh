@@ -79,6 +79,9 @@ always @* if (started_q) begin
     if (number_q > 7) assert (argument_q[15:8] == header_q[63:56]);
     if (number_q < 5) assert (header_q[39:32] == 0 && length_q[7:0] == 0);
     if (number_q < 6) assert (header_q[47:40] == 0 && length_q[15:8] == 0);
+    if (number_q > 8) header_is_known: assert (length_good_q == fits && lands_q == (header_q[23:16] == `TYPE_LOAD && header_q[15:0] == 16'hA55A && header_q[63:48] < 8));
+    if (number_q == 0) assert (!length_good_q);
+    if (word_valid_q) word_is_of_the_payload: assert (word_number_q < {1'b0, length[8:2]});
     if (word_valid_q) assert (number_q > 11 && number_q[1:0] == 0 || number_q > 1023);
     if (word_valid_q && number_q < 1024) assert (word_number_q == number_q[9:2] - 8'd3);
     if (fits && number_q > 7 && number_q < 1024)

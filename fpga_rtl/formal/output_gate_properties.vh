@@ -128,6 +128,7 @@ always @* if (started_q) begin
         if (resting_q) rest_is_counted: assert (rest_left_q == REST_TICKS - since_limit_q);
         live_is_anything_on: assert (live_q == (on || on_later_q != 3'd0 || hv_enable_q));
         if (live_q) assert (fault_q == 0 && allowed_q);
+        any_is_known: assert (faulted_o == (fault_o != 0));
         if (!silent_q) assert (fed_q && unfed_q != 0);
         if (!silent_q) silence_is_counted: assert (unfed_q == 1 ? silence_q == fed_ticks_q : {1'b0, silence_q} + unfed_q == {1'b0, fed_ticks_q} + 33'd1);
         if (!silent_q) silent_in_time: assert (unfed_q <= fed_ticks_q || unfed_q == 1);

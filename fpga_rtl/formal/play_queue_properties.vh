@@ -58,7 +58,7 @@ always @* begin
     counts = 32'hFFFFFFFF;
     case (word)
         0: begin shown = {22'd0, first_o}; counts = 32'h3FF; end
-        1: begin shown = {7'd0, polarity_o, 6'd0, start_o, count_o}; counts = 32'h103FFFF; end
+        1: begin shown = {7'd0, polarity_o, 6'd0, start_q, count_o}; counts = 32'h103FFFF; end
         2: shown = period_ticks_o;
         3: shown = mask_o;
         4: shown = when_o[31:0];
@@ -78,7 +78,9 @@ always @* if (started_q) begin
     end
     if (held_q)        in_order: assert (held_number_q == popped_q + ahead);
     if (held_q)        uses_its_buffer: assert (held_buffer_q != landing_i || landing_used_o);
-    if (valid_o)       delay_is_its: assert (delayed_o == (start_o != `START_TIME && when_o[31:0] != 0) && delayed_one_o == (when_o[31:0] == 1));
+    if (valid_o)       delay_is_its: assert (delayed_o == (start_q != `START_TIME && when_o[31:0] != 0) && delayed_one_o == (when_o[31:0] == 1));
+    begins_as_it_says: assert ({triggered_o, scheduled_o, immediate_o}
+                               == {valid_o && start_q == `START_TRIGGER, valid_o && start_q == `START_TIME, valid_o && start_q == `START_NOW});
 
     // what induction must know of the inside
     tail_follows: assert (tail_q == head_q + count_q[2:0]);

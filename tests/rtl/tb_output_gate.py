@@ -62,6 +62,7 @@ class Reference:
             "alive_o": self.alive(tick),
             "shut_o": bool(self.causes(tick, inputs)),
             "fault_o": self.fault,
+            "faulted_o": self.fault != 0,
             "fault_count_o": self.fault_count,
             "fault_time_o": self.fault_time,
             "underruns_o": self.underruns,
@@ -443,6 +444,20 @@ async def the_focus_pin_is_high_for_one_drive_word_and_each_end_is_counted(dut):
         await bench.step(bit_ticks - 1)
         await bench.step(bit_ticks + 2, ended=1, heartbeat=1)  # ends one drive word apart: high all the while
         assert int(dut.emissions_o.value) == 3
+
+
+@cocotb.test(timeout_time=100, timeout_unit="us")
+async def counters_carry_through_all_their_bits(dut):
+    """A month of emissions in a few clocks: each register is set to what it would be then."""
+    for bit in range(1, 32):
+        bench = await Bench.armed(dut)
+        dut.emissions_q.value = dut.underruns_q.value = dut.fault_count_q.value = (1 << bit) - 1
+        bench.reference.emissions = bench.reference.underruns = bench.reference.fault_count = (1 << bit) - 1
+        await bench.step(ended=1, heartbeat=1)
+        await bench.step(underrun=1)
+        await bench.step(2)
+        for counter in (dut.emissions_o, dut.underruns_o, dut.fault_count_o):
+            assert int(counter.value) == 1 << bit
 
 
 @cocotb.test(timeout_time=100, timeout_unit="us")

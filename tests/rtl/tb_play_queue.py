@@ -8,6 +8,7 @@ from clocked import after_reset, clocks, settled
 
 from controller.fpga.registers import QUEUE_PLAYS, Result, Start
 
+BEGINS = {"triggered": Start.TRIGGER, "scheduled": Start.TIME, "immediate": Start.NOW}  # flags of the head
 FETCH = 9  # ticks until the head is valid, after the push or the pop that made it the head
 
 
@@ -26,7 +27,7 @@ class Play:
             "length_o": self.length,
             "first_o": w[0] & 0x3FF,
             "count_o": w[1] & 0xFFFF,
-            "start_o": w[1] >> 16 & 3,
+            **{f"{name}_o": w[1] >> 16 & 3 == start for name, start in BEGINS.items()},
             "polarity_o": w[1] >> 24 & 1,
             "period_ticks_o": w[2],
             "mask_o": w[3],
@@ -102,8 +103,8 @@ class Bench:
             "landing_used_o": any(play.buffer == landing for play in reference.plays),
             "live_o": bool(reference.plays) and reference.plays[0].live,
         }
-        if reference.valid(self.tick):
-            expected |= reference.plays[0].fields()
+        valid = reference.valid(self.tick)
+        expected |= reference.plays[0].fields() if valid else {f"{name}_o": 0 for name in BEGINS}
         wrong = {name: (int(getattr(dut, name).value), int(value)) for name, value in expected.items()}
         wrong = {name: pair for name, pair in wrong.items() if pair[0] != pair[1]}
         assert not wrong, f"tick {self.tick}: seen and expected differ in {wrong}"

@@ -184,6 +184,7 @@ class Bench:
         for name, value in (self.inputs | {f"{name}_i": value for name, value in self.state.items()}).items():
             getattr(self.dut, name).value = value
         self.inputs["fault_i"] = self.state["fault"]
+        self.inputs["faulted_i"] = self.state["fault"] != 0
 
     def check_settings(self):
         for register, value in self.reference.settings.items():
@@ -463,6 +464,7 @@ async def random_frames_go_as_the_reference_says_and_a_reset_restores_all(dut):
         for name, bits in (*INPUTS.values(), *((name, 64) for name in TIMES.values())):
             bench.inputs[name] = random.getrandbits(bits)
         bench.inputs["fault_i"] = bench.state["fault"]
+        bench.inputs["faulted_i"] = bench.state["fault"] != 0
         if random.random() < 0.2:
             bench.turn()
         register = random.choice([*Register, *bench.reference.settings, random.getrandbits(16)])

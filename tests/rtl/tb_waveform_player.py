@@ -15,6 +15,7 @@ from controller.fpga.registers import Start
 IDLE = 0xAAAA5555
 ALL = 0xFFFFFFFF
 BIT_PERIOD = 4 << 16
+BEGINS = {"triggered": Start.TRIGGER, "scheduled": Start.TIME, "immediate": Start.NOW}  # flags of the head
 DRIVE, PINS = 4, 5  # ticks from the decision to the first word on drive_o, on the pins
 REFILL = 9  # ticks from one head of the queue to the next, at least
 
@@ -212,7 +213,9 @@ class Bench:
             dut.head_i.value = head is not None
             shown = head or Play(*(random.getrandbits(2) for _ in range(10)))  # not valid: of no account
             dut.head_buffer_i.value, dut.head_first_i.value, dut.head_length_i.value = shown.buffer, shown.first, shown.length
-            dut.head_count_i.value, dut.head_start_i.value = shown.count, int(shown.start)
+            dut.head_count_i.value = shown.count
+            for name, start in BEGINS.items():
+                getattr(dut, f"head_{name}_i").value = head is not None and head.start == start
             dut.head_polarity_i.value, dut.head_period_ticks_i.value = shown.polarity & 1, shown.period
             dut.head_mask_i.value, dut.head_when_i.value, dut.head_live_i.value = shown.mask, shown.when, shown.live & 1
             dut.head_delayed_i.value = shown.start != Start.TIME and shown.when & ALL != 0  # as play_queue finds out

@@ -16,6 +16,9 @@ from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.cli import main
 from controller.commands import update_make_release
+from controller.fpga.bitstream import Identity
+from controller.fpga.build_hash import build_hash
+from controller.fpga.build_parameters import top_parameters
 from controller.update.bank_index import read_index
 from controller.update.lock_file import BUILT, Target, read_lock, wanted
 from controller.update.release_folder import read_release
@@ -144,3 +147,33 @@ def test_tags_of_a_platform(architecture):
     assert f"cp311-abi3-linux_{architecture}" in tags
     assert "py3-none-any" in tags
     assert not any("manylinux_2_37" in tag or "musl" in tag for tag in tags)
+
+
+def test_a_bitstream_that_the_bring_up_would_refuse_is_not_released(place, capsys):
+    """A device would load it, find another panel's limits or other Verilog, and not start."""
+    board = load_board(find_board("ulx3s"))
+    file = place / "ulx3s.bit"
+
+    def released(out, **changes):
+        parameters = top_parameters(board, build_hash(ROOT / "fpga_rtl")) | changes
+        identity = Identity(board="b", top="t", device="d", seed=1, parameters=parameters, sources="0", tools={})
+        file.write_bytes(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(100))
+        return make(place, out, "--board", "ulx3s", "--gateware", file)
+
+    def refused(code, said):
+        error = capsys.readouterr().err
+        assert code == 1
+        assert error.count("\n") == 1
+        assert str(file) in error
+        assert said in error
+        assert not (place / "out").exists()
+
+    refused(released("out", BUILD_HASH=1), "bring-up of board ulx3s would refuse it: its BUILD_HASH is 0x00000001")
+    most = top_parameters(board, 0)["TOTAL_EDGES_MAX"]
+    refused(released("out", TOTAL_EDGES_MAX=most + 1), f"its TOTAL_EDGES_MAX is {most + 1}, not {most} (limits.")
+    file.write_bytes(b"gateware")
+    refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "is no bitstream of an ECP5 or iCE40")
+    file.unlink()
+    refused(make(place, "out", "--board", "ulx3s", "--gateware", file), "No such file")
+    assert released("good") == 0
+    assert (place / "good/gateware/ulx3s.bit").read_bytes() == file.read_bytes()
