@@ -19,9 +19,12 @@ from controller.touch.recording import Recording
 
 pytest_plugins = ["random_banks"]
 
-# How long an example takes says how busy the machine is, not whether the code is right.
-settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("untimed")
+# How long an example takes says how busy the machine is, not whether the code is right. A run tries the same examples as the last:
+# what it finds is of the change that was made. `--hypothesis-profile explore` tries others each time.
+untimed = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("explore", untimed, max_examples=1000)
+settings.register_profile("repeatable", untimed, derandomize=True)
+settings.load_profile("repeatable")
 
 # Files that take longest begin first, so that both processes end at about the same time.
 LONGEST = ["test_rtl.py", "test_project.py", "test_cli.py"]

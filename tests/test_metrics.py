@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from controller.commands.tables import service_table
@@ -23,6 +23,7 @@ def test_percentiles_are_those_of_the_values_within_a_bucket(values, share):
 
 
 @given(durations)
+@example([256])  # in the middle of its bucket it would be 257: as far off as a sum can be
 def test_coarse_counts_and_sum_are_those_of_the_values_within_a_bucket(values):
     histogram = LatencyHistogram()
     for value in values:
@@ -31,7 +32,8 @@ def test_coarse_counts_and_sum_are_those_of_the_values_within_a_bucket(values):
     for bound_us, count in zip(BOUNDS_US, coarse["counts"], strict=True):
         below, above = (sum(value <= 1000 * bound_us * (1 + sign / 128) for value in values) for sign in (-1, 1))
         assert below <= count <= above
-    assert coarse["sum_us"] == pytest.approx(sum(values) * 1e-3, rel=1 / 256, abs=1e-3 * len(values))
+    sum_us = sum(values) * 1e-3
+    assert coarse["sum_us"] == pytest.approx(sum_us, abs=sum_us / 256 + 0.6e-3)  # half a bucket, and half of the last digit
     assert coarse["count"] == len(values)
 
 
