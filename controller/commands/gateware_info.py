@@ -9,10 +9,11 @@ from typing import Any
 
 import msgspec
 
-from controller.board.board import load_board
+from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.commands.output import show
-from controller.fpga.bitstream import differences, read_figures, read_identity, sha256_of
+from controller.errors import ConfigError
+from controller.fpga.bitstream import Identity, differences, read_figures, read_identity, sha256_of
 from controller.fpga.build_parameters import top_parameters
 from controller.service.drivers import gateware_hash
 
@@ -26,29 +27,43 @@ def add(step: argparse.ArgumentParser) -> None:
 
 
 def gateware_info(options: argparse.Namespace) -> int:
-    """Print what a bitstream says of itself; 1 if the board would refuse it."""
+    """Print what a bitstream says of itself; 1 if the board would refuse it, or if it is not whole."""
     file = Path(options.file)
     identity, figures = read_identity(file), read_figures(file)
-    board = load_board(find_board(options.board or identity.board))
-    complaints = differences(identity, board, gateware_hash())
+    board = _board_to_compare(options.board, identity)
+    complaints = [] if board is None else differences(identity, board, gateware_hash())
     shown = ("clock_mhz", "fmax_mhz", "longest_path")
     told = {
         "file": str(file),
         "bytes": file.stat().st_size,
         "sha256": sha256_of(file),
         "identity": msgspec.to_builtins(identity),
-        "board": {"name": board.name, "parameters": top_parameters(board, gateware_hash())},
+        "board": None if board is None else {"name": board.name, "parameters": top_parameters(board, gateware_hash())},
         "figures": None if figures is None else {name: getattr(figures, name) for name in shown},
         "complaints": complaints,
     }
     show(options, told, _table)
+    if board is None:
+        print(f"haptic-panel: this computer has no board {identity.board!r}: --board compares it with another", file=sys.stderr)
     for complaint in complaints:
         print(f"haptic-panel: {file}: {complaint}", file=sys.stderr)
     return 1 if complaints else 0
 
 
+def _board_to_compare(named: str | None, identity: Identity) -> Board | None:
+    """The board that was named, or that of the bitstream, if this computer has it."""
+    if named:
+        return load_board(find_board(named))
+    try:
+        folder = find_board(identity.board)
+    except ConfigError:
+        return None
+    return load_board(folder)
+
+
 def _table(told: dict[str, Any]) -> str:
-    identity, board, figures = told["identity"], told["board"], told["figures"]
+    identity, figures = told["identity"], told["figures"]
+    board = told["board"] or {"name": "", "parameters": identity["parameters"]}
     tools = ", ".join(f"{name} {version}" for name, version in identity["tools"].items())
     lines = [
         f"{told['file']}: {told['bytes']:,} bytes, SHA-256 {told['sha256']}",
@@ -61,5 +76,6 @@ def _table(told: dict[str, Any]) -> str:
     for name, value in sorted(identity["parameters"].items()):
         wanted = board["parameters"].get(name)
         shown = [f"0x{number:08X}" if name in {"BUILD_HASH", "CHANNEL_MASK_MAX"} else number for number in (value, wanted or 0)]
-        lines.append(f"{name:<22}{shown[0]:>12}{shown[1]:>22}{'' if value == wanted else '  differs'}")
+        compared = f"{shown[1]:>22}{'' if value == wanted else '  differs'}" if told["board"] else ""
+        lines.append(f"{name:<22}{shown[0]:>12}{compared}")
     return "\n".join(lines)

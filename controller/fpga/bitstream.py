@@ -1,6 +1,7 @@
-"""What a bitstream says of itself: an identity in its header, which the FPGA skips, and a file of figures beside it.
+"""What a bitstream says of itself: an identity and a seal in its header, which the FPGA skips, and a file of figures beside it.
 
-Both FPGA families begin a bitstream with comments between FF 00 and FF, each ended by a zero byte.
+Both FPGA families begin a bitstream with comments between FF 00 and FF, each ended by a zero byte. The seal is the last of them,
+a SHA-256 of all others and of what follows: a file that was cut off or damaged on its way is found before it is loaded.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ from controller.fpga.build_parameters import top_parameters
 from controller.fpga.configuration import LIMITS
 
 KEY: Final = "Haptic-panel: "  # of the comment with the identity; tools that list comments split them at the colon
+SEAL: Final = "Haptic-panel-SHA-256: "  # of the last comment
 HEADER_BYTES: Final = 4096  # in which the comments end
+HASHED_BYTES: Final = 1 << 16  # at once
 
 
 class Identity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -87,19 +90,39 @@ def figures_path(bitstream: Path) -> Path:
     return bitstream.with_name(f"{bitstream.name}.json")
 
 
+def sealed(bitstream: bytes) -> bytes:
+    """A bitstream with its seal: the SHA-256 of its comments and of its content, as one more comment."""
+    comments, end, content = bitstream[2:].partition(b"\xff")
+    seal = SEAL + hashlib.sha256(comments + content).hexdigest()
+    return bitstream[:2] + comments + seal.encode() + b"\0" + end + content
+
+
 def read_identity(bitstream: Path) -> Identity:
-    """Identity in the header of a bitstream.
+    """Identity in the header of a bitstream that is whole.
 
     Raises
     ------
     GatewareError
-        If the file is no bitstream, or one of others.
+        If the file is no bitstream, one of others, or is not what its seal says.
     """
     with bitstream.open("rb") as file:
         header = file.read(HEADER_BYTES)
-    comments, end, _ = header[2:].partition(b"\xff")
-    if header[:2] != b"\xff\x00" or not end:
-        raise GatewareError(f"{bitstream}: is no bitstream of an ECP5 or iCE40")
+        comments, end, content = header[2:].partition(b"\xff")
+        if header[:2] != b"\xff\x00" or not end:
+            raise GatewareError(f"{bitstream}: is no bitstream of an ECP5 or iCE40")
+        identity = _identity(bitstream, comments)
+        sealed_comments, told, seal = comments.rpartition(SEAL.encode())
+        found = hashlib.sha256(sealed_comments + content)
+        while block := file.read(HASHED_BYTES):
+            found.update(block)
+    if not told:
+        raise GatewareError(f"{bitstream}: is of an earlier release, without a SHA-256 of its content: build it again")
+    if seal != found.hexdigest().encode() + b"\0":
+        raise GatewareError(f"{bitstream}: is cut off or damaged: its SHA-256 is not the one in its header; copy or build it again")
+    return identity
+
+
+def _identity(bitstream: Path, comments: bytes) -> Identity:
     for comment in comments.split(b"\0"):
         if comment.startswith(KEY.encode()):
             try:

@@ -25,7 +25,7 @@ from controller.board.board import Board
 from controller.board.fpga_part import TOP, FpgaPart
 from controller.board.lookup import data_folder
 from controller.errors import ConfigError, GatewareError
-from controller.fpga.bitstream import Identity
+from controller.fpga.bitstream import Identity, sealed
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import top_parameters
 
@@ -220,7 +220,7 @@ def _net_name(cell: str) -> str:
 
 
 def pack(design: Design, placement: Placement, work: Path) -> bytes:
-    """The bitstream of a placement, with its identity in the header."""
+    """The bitstream of a placement, with its identity and its seal in the header."""
     comment = design.identity(placement.seed).comment().encode()
     if design.part.family == "ecp5":
         text = placement.text + b"\n.comment " + comment + b"\n"
@@ -228,7 +228,7 @@ def pack(design: Design, placement: Placement, work: Path) -> bytes:
         text = b".comment\n" + comment + b"\n" + placement.text.partition(b"\n")[2]
     (work / PLACED).write_bytes(text)
     _run(design.packing(), work)
-    return (work / PACKED).read_bytes()
+    return sealed((work / PACKED).read_bytes())
 
 
 def _run(command: Sequence[str], work: Path) -> None:

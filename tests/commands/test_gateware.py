@@ -21,7 +21,7 @@ from controller.board.lookup import data_folder
 from controller.cli import main
 from controller.errors import GatewareError
 from controller.fpga import bitstream_build
-from controller.fpga.bitstream import KEY, Identity, read_identity
+from controller.fpga.bitstream import KEY, Identity, read_identity, sealed
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import top_parameters
 
@@ -220,9 +220,45 @@ def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tool
         assert complaint in said(capsys, "info", others, code=1)
     assert "No such file" in said(capsys, "info", tmp_path / "no.bit", code=1)
     assert main(["gateware", "build", "--board", "ulx3s", "--out", "own.bit"]) == 0
-    with Path("own.bit").open("ab") as file:
-        file.write(b"\xff")
+    figures = json.loads(Path("own.bit.json").read_text())
+    Path("own.bit.json").write_text(json.dumps(figures | {"sha256": "0"}))
     assert "own.bit.json: tells of another file than own.bit" in said(capsys, "info", "own.bit", code=1)
+
+
+def test_a_bitstream_that_is_not_whole_is_told_and_not_loaded(tools, panel, loader, capsys, tmp_path):
+    """openFPGALoader would write it, into the flash too; the FPGA would find its CRC wrong, or wait for the rest."""
+    out = panel / "ulx3s.bit"
+    assert main(["gateware", "build", "--board", str(panel), "--out", str(out)]) == 0
+    whole = out.read_bytes()
+    unsealed = whole.replace(whole[whole.index(b"Haptic-panel-SHA-256") : whole.index(BODY) - 1], b"")
+    for content, complaint in (
+        (whole[:-9], "is cut off or damaged"),
+        (whole[:-9] + b"\0" + whole[-8:], "is cut off or damaged"),
+        (unsealed, "is of an earlier release, without a SHA-256 of its content: build it again"),
+    ):
+        out.write_bytes(content)
+        assert complaint in said(capsys, "info", out, "--board", panel, code=1)
+        for more in ([], ["--flash"]):
+            assert complaint in said(capsys, "load", "--board", panel, *more, code=1)
+    assert loader() == []
+    out.write_bytes(whole)
+    assert main(["gateware", "load", "--board", str(panel)]) == 0
+
+
+def test_a_bitstream_of_a_board_that_this_computer_does_not_have_says_what_it_is(tools, panel, capsys):
+    text = (panel / "board.toml").read_text()
+    (panel / "board.toml").write_text(text.replace('name = "ulx3s"', 'name = "elsewhere"'))
+    assert main(["gateware", "build", "--board", str(panel), "--out", "own.bit"]) == 0
+    capsys.readouterr()
+    assert main(["gateware", "info", "own.bit"]) == 0
+    printed = capsys.readouterr()
+    assert "limits of board elsewhere" in printed.out
+    assert "differs" not in printed.out
+    assert printed.err == "haptic-panel: this computer has no board 'elsewhere': --board compares it with another\n"
+    assert main(["gateware", "info", "own.bit", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["board"] is None
+    assert main(["gateware", "info", "own.bit", "--board", str(panel)]) == 0
+    assert "this computer has no board" not in capsys.readouterr().err
 
 
 NUMBERS = st.integers(0, 2**32 - 1)
@@ -236,8 +272,24 @@ def test_any_identity_fits_the_header_and_is_read_again(tmp_path, board, device,
     assert comment.isascii()
     assert min(comment) >= " "
     file = tmp_path / "any.bit"
-    file.write_bytes(b"\xff\x00Part: x\0" + comment.encode() + b"\0\xff" + BODY)
+    whole = sealed(b"\xff\x00Part: x\0" + comment.encode() + b"\0\xff" + BODY)
+    file.write_bytes(whole)
     assert read_identity(file) == identity
+
+
+@given(st.data())
+def test_a_file_that_was_cut_off_or_has_a_wrong_bit_anywhere_is_refused(tmp_path_factory, data):
+    identity = Identity(board="b", top="t", device="d", seed=1, parameters={"SLOTS": 16}, sources="0", tools={})
+    whole = sealed(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(range(256)) * 300)  # more than is read at once
+    file = tmp_path_factory.getbasetemp() / "damaged.bit"
+    header = whole.index(b"\xff", 2)
+    place = data.draw(st.integers(0, header) | st.integers(header, len(whole) - 1))
+    damaged = bytearray(whole)
+    damaged[place] ^= 1 << data.draw(st.integers(0, 7))
+    for content in (damaged, whole[:place], whole + b"\0"):
+        file.write_bytes(content)
+        with pytest.raises(GatewareError, match=re.escape(str(file))):
+            read_identity(file)
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.cli import main
 from controller.commands import update_make_release
-from controller.fpga.bitstream import Identity
+from controller.fpga.bitstream import Identity, sealed
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import top_parameters
 from controller.update.bank_index import read_index
@@ -157,7 +157,7 @@ def test_a_bitstream_that_the_bring_up_would_refuse_is_not_released(place, capsy
     def released(out, **changes):
         parameters = top_parameters(board, build_hash(ROOT / "fpga_rtl")) | changes
         identity = Identity(board="b", top="t", device="d", seed=1, parameters=parameters, sources="0", tools={})
-        file.write_bytes(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(100))
+        file.write_bytes(sealed(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(100)))
         return make(place, out, "--board", "ulx3s", "--gateware", file)
 
     def refused(code, said):
