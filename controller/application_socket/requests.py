@@ -19,7 +19,7 @@ from controller.application_socket.switched_off import SwitchedOff
 from controller.application_socket.tickets import FULL
 from controller.board.board import Board
 from controller.board.descriptions import type_info
-from controller.board.validation import explain
+from controller.board.validation import NO_JSON, explain
 from controller.errors import ControllerError
 from controller.log import Event, log
 from controller.loop.commands import PanelControl
@@ -124,7 +124,7 @@ class Requests:
         except UnicodeDecodeError:
             self._refuse_invalid(client, self._id_of(line), "not UTF-8")
             return
-        except (msgspec.DecodeError, RecursionError) as error:
+        except NO_JSON as error:
             self._refuse_invalid(client, self._id_of(line), _why_invalid(line, error)[:REASON_CHARACTERS])
             return
         if isinstance(request, Play):
@@ -256,7 +256,7 @@ class Requests:
         """Id of a line that is refused; None if it has none that can be read."""
         try:
             return self._ids.decode(line).id
-        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        except NO_JSON:
             return None
 
 
@@ -264,6 +264,6 @@ def _why_invalid(line: memoryview, error: Exception) -> str:
     """What is wrong with a line that is no request."""
     try:
         value = msgspec.json.decode(line)  # also what follows the place at which the typed decoder stopped
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as malformed:
+    except NO_JSON as malformed:
         return f"not valid JSON: {malformed}"
     return explain(str(error), value, AnyRequest) if isinstance(value, dict) else "must be a JSON object"

@@ -15,6 +15,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.panel_state import PanelState
+from controller.board.validation import NO_JSON
 from controller.errors import ControllerError
 
 FOLDER: Final = Path("/run/haptic-panel")  # RuntimeDirectory= of the unit
@@ -143,7 +144,7 @@ def read_status(file: Path) -> PanelStatus | None:
         return None
     except OSError as error:
         raise ControllerError(f"{file}: cannot be read ({error.strerror})") from error
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+    except NO_JSON as error:
         raise ControllerError(f"{file}: is no status of a panel that this software knows: {error}") from error
 
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Final
 
+import msgspec
 from msgspec.inspect import (
     CustomType,
     DictType,
@@ -25,6 +26,11 @@ from msgspec.inspect import (
 
 from controller.board.descriptions import choices, described, keys_of, structs_of, type_info, unit_of
 
+NO_JSON: Final = (
+    msgspec.DecodeError,
+    UnicodeDecodeError,
+    RecursionError,
+)  # what msgspec says of bytes that do not fit
 MAX_SHOWN = 60  # characters of a refused value
 MAX_MATCHED = 64  # characters of a name for which a near one is searched: no valid name is longer, and a client may send 8 KiB
 

@@ -14,6 +14,7 @@ from typing import Final
 import msgspec
 
 from controller.board.board import Board
+from controller.board.validation import NO_JSON
 from controller.errors import GatewareError
 from controller.fpga.build_parameters import top_parameters
 from controller.fpga.configuration import LIMITS
@@ -127,7 +128,7 @@ def _identity(bitstream: Path, comments: bytes) -> Identity:
         if comment.startswith(KEY.encode()):
             try:
                 return msgspec.json.decode(comment.removeprefix(KEY.encode()), type=Identity)
-            except msgspec.DecodeError as error:
+            except NO_JSON as error:
                 raise GatewareError(f"{bitstream}: its identity is damaged, or of another release ({error})") from error
     raise GatewareError(f"{bitstream}: does not say what it is: build it with `haptic-panel gateware build`")
 
@@ -145,7 +146,7 @@ def read_figures(bitstream: Path) -> Figures | None:
         return None
     try:
         figures = msgspec.json.decode(path.read_bytes(), type=Figures)
-    except msgspec.DecodeError as error:
+    except NO_JSON as error:
         raise GatewareError(f"{path}: is damaged, or of another release ({error})") from error
     if figures.sha256 != sha256_of(bitstream):
         raise GatewareError(f"{path}: tells of another file than {bitstream.name}: their SHA-256 differ")

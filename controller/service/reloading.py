@@ -16,6 +16,7 @@ from typing import Self
 
 import msgspec
 
+from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, ControllerError
 
 NAME = "reload"
@@ -127,5 +128,5 @@ def _folder(environment: Mapping[str, str]) -> Path | None:
 def _read(file: Path) -> Reloaded:
     try:
         return msgspec.json.decode(file.read_bytes(), type=Reloaded)
-    except (OSError, msgspec.DecodeError) as error:
+    except (OSError, *NO_JSON) as error:
         raise ControllerError(f"{file}: {error}: does the service run?") from error

@@ -11,6 +11,7 @@ from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey,
 from cryptography.hazmat.primitives.serialization import BestAvailableEncryption, Encoding, PrivateFormat, load_pem_private_key
 from securesystemslib.signer import CryptoSigner, Key, SSlibKey
 
+from controller.board.validation import NO_JSON
 from controller.errors import UpdateError
 from controller.update.durable import write_durably
 
@@ -99,7 +100,7 @@ def read_public(file: Path) -> Key:
         raise UpdateError(
             f"{file}: cannot be read ({error.strerror}): it is the public part that belongs to a key (*{PUBLIC})"
         ) from error
-    except (msgspec.DecodeError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except (*NO_JSON, KeyError, TypeError, ValueError, AttributeError) as error:
         raise UpdateError(f"{file}: is no public part of a key, as `haptic-panel update repository key` makes it") from error
     key.unrecognized_fields[OWNER] = owner
     return key

@@ -13,6 +13,7 @@ import msgspec
 from msgspec import Meta
 
 from controller.board.records import Record, as_record
+from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
 from controller.update.layout import RELEASE_NAME
 
@@ -170,7 +171,7 @@ def read_manifest(data: bytes, whence: str) -> Manifest:
         if not isinstance(tables, dict):
             raise ConfigError(f"{whence}: is not an object")
         manifest = as_record(f"{whence}: ", tables, Manifest)
-    except (msgspec.DecodeError, RecursionError) as error:
+    except NO_JSON as error:
         raise UpdateError(f"{whence}: is not JSON: {error}") from error
     except ConfigError as error:
         raise UpdateError(str(error)) from error

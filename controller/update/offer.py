@@ -8,6 +8,7 @@ from typing import Any, Final
 import msgspec
 
 from controller.board.records import as_record
+from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
 from controller.update.installed import manifest_of
 from controller.update.layout import Layout
@@ -130,5 +131,5 @@ def _channel(data: bytes, whence: str) -> Channel:
         if not isinstance(tables, dict):
             raise UpdateError(f"{whence}: is not an object")
         return as_record(f"{whence}: ", tables, Channel)
-    except (msgspec.DecodeError, RecursionError, ConfigError) as error:
+    except (*NO_JSON, ConfigError) as error:
         raise UpdateError(f"{whence}: is no channel: {error}") from error

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from controller.board.board import load_board
@@ -220,7 +220,11 @@ def test_what_is_no_bitstream_of_ours_or_not_the_one_of_its_figures_is_told(tool
         assert complaint in said(capsys, "info", others, code=1)
     assert "No such file" in said(capsys, "info", tmp_path / "no.bit", code=1)
     assert main(["gateware", "build", "--board", "ulx3s", "--out", "own.bit"]) == 0
-    figures = json.loads(Path("own.bit.json").read_text())
+    whole = Path("own.bit.json").read_bytes()
+    for damaged in (b"", whole[:-2], whole.replace(b"ulx3s", b"\xe2lx3s", 1), b"[" * 100_000):
+        Path("own.bit.json").write_bytes(damaged)
+        assert "own.bit.json: is damaged, or of another release" in said(capsys, "info", "own.bit", code=1)
+    figures = json.loads(whole)
     Path("own.bit.json").write_text(json.dumps(figures | {"sha256": "0"}))
     assert "own.bit.json: tells of another file than own.bit" in said(capsys, "info", "own.bit", code=1)
 
@@ -277,16 +281,18 @@ def test_any_identity_fits_the_header_and_is_read_again(tmp_path, board, device,
     assert read_identity(file) == identity
 
 
-@given(st.data())
-def test_a_file_that_was_cut_off_or_has_a_wrong_bit_anywhere_is_refused(tmp_path_factory, data):
-    identity = Identity(board="b", top="t", device="d", seed=1, parameters={"SLOTS": 16}, sources="0", tools={})
-    whole = sealed(b"\xff\x00" + identity.comment().encode() + b"\0\xff" + bytes(range(256)) * 300)  # more than is read at once
-    file = tmp_path_factory.getbasetemp() / "damaged.bit"
-    header = whole.index(b"\xff", 2)
-    place = data.draw(st.integers(0, header) | st.integers(header, len(whole) - 1))
-    damaged = bytearray(whole)
-    damaged[place] ^= 1 << data.draw(st.integers(0, 7))
-    for content in (damaged, whole[:place], whole + b"\0"):
+IDENTITY = Identity(board="b", top="t", device="d", seed=1, parameters={"SLOTS": 16}, sources="0", tools={})
+WHOLE = sealed(b"\xff\x00" + IDENTITY.comment().encode() + b"\0\xff" + bytes(range(256)) * 300)  # more than is read at once
+HEADER = WHOLE.index(b"\xff", 2)
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.integers(0, HEADER) | st.integers(HEADER, len(WHOLE) - 1), st.integers(0, 7))
+@example(WHOLE.index(b'"b"') + 1, 7)  # no UTF-8
+def test_a_file_that_was_cut_off_or_has_a_wrong_bit_anywhere_is_refused(tmp_path, place, bit):
+    file, damaged = tmp_path / "damaged.bit", bytearray(WHOLE)
+    damaged[place] ^= 1 << bit
+    for content in (damaged, WHOLE[:place], WHOLE + b"\0"):
         file.write_bytes(content)
         with pytest.raises(GatewareError, match=re.escape(str(file))):
             read_identity(file)

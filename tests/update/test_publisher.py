@@ -129,6 +129,9 @@ def test_one_key_cannot_count_as_two(keys):
     key_id = read_public(public).keyid
     public.write_text(text.replace(key_id, key_id[::-1]))
     refused(lambda: read_public(public), "alice.pub: is no public part of a key")
+    for damaged in (text.encode().replace(b"alice", b"\xe2lice"), b"[" * 100_000, b""):
+        public.write_bytes(damaged)
+        refused(lambda: read_public(public), "alice.pub: is no public part of a key")
 
 
 def draft(repository, *folders, channel="stable"):

@@ -15,7 +15,7 @@ from tuf.api.metadata import Metadata, MetaFile, Root, Snapshot, Targets, Timest
 from controller.errors import UpdateError
 from controller.update import clock
 from controller.update.fetch import check, fetch
-from controller.update.manifest import MANIFEST_BYTES_MAX
+from controller.update.manifest import MANIFEST_BYTES_MAX, Channel
 from controller.update.settings import UpdateSettings
 
 ONE = {"wheels/a.whl": b"wheel one", "boards/b/board.toml": b"board"}
@@ -253,6 +253,18 @@ def test_names_that_leave_the_release_are_refused(case):
         case.publisher.targets[case.two.target] = json.dumps(data).encode()
         case.publisher.publish()
         case.refused("is no path inside of a release")
+
+
+@pytest.mark.parametrize("content", [b"", b'{"version": "1', b'{"version": "\xe2"}', b"\xff\xfe", b"[" * 50_000])
+def test_a_manifest_or_a_channel_that_is_no_json_is_refused(case, content):
+    manifest = case.publisher.targets[case.two.target]
+    case.publisher.targets[case.two.target] = content
+    case.publisher.publish()
+    case.refused(f"{case.two.target}: is not JSON")
+    case.publisher.targets[case.two.target] = manifest
+    case.publisher.targets[Channel.target("stable")] = content
+    case.publisher.publish()
+    case.refused("is no channel")
 
 
 def test_a_huge_manifest_is_refused_unread(case):
