@@ -19,8 +19,9 @@ from controller.touch.recording import Recording
 
 pytest_plugins = ["random_banks"]
 
-# How long an example takes says how busy the machine is, not whether the code is right. A run tries the same examples as the last:
-# what it finds is of the change that was made. `--hypothesis-profile explore` tries others each time.
+# How long an example takes says how busy the machine is, not whether the code is right: a test with health checks of its own
+# suppresses `too_slow` too. Every run tries the same examples, so that a failure comes from a change of the code;
+# `--hypothesis-profile explore` tries others each time.
 untimed = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("explore", untimed, max_examples=1000)
 settings.register_profile("repeatable", untimed, derandomize=True)

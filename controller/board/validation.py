@@ -26,11 +26,8 @@ from msgspec.inspect import (
 
 from controller.board.descriptions import choices, described, keys_of, structs_of, type_info, unit_of
 
-NO_JSON: Final = (
-    msgspec.DecodeError,
-    UnicodeDecodeError,
-    RecursionError,
-)  # what msgspec says of bytes that do not fit
+# What msgspec raises for bytes that are not JSON, or not of the type that was asked for
+NO_JSON: Final = (msgspec.DecodeError, UnicodeDecodeError, RecursionError)
 MAX_SHOWN = 60  # characters of a refused value
 MAX_MATCHED = 64  # characters of a name for which a near one is searched: no valid name is longer, and a client may send 8 KiB
 

@@ -51,7 +51,7 @@ def gateware_info(options: argparse.Namespace) -> int:
 
 
 def _board_to_compare(named: str | None, identity: Identity) -> Board | None:
-    """The board that was named, or that of the bitstream, if this computer has it."""
+    """The board that was named; else that of the bitstream, None if this computer does not have it."""
     if named:
         return load_board(find_board(named))
     try:

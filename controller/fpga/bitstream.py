@@ -104,7 +104,7 @@ def read_identity(bitstream: Path) -> Identity:
     Raises
     ------
     GatewareError
-        If the file is no bitstream, one of others, or is not what its seal says.
+        If the file is no bitstream, has no identity or no seal, or was cut off or damaged since it was sealed.
     """
     with bitstream.open("rb") as file:
         header = file.read(HEADER_BYTES)

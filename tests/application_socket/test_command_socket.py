@@ -462,7 +462,7 @@ junk = st.binary(max_size=60) | st.sampled_from([b"\n", b"{}\n", b'{"kind":"play
 sent = st.lists(st.tuples(st.integers(0, 2), valid | junk, st.integers(0, 3)), max_size=30)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(sent, st.randoms(use_true_random=False))
 def test_whatever_clients_send_every_line_is_answered_once_and_no_exception_comes(panel_with, read_all, chunks, random):
     """Lines of three clients in any pieces, with turns and outcomes in any order in between."""

@@ -60,7 +60,7 @@ def test_verify_refuses_flips_all_over_the_padding(bank_path):
         assert refusal(bank_path, 8 * offset + offset % 8) != "accepted"
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], deadline=None)
 @given(data=st.data())
 def test_verify_refuses_a_flip_of_any_bit(bank_path, data):
     assert refusal(bank_path, data.draw(st.integers(0, 8 * bank_path.stat().st_size - 1))) != "accepted"

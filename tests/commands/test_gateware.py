@@ -268,7 +268,7 @@ def test_a_bitstream_of_a_board_that_this_computer_does_not_have_says_what_it_is
 NUMBERS = st.integers(0, 2**32 - 1)
 
 
-@settings(max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=50, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.text(max_size=40), st.text(max_size=40), NUMBERS, st.dictionaries(st.text(max_size=20), NUMBERS, max_size=9))
 def test_any_identity_fits_the_header_and_is_read_again(tmp_path, board, device, seed, parameters):
     identity = Identity(board=board, top="t", device=device, seed=seed, parameters=parameters, sources="0", tools={})
@@ -286,7 +286,7 @@ WHOLE = sealed(b"\xff\x00" + IDENTITY.comment().encode() + b"\0\xff" + bytes(ran
 HEADER = WHOLE.index(b"\xff", 2)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.integers(0, HEADER) | st.integers(HEADER, len(WHOLE) - 1), st.integers(0, 7))
 @example(WHOLE.index(b'"b"') + 1, 7)  # no UTF-8
 def test_a_file_that_was_cut_off_or_has_a_wrong_bit_anywhere_is_refused(tmp_path, place, bit):

@@ -249,7 +249,7 @@ def test_the_page_names_every_setting_of_the_script():
 FILES = sorted(path for path in AS_THE_PAGE_SAYS if path != "usr/bin/vcgencmd")
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=60)
 @given(st.sampled_from(FILES), st.one_of(st.text(), st.from_regex(r"[-0-9a-f,]{1,9}\n?", fullmatch=True)))
 @example("sys/module/spi_bcm2835/parameters/polling_limit_us", "²")
 @example("proc/sys/kernel/osrelease", "\x00")

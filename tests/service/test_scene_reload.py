@@ -427,7 +427,7 @@ def lied_to(board, folder, bank, monkeypatch):
         helper.close()
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.data())
 def test_whatever_the_helper_answers_the_loop_gets_a_scene_that_is_right_or_a_line(board, folder, lied_to, data):
     answer = bytearray(scene_data(board, folder))
