@@ -38,6 +38,10 @@ class Refused(LinkError):
         self.result = result
 
 
+class OutOfStep(LinkError):
+    """The FPGA's queue holds other plays than this host had accepted."""
+
+
 class HostSilent(FaultError):
     """The FPGA switched off because it got no heartbeat in time: the only fault that the host may clear by itself."""
 
@@ -110,8 +114,8 @@ class Exchange:
         """
         return self._check(lengths, self._exchange(lengths), raise_faults)
 
-    def deliver(self, lengths: Sequence[int], loads: int = 0) -> None:
-        """Send the frames packed in `sent` of which nobody needs a status; raises as `send`.
+    def deliver(self, lengths: Sequence[int], loads: int = 0) -> int:
+        """Send the frames packed in `sent`, of whose statuses only few fields are needed; raises as `send`.
 
         Parameters
         ----------
@@ -120,10 +124,17 @@ class Exchange:
         loads : int
             This many frames at the beginning are LOADs before their STORE, which succeeds only if everything that it stores
             arrived intact: their answers are not checked if all after them are good. All frames after them are short.
+
+        Returns
+        -------
+        int
+            Where the last answer begins in `received`.
         """
         sequence = self._exchange(lengths)
-        if not statuses_good(self.received, sum(lengths[: loads + 1]), len(lengths) - loads - 1, DONE, sequence + loads):
+        start, count = sum(lengths[: loads + 1]), len(lengths) - loads - 1
+        if not statuses_good(self.received, start, count, DONE, sequence + loads):
             self._check(lengths, sequence, True)  # raises: it finds the first bad answer, which has the reason
+        return start + (count - 1) * FRAME_BYTES
 
     def send_short(self, end: int, *, raise_faults: bool = True) -> Status:
         """Send the short frames packed in `sent` from 0 to `end`; `raise_faults`, result and errors as in `send`."""

@@ -107,6 +107,7 @@ class Playback:
         self._slots = self._new_slots(slots)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
+        session.never_began = self._never_began
 
     @property
     def reuse_m(self) -> float:
@@ -276,7 +277,7 @@ class Playback:
             return
         self.accepted = None
         called_ns, blocked_ns = time.perf_counter_ns(), self._session.link.blocked_ns
-        trigger_s = self._session.link.trigger()
+        trigger_s = self._session.trigger()
         self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.link.blocked_ns - blocked_ns))
 
     def reset(self) -> None:
@@ -288,6 +289,12 @@ class Playback:
         self.accepted = None
         self.repeating = False
         self.occupancy.reset()
+
+    def _never_began(self, repeats: bool) -> None:
+        """What was started last has not begun in the FPGA, which repeats an emission or not: spots begin anew."""
+        if self.occupancy.repetition is not None and not repeats:
+            self.occupancy.repetition = None
+            self.repeating = False
 
     def _plan(self, batch: Batch, begun_s: float, predicted: bool, points: list[Point] | None) -> Plan:
         """Where and when a batch can be played: as a play command alone if that is enough, else with an upload before it.
