@@ -178,6 +178,18 @@ class Session(Supervision):
         self.belief.forget()
         return super().arm()
 
+    def disarm(self) -> float:
+        """As `Supervision.disarm`; what was started since the last heartbeat is compared with what the FPGA has begun before."""
+        if self._armed:
+            try:
+                status = super().heartbeat()
+            except LinkError:
+                pass  # it is told to disarm all the same
+            else:
+                self.belief.at(status.timestamp_ticks)
+                self._compare(status)
+        return super().disarm()
+
     def heartbeat(self) -> Status:
         """As `Supervision.heartbeat`; what the FPGA has in its queue, and has begun, is compared with what this host believes.
 
@@ -252,7 +264,8 @@ class Session(Supervision):
         mask: int,
     ) -> None:
         """Have a play accepted, with its upload if there is a waveform; raises as `upload_and_play`."""
-        messages, period_ticks = self._messages, self.timing.period_ticks(period_s)
+        messages = self._messages
+        period_ticks = 0 if count == 1 else self.timing.period_ticks(period_s)
         failure: LinkError = OutOfStep("the FPGA's queue holds other plays than were accepted, also after a STOP")
         for again in REPETITIONS:
             sequence, stopped = self.exchange.sequence, stop or again
@@ -303,6 +316,7 @@ class Session(Supervision):
                 waveform = None
         self.exchange.stop()
         raise failure
+
     def _in_step(self, answer: int, start: Start, when_ticks: int, count: int, stopped: bool) -> bool:
         """Whether the queue holds what was accepted, the new play included, by the answer behind it; if not, it is emptied."""
         belief, received = self.belief, self.exchange.received
