@@ -68,12 +68,18 @@ def _drift_line(drift: dict[str, Any] | None) -> list[str]:
 
 
 def _became(figures: dict[str, Any]) -> list[str]:
-    """Emissions that were due, and waveforms sent ahead, by outcome."""
-    return [
+    """Emissions that were due, and waveforms sent ahead, by outcome; where the FPGA was found in another state than believed."""
+    lines = [
         f"due for fingers, spots and commands: {figures['due']}, of which {figures['foci']} played; "
         f"waveforms sent ahead: {figures['prefetched']}, of which {figures['prefetch_wasted']} not played",
-        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        f"skipped: {_counts(figures['skipped'])}",
     ]
+    happened = {name: count for name, count in figures["link"].items() if count}
+    return [*lines, f"on the link: {_counts(happened)}"] if happened else lines
+
+
+def _counts(counts: dict[str, int]) -> str:
+    return ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in counts.items())
 
 
 def service_table(figures: dict[str, Any]) -> str:

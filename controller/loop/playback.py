@@ -16,6 +16,7 @@ from controller.fpga.exchange import DAMAGED, Refused
 from controller.fpga.frames import ReadyFrames
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
+from controller.log import Event, log
 from controller.loop.commands import Outcome
 from controller.loop.host_timing import DeliveryTime, HostTiming
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
@@ -107,6 +108,7 @@ class Playback:
         self._slots = self._new_slots(slots)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
+        self._lost = 0  # times that an emission was found not to have begun
         session.never_began = self._never_began
 
     @property
@@ -295,6 +297,14 @@ class Playback:
         if self.occupancy.repetition is not None and not repeats:
             self.occupancy.repetition = None
             self.repeating = False
+        self._lost += 1
+        if not self._lost & (self._lost - 1):  # at powers of two
+            link = self._counters.link
+            log(
+                f"{self._lost} emissions so far never began: triggers that the FPGA did not see {link.triggers_lost}, that started "
+                f"nothing {link.triggers_ignored}, not of this host {link.triggers_stray}, times missed {link.plays_missed}",
+                Event.EMISSIONS_LOST,
+            )
 
     def _plan(self, batch: Batch, begun_s: float, predicted: bool, points: list[Point] | None) -> Plan:
         """Where and when a batch can be played: as a play command alone if that is enough, else with an upload before it.
