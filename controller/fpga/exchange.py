@@ -170,7 +170,7 @@ class Exchange:
             self.control(Control.STOP)
 
     def control(self, command: Control, *, raise_faults: bool = True) -> Status:
-        """Send a command that may be given twice (not ARM, not TRIGGER), up to three times; `raise_faults` and errors as in `send`."""
+        """Send a command that may be given twice (neither ARM nor TRIGGER), up to three times; the rest as in `send`."""
 
         def send(_: bool) -> Status:
             end = frames.pack_control(self.sent, 0, self.sequence, command)

@@ -178,7 +178,7 @@ class Session(Supervision):
         LinkError
             If every attempt was damaged.
         """
-        self.exchange.retry(lambda _: self._commanded(Control.STOP))
+        self.exchange.control(Control.STOP)
 
     def trigger(self) -> float:
         """Start the play at the head of the queue; returns the time of the trigger's edge, on the loop's clock."""
