@@ -189,6 +189,7 @@ class EventLoop:
                     except (LinkError, FaultError) as error:
                         self._recover(error)
                         next_s = self._clock.now_s()
+                        self._progress(next_s)  # the next turn may arm already
             finally:
                 self._switch_off()
 

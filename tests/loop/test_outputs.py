@@ -297,3 +297,10 @@ def test_outputs_are_never_said_to_be_off_while_they_are_on(panel, board, seed):
 
     made.damage = damage
     made.run()
+
+
+def test_a_failure_is_seen_before_the_outputs_are_armed_again(panel):
+    made = panel(at=[(0.3, lambda made: setattr(made.clock, "_now_s", made.clock.now_s() + 0.25))])
+    made.run()
+    ramp = (PanelState.RAMPING, ON)
+    assert states(made) == [ramp, (PanelState.ARMED, ON), (PanelState.FAULTED, OFF), ramp, (PanelState.ARMED, ON)]
