@@ -143,7 +143,7 @@ class Bank:
     def snap_m(self, board: Board) -> float:
         """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says.
 
-        A bank without responses has nothing else to play: its cells are played as far as was chosen with it, whatever the board says.
+        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case.
         """
         choice = self.header.choice if board.compose.method == "auto" or not self.composes else None
         if choice is None and not self.composes:

@@ -2,10 +2,10 @@
 
     python -m controller.benchmark.snapping
 
-Places are drawn all over the plate. Amplitude lost is that of the words that the device plays, places rounded to its lattice, against
-the sign of the exact response at the very place. Time is that of the host's work for an upload, from the place to finished frames.
-Memory is what of the bank is resident after a finger was at all places. Times and memory are those of a process of its own for each
-setting; settings take turns.
+Places are drawn all over the plate. Amplitude lost is that of the words that the device plays, places rounded to its lattice,
+against the sign of the exact response at the very place. Time is that of the host's work for an upload, from the place to
+finished frames. Memory is what of the bank is resident after a finger was at all places. Times and memory are those of a process
+of its own for each setting.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def _in_process(board: Board, snap_mm: float, places: int, seed: int, kernel: st
 def snapping_table(figures: dict[str, Any]) -> str:
     """The figures as the table of the README."""
     lines = [
-        "| `snap_mm` | lost: median / 95 % / worst | host time, kernel compiled: median / 99 % | NumPy alone | resident of the bank |",
+        "| `snap_mm` | lost: median / 95 % / worst | kernel compiled: median / 99 % | NumPy alone | resident |",
         "|---|---|---|---|---|",
     ]
     for snap_mm, row in figures["snaps"].items():
@@ -160,10 +160,10 @@ def main() -> None:
     if options.cost_of is not None:
         with Bank.open(bank_path(board), board) as bank:
             places_m = np.array(random_points(board, options.seed, options.places))
-            print(json.dumps(cost(board, bank, options.cost_of, places_m)))
+            sys.stdout.write(json.dumps(cost(board, bank, options.cost_of, places_m)) + "\n")
         return
     figures = snapping_figures(board, options.places, options.seed)
-    print(json.dumps(figures, indent=1) if options.json else snapping_table(figures))
+    sys.stdout.write((json.dumps(figures, indent=1) if options.json else snapping_table(figures)) + "\n")
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ class Panel:
 
     def __init__(self, board, bank_file, tmp_path, evemu_text, scene=CLICK, reports=STILL, gateware=None, at=()):
         self.board, self.clock, self.messages, self.said, self.told = board, VirtualClock(), 0, [], []
-        self.damage = lambda number, answer: None
+        self.damage = lambda _number, _answer: None
         self.at = list(at)
         (tmp_path / "scene.toml").write_text(scene)
         self.link = open_simulated(board, self.clock.now_s, gateware or GatewareModel)
@@ -137,7 +137,7 @@ def test_the_loop_ends_with_outputs_off_at_whichever_message_it_ends(panel, way)
     """From the first message of bring-up, through ARM and the ramp, until the outputs are on."""
     whole = panel()
     on_at = []
-    whole.damage = lambda number, answer: on_at.append(number) if whole.hv else None
+    whole.damage = lambda number, _: on_at.append(number) if whole.hv else None
     whole.run()
     arm = on_at[0]
     assert arm > 30
