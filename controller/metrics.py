@@ -219,6 +219,7 @@ class Counters:
     near: int = 0  # of `resident`: played with the waveform of a place near by
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again
+    stall_pauses: int = 0  # of these: times it was armed again only after a pause, since stalls came in a row
     outages: int = 0  # times the FPGA was lost, reset, or switched off for another cause
     outage: str = ""  # cause of the last one
     outage_causes: dict[str, int] = field(default_factory=dict)  # how often the FPGA named each fault; LINK: it was lost or reset

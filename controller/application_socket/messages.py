@@ -127,8 +127,9 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
 class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
     """State of the panel: the answer to `AskState` or, with an id of null, a notification to subscribers.
 
-    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `temperature_c` is the plate's
-    temperature, null if unknown.
+    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `outputs_on` is false only once a status
+    of the FPGA has said that there is no voltage at the actuators, or it has certainly switched off by itself; `temperature_c` is
+    the plate's temperature, null if unknown.
     """
 
     id: Id = None

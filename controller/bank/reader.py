@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import mmap
 import os
 import weakref
@@ -140,8 +141,13 @@ class Bank:
         return self.header.wave_scale
 
     def snap_m(self, board: Board) -> float:
-        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
-        choice = self.header.choice if board.compose.method == "auto" else None
+        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says.
+
+        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case.
+        """
+        choice = self.header.choice if board.compose.method == "auto" or not self.composes else None
+        if choice is None and not self.composes:
+            return math.inf
         return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
 
     @property

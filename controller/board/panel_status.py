@@ -24,7 +24,7 @@ BOOT_ID: Final = Path("/proc/sys/kernel/random/boot_id")
 FORMAT: Final = 1
 BYTES_MAX: Final = 65_536
 STALE_S: Final = 5.0  # a loop that is silent for 3 s is ended by the service manager; a busy one writes at least every 2 s
-SERVES: Final = frozenset({PanelState.ARMED, PanelState.PLAYING, PanelState.IDLE, PanelState.DISARMED})
+SERVES: Final = frozenset({PanelState.ARMED, PanelState.PLAYING, PanelState.IDLE, PanelState.DISARMED, PanelState.RAMPING})
 
 Count = Annotated[int, Meta(ge=0)]
 Microseconds = Annotated[float, Meta(ge=0)]
@@ -64,7 +64,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         The service has ended; state and counters are its last.
     state, cause, outputs_on, panel_present, temperature_c
         As `Condition` has them.
-    heartbeats, due, foci, emissions, uploads, late, idled, host_silent, outages : int
+    heartbeats, due, foci, emissions, uploads, late, idled, host_silent, stall_pauses, outages : int
         As `Counters` has them, since the start.
     outage_causes : dict
         How often the FPGA named each fault; LINK: it was lost or reset.
@@ -105,6 +105,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     upload: LatencyStatus
     resident: LatencyStatus
     outage_causes: dict[str, Count] = {}
+    stall_pauses: Count = 0
     ended: bool = False
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from controller.board.panel_state import PLAYS, PanelState
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.errors import LinkError
 from controller.update.installed import UpdateState, update_state
@@ -62,10 +63,11 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
     lines = [
         f"{status.state.value}: {status.cause}" if status.cause else status.state.value,
         f"board {status.board!r}, release {status.release}, process {status.pid}, for {_duration(status.uptime_s)}",
-        f"outputs {'on' if status.outputs_on else 'off'}; touch panel {'connected' if status.panel_present else 'absent'}; "
+        f"outputs {_outputs(status)}; touch panel {'connected' if status.panel_present else 'absent'}; "
         f"temperature of the plate {plate}",
         f"emissions {status.emissions:,}, of them {status.late:,} late; not played {status.skipped:,}; waiting {status.waiting}",
-        f"heartbeats {status.heartbeats:,}; stalls of this host {status.host_silent:,}; "
+        f"heartbeats {status.heartbeats:,}; stalls of this host {status.host_silent:,}"
+        f"{f', armed again after a pause {status.stall_pauses:,}' if status.stall_pauses else ''}; "
         f"outages {status.outages:,}{f' ({causes})' if causes else ''}; log lines lost {status.log_lines_lost:,}",
     ]
     for name, latency in (("an upload", status.upload), ("a resident play", status.resident)):
@@ -77,6 +79,14 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
     if old:
         lines.insert(0, f"NOT NOW: {old}")
     return "\n".join(lines)
+
+
+def _outputs(status: PanelStatus) -> str:
+    if not status.outputs_on:
+        return "off"
+    if status.state is PanelState.RAMPING:
+        return "ramping"
+    return "on" if status.state in PLAYS else "not known to be off yet"
 
 
 def _trial(updates: UpdateState) -> str:

@@ -164,7 +164,7 @@ class Session(Supervision):
         LinkError
             If every attempt was damaged.
         """
-        status = self.exchange.retry(lambda _: self._commanded(Control.STOP))
+        status = self.exchange.control(Control.STOP)
         self.counters.emissions_lost += self.belief.stopped(status.timestamp_ticks)
 
     def trigger(self) -> float:
@@ -207,7 +207,7 @@ class Session(Supervision):
             raise OutOfStep(f"the FPGA holds {status.queued} plays where {len(belief.waiting)} were accepted")
         if surplus > 0 or belief.repeats_unasked(status.state):
             self.counters.plays_stale += max(surplus, 1)
-            self.exchange.retry(lambda _: self._commanded(Control.STOP))
+            self.exchange.control(Control.STOP)
         for _ in range(-surplus):
             belief.begin_first()  # by an edge that is not of this host
         ended = belief.repetition_ended(status.state)
@@ -396,7 +396,7 @@ class Session(Supervision):
 
     def _began(self, when_ticks: int, count: int = 1, period_ticks: int = 0) -> bool:
         """Whether a play has begun at a tick: the last emission is its, or one of its repetitions."""
-        last = self.exchange.retry(lambda _: self.exchange.read(Register.EMISSION_TIME_LOW))
+        last = self.exchange.read(Register.EMISSION_TIME_LOW)
         since = last - when_ticks & 0xFFFFFFFF
         return not since or (count != 1 and since < 1 << 31 and not since % period_ticks)
 

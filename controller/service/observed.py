@@ -43,12 +43,16 @@ class OutputsSeen(Protocol):
         """Whether plays are accepted."""
 
     @property
+    def may_be_on(self) -> bool:
+        """Whether there may be voltage at the actuators."""
+
+    @property
     def state(self) -> PanelState:
-        """ARMED, or the state that keeps them off."""
+        """ARMED, RAMPING, or the state that keeps them off."""
 
     @property
     def cause(self) -> str:
-        """Why they are off."""
+        """Why they are off, or ramp."""
 
 
 class Playing(Protocol):

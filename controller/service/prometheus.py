@@ -30,6 +30,7 @@ COUNTERS: Final = {  # of `figures`: name here, help
     "heartbeats": ("heartbeats", "Heartbeats that the FPGA answered."),
     "late": ("late_emissions", "Beats that reached the FPGA too late for their time."),
     "host_silent": ("host_stalls", "Times the FPGA switched off because this host was silent."),
+    "stall_pauses": ("host_stall_pauses", "Of these, those after which it armed again only after a pause."),
     "outages": ("outages", "Times the FPGA was lost, reset, or switched off for another cause."),
     "idled": ("idle_times", "Times the outputs were ramped down because nothing was touched."),
     "outputs_off_s": ("outputs_off_seconds", "Time without outputs, until they were on again."),
@@ -111,7 +112,8 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
     for state in PanelState:
         states.add_metric([state.value], float(figures.get("state") == state.value))
     yield states
-    yield GaugeMetricFamily("haptic_panel_outputs_on", "Whether the outputs are on.", float(figures.get("outputs") == "on"))
+    on = figures.get("outputs_on", figures.get("outputs") == "on")
+    yield GaugeMetricFamily("haptic_panel_outputs_on", "Whether there may be voltage at the actuators.", float(on))
     if "waiting" in figures:
         yield GaugeMetricFamily("haptic_panel_waiting_emissions", "Emissions that wait for the plate.", figures["waiting"])
     if figures.get("temperature_c") is not None:

@@ -139,6 +139,7 @@ class StatusFile(SpareTime):
             late=counters.late,
             idled=counters.idled,
             host_silent=counters.host_silent,
+            stall_pauses=counters.stall_pauses,
             outages=counters.outages,
             outage_causes=counters.outage_causes,
             skipped=counters.skipped.emissions,
