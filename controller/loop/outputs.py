@@ -121,13 +121,13 @@ class Outputs:
 
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
+        if self.on:
+            return self._session.exchange.heartbeat_due_s
         if self.ramping_down:
             now_s = self._clock.now_s()
             return min(self._session.heartbeat_due_s, self._down_s if now_s < self._down_s else now_s + OFF_POLL_S)
         if self.idle:
             return self._clock.now_s() + IDLE_TURN_S
-        if self.on:
-            return self._session.heartbeat_due_s
         return min(self._recovery.next_s, self.off_by_s) if self.may_be_on else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
