@@ -241,7 +241,7 @@ class Counters:
         plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
         return plain | {
             "outage_causes": dict(self.outage_causes),
-            "link": asdict(self.link),
+            "link_counts": asdict(self.link),
             "skipped": asdict(self.skipped),
             "latency_us": {
                 "report": self.report_latency.export(histograms),

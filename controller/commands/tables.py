@@ -74,7 +74,7 @@ def _became(figures: dict[str, Any]) -> list[str]:
         f"waveforms sent ahead: {figures['prefetched']}, of which {figures['prefetch_wasted']} not played",
         f"skipped: {_counts(figures['skipped'])}",
     ]
-    happened = {name: count for name, count in figures["link"].items() if count}
+    happened = {name: count for name, count in figures["link_counts"].items() if count}
     return [*lines, f"on the link: {_counts(happened)}"] if happened else lines
 
 

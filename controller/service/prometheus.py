@@ -125,7 +125,9 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
     yield _by_cause("haptic_panel_faults", "Outages by the fault that the FPGA named; LINK: it named none.", causes)
     yield _by_cause("haptic_panel_skipped", "Work and emissions that were left out.", figures.get("skipped", {}))
     yield _by_cause(
-        "haptic_panel_link", "What the FPGA said that was other than believed, and what was sent again.", figures.get("link", {})
+        "haptic_panel_link",
+        "What the FPGA said that was other than believed, and what was sent again.",
+        figures.get("link_counts", {}),
     )
     yield _by_cause("haptic_panel_socket", "Clients and commands of the application socket.", figures.get("application_socket", {}))
     yield from _histograms(figures.get("latency_histograms"))
