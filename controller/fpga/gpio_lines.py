@@ -29,7 +29,7 @@ class GpioLines:
     Parameters
     ----------
     settings : LinkSettings
-        Label of the GPIO chip and names of the lines; permit and configured are optional.
+        Label of the GPIO chip and names or numbers of the lines; permit and configured are optional.
     now_s : callable
         The loop's clock.
 
@@ -48,9 +48,9 @@ class GpioLines:
         lines = {name: out for name in (self._trigger, self._permit) if name}
         if self._configured:
             lines[self._configured] = gpiod.LineSettings(direction=Direction.INPUT)
-        self._request = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
+        self._request, self._numbers = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
         self._fd: int = self._request.fd
-        bit = 1 << self._request.lines.index(self._trigger)
+        bit = 1 << self._request.offsets.index(self._numbers[self._trigger])
         self._high, self._low = bytearray(LINE_VALUES.pack(bit, bit)), bytearray(LINE_VALUES.pack(0, bit))
 
     def pulse(self) -> float:
@@ -84,7 +84,7 @@ class GpioLines:
         """
         if self._permit:
             try:
-                self._request.set_value(self._permit, Value.ACTIVE if given else Value.INACTIVE)
+                self._request.set_value(self._numbers[self._permit], Value.ACTIVE if given else Value.INACTIVE)
             except OSError as error:
                 raise _failure("permit", self._permit, error) from error
 
@@ -99,7 +99,7 @@ class GpioLines:
         if not self._configured:
             return True
         try:
-            return bool(self._request.get_value(self._configured) is Value.ACTIVE)
+            return bool(self._request.get_value(self._numbers[self._configured]) is Value.ACTIVE)
         except OSError as error:
             raise _failure("configured", self._configured, error) from error
 

@@ -623,7 +623,7 @@ def test_an_ft5x06_that_loses_its_power_is_set_to_work_again():
 def test_lines_and_buses_that_are_not_there_are_named():
     assert "no GPIO chip has the label 'panel'" in raised(gt911)
     with bench(Gt911Chip()) as far_end:
-        assert "has no line 'NO_SUCH'" in raised(lambda: gt911(interrupt_line="NO_SUCH"))
+        assert "has no line named 'NO_SUCH'" in raised(lambda: gt911(interrupt_line="NO_SUCH"))
         assert "no I2C bus /dev/i2c-99" in raised(lambda: gt911(bus="/dev/i2c-99"))
         with far_end.lock:
             far_end.chip.silent = True
