@@ -10,12 +10,14 @@ EV_SYN: Final = 0x00
 EV_KEY: Final = 0x01
 EV_REL: Final = 0x02
 EV_ABS: Final = 0x03
+EV_MSC: Final = 0x04
 
 BUS_RS232, BUS_I2C = 0x13, 0x18
 
 INPUT_PROP_POINTER, INPUT_PROP_DIRECT = 0x00, 0x01
 
 SYN_REPORT: Final = 0
+SYN_CONFIG: Final = 1
 SYN_MT_REPORT: Final = 2
 SYN_DROPPED: Final = 3
 

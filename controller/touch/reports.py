@@ -10,7 +10,7 @@ from typing import Final
 
 # Anomalies that are handled, counted by kind and listed once at the end of a run
 WARNINGS: Final = {
-    "garbage_lines": "lines that are not evemu text were skipped",
+    "garbage_lines": "lines that are no text of a recorder were skipped",
     "not_utf8": "lines with bytes that are not UTF-8",
     "unknown_version": "version line of a newer evemu format: read as far as known",
     "no_axis_lines": "axes without a usable range: the recording's own minimum and maximum taken",

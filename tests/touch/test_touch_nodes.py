@@ -70,7 +70,9 @@ def set_bits(text, pattern):
     return tuple(bit for bit in range(mask.bit_length()) if mask >> bit & 1)
 
 
-@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.ev*")), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", [path for path in sorted(FOLDER.glob("*.ev*")) if "A: 35" in path.read_text()], ids=lambda path: path.name
+)
 def test_the_panels_of_real_recordings_lack_nothing(path):
     text = path.read_text(encoding="utf-8")
     axes = [int(code, 16) for code in re.findall(r"^A: (\w+) ", text, flags=re.MULTILINE)]
