@@ -36,10 +36,11 @@ WARNINGS: Final = {
     "interrupt_active": "starts with the touch panel's interrupt line active and nothing touched: held, or of the other polarity?",
     "contact_stuck": "contacts of a touch panel that stopped reporting were released",
     "bytes_skipped": "bytes from the serial touch panel that belong to no packet",
+    "no_packets": "times 100 bytes from the serial touch panel held no packet: is its baud rate right, and its protocol SmartSet?",
     "still_down_at_end": "fingers still down at the end of the recording were released",
 }
 
-FAULTS: Final = frozenset({"interrupt_silent", "interrupt_noisy", "interrupt_active", "points_refused"})
+FAULTS: Final = frozenset({"interrupt_silent", "interrupt_noisy", "interrupt_active", "points_refused", "no_packets"})
 """Kinds of `WARNINGS` that are a matter of wiring or settings: somebody should look, and is told at once."""
 
 MAX_AHEAD_S: Final = 0.01  # an event may be stamped after the loop read its clock, but not much later
