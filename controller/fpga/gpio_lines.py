@@ -36,7 +36,7 @@ class GpioLines:
     Raises
     ------
     LinkError
-        If the chip or a line is absent or held by another program.
+        If the chip or a line is absent or held by another program, or two lines are the same.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -44,6 +44,11 @@ class GpioLines:
         self._trigger = settings.trigger_line
         self._configured = settings.configured_line
         self._permit = settings.permit_line
+        given = [line for line in (self._trigger, self._configured, self._permit) if line]
+        if len(set(given)) < len(given):  # a trigger that takes the permit away, or gives it
+            raise LinkError(
+                f"trigger, configured and permit have to be lines of their own; given are {', '.join(map(repr, given))}"
+            )
         out = gpiod.LineSettings(direction=Direction.OUTPUT, output_value=Value.INACTIVE)
         lines = {name: out for name in (self._trigger, self._permit) if name}
         if self._configured:
