@@ -1,7 +1,7 @@
 """Tables of board.toml that name devices: link to the FPGA, temperature sensor, socket, scheduling.
 
 Name devices by what does not change from one boot or kernel to the next: paths below /dev/input/by-path or /dev/serial/by-id,
-GPIO chips by label, lines by name.
+GPIO chips by label, lines by name or, where they have none, by number.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     baud
         Baud rate of a serial link.
     gpio_chip
-        Label of the GPIO chip with the following lines.
+        Label of the GPIO chip with the following lines, each given by its name or, where it has none of its own, by its number on
+        the chip, such as "25". Where several chips have the label: the path of a udev link to the chip.
     trigger_line
         Output: starts the waveform that was prepared.
     configured_line

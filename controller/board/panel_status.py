@@ -76,6 +76,10 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         Lines that the log, and statuses that this file did not take.
     upload, resident : LatencyStatus
         Of emissions with an upload, and of those whose waveform was resident.
+    touch_warnings : dict
+        Anomalies of the touch panel since the start, by kind.
+    touch_remark : str
+        What its device lacks and works without; empty: nothing.
     """
 
     release: str
@@ -106,6 +110,8 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     resident: LatencyStatus
     outage_causes: dict[str, Count] = {}
     stall_pauses: Count = 0
+    touch_warnings: dict[str, Count] = {}
+    touch_remark: str = ""
     ended: bool = False
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 

@@ -1,7 +1,7 @@
 """The table [touch] of board.toml: one record for each kind of touch panel.
 
 Name devices by what does not change from one boot or kernel to the next: paths below /dev/input/by-path or /dev/serial/by-id,
-GPIO chips by label, lines by name.
+GPIO chips by label, lines by name or, where they have none, by number.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class LinuxInputTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", t
 
 
 class I2cTouch(TouchPanel, frozen=True, kw_only=True):
-    """A touch panel on an I2C bus; its interrupt line falls when there is a report.
+    """A touch panel on an I2C bus; its interrupt line announces each report.
 
     Attributes
     ----------
@@ -96,21 +96,31 @@ class I2cTouch(TouchPanel, frozen=True, kw_only=True):
     address
         Address on the bus.
     interrupt_chip
-        Label of the GPIO chip.
+        Label of the GPIO chip with the following lines; where several chips have it, the path of a udev link to the chip.
     interrupt_line
-        Name of the interrupt line.
+        Name of the interrupt line or, of a line without a name of its own, its number on the chip, such as "25"; left out: the
+        panel is polled at the rate of its scans, 100 times a second.
     reset_line
-        Name of the reset line on the same chip; empty: the panel is not reset.
+        Name or number of the reset line on the same chip; left out: the panel is not reset.
     width, height
         Largest raw x and y; left out: the panel is asked, where it can answer.
     """
 
     bus: Name
-    interrupt_chip: Name
-    interrupt_line: Name
+    interrupt_chip: str = ""
+    interrupt_line: str = ""
     reset_line: str = ""
     width: Extent | None = None
     height: Extent | None = None
+
+    def __post_init__(self) -> None:
+        for key in ("interrupt_line", "reset_line"):
+            if getattr(self, key) and not self.interrupt_chip:
+                raise ValueError(f"interrupt_chip is missing: the label of the GPIO chip with {key} {getattr(self, key)!r}")
+        if self.interrupt_chip and not (self.interrupt_line or self.reset_line):
+            raise ValueError("interrupt_chip is given without interrupt_line or reset_line: name a line of it, or leave it out")
+        if self.interrupt_line and self.interrupt_line == self.reset_line:
+            raise ValueError(f"interrupt_line and reset_line are both {self.reset_line!r}: they are two lines")
 
 
 class Ft5x06Touch(I2cTouch, frozen=True, kw_only=True, tag_field="kind", tag="ft5x06"):

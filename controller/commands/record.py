@@ -46,6 +46,8 @@ def store(options: argparse.Namespace) -> int:
         reader.close()
     for warning in stored["warnings"]:
         print(f"haptic-panel: {warning}", file=sys.stderr)
+    if not stored["events"]:
+        print(f"haptic-panel: {options.out}: holds no event, as the panel sent none: it cannot be replayed", file=sys.stderr)
     show(options, {"file": options.out} | stored, plain_table)
     return 0
 

@@ -12,6 +12,7 @@ import msgspec
 from controller.board.panel_state import PLAYS, PanelState
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.errors import LinkError
+from controller.touch.reports import describe_warnings
 from controller.update.installed import UpdateState, update_state
 from controller.update.layout import Layout
 
@@ -74,6 +75,9 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
         if latency.count:
             p50_ms, p99_ms, worst_ms = (1e-3 * us for us in (latency.p50_us, latency.p99_us, latency.worst_us))
             lines.append(f"the host's work for {name}: median {p50_ms:.3f} ms, 99 % {p99_ms:.3f} ms, worst {worst_ms:.3f} ms")
+    if status.touch_remark:
+        lines.append(status.touch_remark)
+    lines += [f"touch panel: {said}" for said in describe_warnings(status.touch_warnings)]
     if updates.in_use:
         lines.append(f"release in use: {updates.in_use}{_trial(updates)}; `haptic-panel update status` has more")
     if old:

@@ -14,6 +14,7 @@ from controller.service.bit_clock import BitClock
 from controller.service.observed import Panel, Thermometer, Watched
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
+from controller.service.touch_faults import TouchFaults
 
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
@@ -67,6 +68,7 @@ class Housekeeping:
             self._bit_clock = BitClock(session, thermometer, board.temperature.period_s)
         self._loop: Watched | None = None
         self._panel: Panel | None = None
+        self._touch_faults: TouchFaults | None = None
         self._told: Sequence[Callable[[Condition], None]] = ()
         self._board_name = board.name
         self._reloading = False
@@ -98,6 +100,7 @@ class Housekeeping:
         """
         self._loop = loop
         self._panel = panel
+        self._touch_faults = None if panel is None else TouchFaults(panel)
         self._told = told
 
     def emission_started(self) -> None:
@@ -121,6 +124,8 @@ class Housekeeping:
         if loop is None:
             return
         self._look(loop, now_s)
+        if self._touch_faults is not None:
+            self._touch_faults.look(now_s)
         if loop.reloading != self._reloading:
             self._reloading = loop.reloading
             if self._reloading:

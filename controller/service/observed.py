@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from typing import Protocol
 
 from controller.board.panel_state import PanelState
+from controller.touch.event_reader import DeviceDescription
 
 
 class Thermometer(Protocol):
@@ -24,7 +26,19 @@ class Thermometer(Protocol):
 
 
 class Panel(Protocol):
-    """A touch panel that may be disconnected."""
+    """A touch panel that may be disconnected.
+
+    Attributes
+    ----------
+    warnings : Counter of str
+        Anomalies found by its driver, by kind (`reports.WARNINGS`).
+    """
+
+    warnings: Counter[str]
+
+    @property
+    def description(self) -> DeviceDescription:
+        """Description of the device as it was opened last."""
 
     @property
     def present(self) -> bool:

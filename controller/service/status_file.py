@@ -52,6 +52,7 @@ class StatusFile(SpareTime):
         self._condition = Condition()
         self._counters = Counters()
         self._waiting: Callable[[], int] = int
+        self._touch: Callable[[], tuple[Mapping[str, int], str]] = _untouched
         self._encoder = msgspec.json.Encoder()
         self._bytes = bytearray(4096)
         self._folder = -1
@@ -67,10 +68,25 @@ class StatusFile(SpareTime):
         named = environment.get("RUNTIME_DIRECTORY", "").partition(":")[0]
         return cls(Path(named) if named else None, board)
 
-    def watch(self, counters: Counters, waiting: Callable[[], int]) -> None:
-        """Take the counters, and how many emissions are due now; the first status follows the first condition."""
+    def watch(
+        self,
+        counters: Counters,
+        waiting: Callable[[], int],
+        touch: Callable[[], tuple[Mapping[str, int], str]] | None = None,
+    ) -> None:
+        """Take what is told; the first status follows the first condition.
+
+        Parameters
+        ----------
+        counters : Counters
+        waiting : callable
+            How many emissions are due now.
+        touch : callable, optional
+            Anomalies of the touch panel by kind, and the remark of its device.
+        """
         self._counters = counters
         self._waiting = waiting
+        self._touch = touch or _untouched
 
     def changed(self, condition: Condition) -> None:
         """Take the panel's new condition, which is written soon."""
@@ -118,6 +134,7 @@ class StatusFile(SpareTime):
 
     def _status(self, now_s: float, ended: bool) -> PanelStatus:
         condition, counters = self._condition, self._counters
+        warnings, remark = self._touch()
         return PanelStatus(
             release=self._release,
             board=self._board,
@@ -142,6 +159,8 @@ class StatusFile(SpareTime):
             stall_pauses=counters.stall_pauses,
             outages=counters.outages,
             outage_causes=counters.outage_causes,
+            touch_warnings={kind: count for kind, count in warnings.items() if count},
+            touch_remark=remark,
             skipped=counters.skipped.emissions,
             waiting=self._waiting(),
             log_lines_lost=LOG.lost,
@@ -149,6 +168,10 @@ class StatusFile(SpareTime):
             upload=_latency(counters.upload_latency.host),
             resident=_latency(counters.resident_latency.host),
         )
+
+
+def _untouched() -> tuple[Mapping[str, int], str]:
+    return {}, ""
 
 
 def _latency(histogram: LatencyHistogram) -> LatencyStatus:

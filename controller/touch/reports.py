@@ -10,7 +10,7 @@ from typing import Final
 
 # Anomalies that are handled, counted by kind and listed once at the end of a run
 WARNINGS: Final = {
-    "garbage_lines": "lines that are not evemu text were skipped",
+    "garbage_lines": "lines that are no text of a recorder were skipped",
     "not_utf8": "lines with bytes that are not UTF-8",
     "unknown_version": "version line of a newer evemu format: read as far as known",
     "no_axis_lines": "axes without a usable range: the recording's own minimum and maximum taken",
@@ -30,10 +30,18 @@ WARNINGS: Final = {
     "report_absurd": "reports of the touch panel with impossible content were skipped",
     "ghost_points": "spurious points of the touch panel at (0, 0) were skipped",
     "stale_reports": "reports from before the touch panel was started were skipped",
+    "points_refused": "reports of which only the first contacts could be read: the touch panel refuses the registers of the others",
+    "interrupt_silent": "times the touch panel had reports and its interrupt line no edge: polled; is it wired, and to this line?",
+    "interrupt_noisy": "times the touch panel's interrupt line had over 1,000 edges a second: polled, and not listened to",
+    "interrupt_active": "starts with the touch panel's interrupt line active and nothing touched: held, or of the other polarity?",
     "contact_stuck": "contacts of a touch panel that stopped reporting were released",
     "bytes_skipped": "bytes from the serial touch panel that belong to no packet",
+    "no_packets": "times 100 bytes from the serial touch panel held no packet: is its baud rate right, and its protocol SmartSet?",
     "still_down_at_end": "fingers still down at the end of the recording were released",
 }
+
+FAULTS: Final = frozenset({"interrupt_silent", "interrupt_noisy", "interrupt_active", "points_refused", "no_packets"})
+"""Kinds of `WARNINGS` that are a matter of wiring or settings: somebody should look, and is told at once."""
 
 MAX_AHEAD_S: Final = 0.01  # an event may be stamped after the loop read its clock, but not much later
 
@@ -46,8 +54,8 @@ BINS: Final = 256  # up to 64 ms; longer is a pause
 
 
 def describe_warnings(warnings: Mapping[str, int]) -> list[str]:
-    """Lines that describe `warnings`, counts by kind (`WARNINGS`), one for each kind that occurred."""
-    return [f"{count} × {WARNINGS[kind]}" for kind, count in warnings.items() if count]
+    """Lines that describe `warnings`, counts by kind, one for each kind that occurred; a kind of a newer release by its name."""
+    return [f"{count} × {WARNINGS.get(kind, kind)}" for kind, count in warnings.items() if count]
 
 
 class ReportClock:
