@@ -49,14 +49,14 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
         for key in keys[role]:
             root.add_key(key, role)
     check_thresholds(root)
-    timestamp = Timestamp(version=1, expires=now + LIFE["timestamp"])
-    issue(timestamp, now)
     first = {
         "root": root,
         "targets": Targets(version=1, expires=now + LIFE["targets"]),
         "snapshot": Snapshot(version=1, expires=now + LIFE["snapshot"]),
-        "timestamp": timestamp,
+        "timestamp": Timestamp(version=1, expires=now + LIFE["timestamp"]),
     }
+    for signed in first.values():
+        issue(signed, now)
     repository.targets.mkdir(exist_ok=True)
     repository.begin({role: Metadata(signed) for role, signed in first.items()})
 
