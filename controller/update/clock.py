@@ -19,11 +19,13 @@ from typing import Final
 
 from tuf.api.metadata import Root, Signed, Targets, Timestamp
 
+from controller.regular_file import read_regular
 from controller.update.durable import write_durably
 
 ISSUED: Final = "x-issued"  # field of a timestamp, and of root and targets: when it was made
 TIMESTAMP_LIFE: Final = timedelta(days=90)
 SYNCHRONIZED: Final = Path("/run/systemd/timesync/synchronized")  # there once the clock was set from the network
+BYTES_MAX: Final = 1024
 _FORMAT: Final = "%Y-%m-%dT%H:%M:%SZ"
 
 
@@ -46,7 +48,7 @@ class Kept:
     def read(cls, clock: Path) -> Kept | None:
         """What a file has; None if it is absent, or holds no time."""
         try:
-            time, *versions = clock.read_text(encoding="ascii").split()
+            time, *versions = read_regular(clock, BYTES_MAX).decode("ascii").split()
             root_version, timestamp_version = map(int, versions) if versions else (0, 0)
         except (OSError, ValueError):
             return None

@@ -34,11 +34,12 @@ from controller.update.durable import sync_folder
 from controller.update.layout import Layout
 from controller.update.lock import alone
 from controller.update.source import Source
+from controller.update.validity import ROOT_BYTES_MAX
 
 LIMITS: Final = UpdaterConfig(
     max_root_rotations=64,
     max_delegations=4,
-    root_max_length=64_000,
+    root_max_length=ROOT_BYTES_MAX,
     timestamp_max_length=16_384,
     snapshot_max_length=64_000,
     targets_max_length=2_000_000,
