@@ -1,4 +1,4 @@
-"""Files that another user may have written, or may replace while they are read: no link is followed, no pipe is waited for.
+"""Files that another user may have written, may replace while they are read, or may lock: no link is followed, nobody waits.
 
 Whoever may write into a folder can put a pipe, a link to a device or a file without end where a small file is expected. What is
 opened here is a regular file, by its descriptor and not by its name, and no more of it is read than it may have.
@@ -6,6 +6,7 @@ opened here is a regular file, by its descriptor and not by its name, and no mor
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import stat
@@ -83,6 +84,40 @@ def read_regular(path: Path, most_bytes: int, *, owner: int | None = None, links
         return bytes(data)
     finally:
         os.close(fd)
+
+
+def open_private(path: Path) -> int:
+    """Open, and if need be create, a file of this user that no other user can open: one to be locked.
+
+    Whoever can open a file, if only to read it, can lock it, and keep everybody else waiting.
+
+    Parameters
+    ----------
+    path : Path
+        In a folder that no other user may write to.
+
+    Returns
+    -------
+    int
+        Descriptor, for the caller to close.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened, or is no regular file.
+    """
+    fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC, 0o600)
+    try:
+        found = os.fstat(fd)
+        if not stat.S_ISREG(found.st_mode):
+            raise OSError(errno.EINVAL, "not a regular file", str(path))
+        if stat.S_IMODE(found.st_mode) & 0o077:  # made by an earlier release, or on a file system without modes
+            with contextlib.suppress(OSError):
+                os.fchmod(fd, 0o600)
+    except OSError:
+        os.close(fd)
+        raise
+    return fd
 
 
 def _size(size_bytes: int) -> str:

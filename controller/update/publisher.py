@@ -11,11 +11,10 @@ makes devices see it, comes last. Private keys are never in this folder, and are
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any, Final
@@ -29,12 +28,14 @@ from controller.errors import UpdateError
 from controller.update.clock import ISSUED, TIMESTAMP_LIFE, as_text, issued
 from controller.update.durable import sync_folder, tell_disk, write_durably
 from controller.update.keys import owner
+from controller.update.lock import alone
 
 ROLES: Final = ("root", "targets", "snapshot", "timestamp")
 ORDER: Final = ("targets", "snapshot", "root", "timestamp")  # of publication: nobody reads the first two before the last says so
 LIFE: Final = dict(zip(ROLES, [*(timedelta(days=days) for days in (1825, 730, 730)), TIMESTAMP_LIFE], strict=True))
 STICK_LIFE: Final = timedelta(days=365)  # of the timestamp on a stick
 DRAFT: Final = "draft"
+LOCK: Final = ".lock"  # a file of the owner's: the folder itself may be locked by everybody who may read it
 
 
 class Repository:
@@ -70,15 +71,15 @@ class Repository:
             folder.mkdir(parents=True, exist_ok=True)
         elif not (repository.metadata.is_dir() or repository.draft.is_dir()):
             raise UpdateError(f"{folder}: is no repository: `haptic-panel update repository init` makes one")
-        fd = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        try:
+        with ExitStack() as stack:
             try:
-                fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError as error:
-                raise UpdateError(f"{folder}: another process works on this repository: repeat when it is done") from error
+                stack.enter_context(alone(folder / LOCK, "another process works on this repository: repeat when it is done"))
+            except OSError as error:
+                if os.access(folder, os.W_OK):  # else nothing of it can be changed by this user
+                    raise UpdateError(
+                        f"{folder / LOCK}: cannot be opened ({error.strerror}): let the user who owns it do this, or remove it"
+                    ) from error
             yield repository
-        finally:
-            os.close(fd)
 
     def published(self, role: str) -> Metadata[Any] | None:
         """What devices read of a role; None before the first publication."""
