@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import getpass
 import os
+import re
 import sys
-from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -216,11 +216,10 @@ def _check_outside(key: Path, *folders: Path) -> None:
             )
 
 
-def _date(text: str) -> date:
-    try:
-        return date.fromisoformat(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no date such as 2027-03-28") from None
+def _date(text: str) -> str:
+    if not re.fullmatch("[0-9]{4}-[0-9]{2}-[0-9]{2}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no date such as 2027-03-28")
+    return text
 
 
 def _passphrase(options: argparse.Namespace, key: Path, new: bool = False) -> str:

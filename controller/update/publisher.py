@@ -15,7 +15,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from datetime import UTC, date, datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, Final
 
@@ -44,12 +44,12 @@ class Repository:
     Parameters
     ----------
     folder : Path
-    dated : date, optional
-        A date that people have looked up: a timestamp of that date is signed however long after the last
+    dated : str, optional
+        A date such as 2027-03-28 that people have looked up: a timestamp of that date is signed however long after the last
         one, or before it.
     """
 
-    def __init__(self, folder: Path, dated: date | None = None) -> None:
+    def __init__(self, folder: Path, dated: str | None = None) -> None:
         self.folder = folder
         self.dated = dated
         self.metadata = folder / "metadata"
@@ -58,7 +58,7 @@ class Repository:
 
     @classmethod
     @contextmanager
-    def opened(cls, folder: Path, new: bool = False, dated: date | None = None) -> Iterator[Repository]:
+    def opened(cls, folder: Path, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
         """Lock a repository, or a new one.
 
         Raises
@@ -279,7 +279,7 @@ class Repository:
         """Check that a timestamp made now may follow the one that is published: devices would believe a clock that is wrong."""
         last = self.published("timestamp")
         before = issued(last.signed) if last else None
-        if before is None or before <= now <= before + TIMESTAMP_LIFE or now.date() == self.dated:
+        if before is None or before <= now <= before + TIMESTAMP_LIFE or f"{now:%Y-%m-%d}" == self.dated:
             return
         how = "earlier than" if now < before else f"more than {TIMESTAMP_LIFE.days} days after"
         raise UpdateError(

@@ -181,12 +181,12 @@ def test_nothing_is_drafted_by_a_clock_that_is_wrong(fleet, days, said):
 def test_no_draft_of_a_clock_that_is_wrong_is_signed(fleet, days, said):
     """Made by an earlier release, or while another timestamp was published."""
     wrong = NOW + days * DAY
-    with Repository.opened(fleet.owner.folder, dated=wrong.date()) as repository:
+    with Repository.opened(fleet.owner.folder, dated=f"{wrong:%Y-%m-%d}") as repository:
         draft_renewal(repository, wrong)
-    for dated in (None, NOW.date()):
+    for dated in (None, f"{NOW:%Y-%m-%d}"):
         with Repository.opened(fleet.owner.folder, dated=dated) as repository, pytest.raises(UpdateError, match=said):
             repository.sign(fleet.owner.signers["publisher"])
-    with Repository.opened(fleet.owner.folder, dated=wrong.date()) as repository:  # two people know better
+    with Repository.opened(fleet.owner.folder, dated=f"{wrong:%Y-%m-%d}") as repository:  # two people know better
         assert fleet.signed(repository)
 
 
