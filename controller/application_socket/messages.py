@@ -103,7 +103,7 @@ class Greeting(Struct, frozen=True, kw_only=True, tag_field="kind", tag="hello",
     width_mm: float
     max_amplitude: float
     effects: tuple[str, ...]
-    rights: tuple[Literal["play", "operate"], ...]
+    rights: tuple[Literal["look", "play", "operate"], ...]
 
 
 class Figures(Struct, frozen=True, kw_only=True, tag_field="kind", tag="figures", gc=False):
@@ -144,7 +144,7 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     """The panel ends the connection for `reason`; `lacks` is the right that the user does not have."""
 
     reason: str
-    lacks: Literal["play", "operate"] | None = None
+    lacks: Literal["look", "play", "operate"] | None = None
 
 
 AnyRequest = Play | Subscribe | Unsubscribe | Arm | Disarm | LoadScene | AskFigures | AskState | Hello

@@ -23,6 +23,7 @@ from controller.board.board import Board
 from controller.board.paths import build_line
 from controller.errors import BankError
 from controller.kernel import unpack_loads
+from controller.regular_file import open_regular
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 LatticePoints = tuple[tuple[int, int, int], ...]  # x, y and amplitude of each point in steps (waveforms/selection.py)
@@ -97,9 +98,9 @@ class Bank:
         """
         rebuild = build_line(path, board)
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+            fd = open_regular(path, links=True)
         except OSError as error:
-            hint = "" if isinstance(error, PermissionError) else f"; build it: {rebuild}"
+            hint = f"; build it: {rebuild}" if isinstance(error, FileNotFoundError) else ""
             raise BankError(f"{path}: cannot be read ({error.strerror}){hint}") from error
         start: bytes | None = None  # None: unreadable, so no advice to rebuild it
         try:

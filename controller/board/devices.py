@@ -6,7 +6,7 @@ GPIO chips by label, lines by name or, where they have none, by number.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from msgspec import Meta
 
@@ -160,6 +160,9 @@ class Realtime(Record, frozen=True, kw_only=True):
     lock_memory: bool = True
 
 
+LOOK_GROUP: Final = "haptic-look"  # made by the Debian package, for haptic-panel-metrics
+
+
 class ApplicationSocket(Record, frozen=True, kw_only=True):
     """The Unix socket through which a user interface drives the panel.
 
@@ -175,6 +178,9 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
         Its file mode, octal.
     play_group
         Group that may play; empty: whoever may connect.
+    look_group
+        Group that may only look: read state and figures, whatever other groups a user is in. Where there is none of the default's
+        name, nobody.
     operate_group
         Group that may also arm, disarm and load scenes; empty: root and the service's own user only.
     max_clients
@@ -197,6 +203,7 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     mode: Annotated[str, Meta(pattern="^0?[0-7]{3}$")] = "660"
     play_group: str = ""
     operate_group: str = ""
+    look_group: str = LOOK_GROUP
     max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
     clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4
     idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0

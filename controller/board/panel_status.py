@@ -17,6 +17,7 @@ from msgspec import Meta
 from controller.board.panel_state import PanelState
 from controller.board.validation import NO_JSON
 from controller.errors import ControllerError
+from controller.regular_file import open_regular
 
 FOLDER: Final = Path("/run/haptic-panel")  # RuntimeDirectory= of the unit
 NAME: Final = "status.json"
@@ -136,23 +137,47 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         return ""
 
 
+def status_bytes(file: Path) -> bytes | None:
+    """Content of a status file, its first `BYTES_MAX`; it belongs to who owns its folder. None if there is no file.
+
+    Raises
+    ------
+    ControllerError
+        If it cannot be read: it is no regular file, or another user's.
+    """
+    try:
+        with os.fdopen(open_regular(file, owner=file.parent.stat().st_uid), "rb") as opened:
+            return opened.read(BYTES_MAX)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise ControllerError(f"{file}: cannot be read ({error.strerror})") from error
+
+
+def status_in(data: bytes, file: Path) -> PanelStatus:
+    """The status that a file's content is.
+
+    Raises
+    ------
+    ControllerError
+        If it is no status that this software knows.
+    """
+    try:
+        return _decoder.decode(data)
+    except NO_JSON as error:
+        raise ControllerError(f"{file}: is no status of a panel that this software knows: {error}") from error
+
+
 def read_status(file: Path) -> PanelStatus | None:
     """The status in a file; None if there is no file.
 
     Raises
     ------
     ControllerError
-        If it cannot be read, or is no status that this software knows.
+        As `status_bytes` and `status_in`.
     """
-    try:
-        with file.open("rb") as opened:
-            return _decoder.decode(opened.read(BYTES_MAX))
-    except FileNotFoundError:
-        return None
-    except OSError as error:
-        raise ControllerError(f"{file}: cannot be read ({error.strerror})") from error
-    except NO_JSON as error:
-        raise ControllerError(f"{file}: is no status of a panel that this software knows: {error}") from error
+    data = status_bytes(file)
+    return None if data is None else status_in(data, file)
 
 
 def boot_id(environment: Mapping[str, str] = os.environ) -> str:

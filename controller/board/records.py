@@ -6,15 +6,18 @@ import math
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Final, TypeVar
 
 import msgspec
 from msgspec import Meta
 
 from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
+from controller.regular_file import read_regular
 
 T = TypeVar("T")
+
+BYTES_MAX: Final = 1 << 25  # of a board or a scene; the largest here has 20 kB
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
@@ -42,7 +45,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        tables = tomllib.loads(read_regular(file, BYTES_MAX, links=True).decode())
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:

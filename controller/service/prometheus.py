@@ -13,6 +13,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Histo
 from prometheus_client.registry import Collector, CollectorRegistry
 
 from controller.application_socket.client import PanelClient
+from controller.application_socket.messages import Greeting
 from controller.board.panel_state import PanelState
 from controller.errors import ControllerError
 from controller.fpga.registers import Fault
@@ -47,17 +48,52 @@ HISTOGRAMS: Final = {
 Ask = Callable[[], tuple[str, str, dict[str, Any]]]
 
 
-def ask_panel(path: str) -> tuple[str, str, dict[str, Any]]:
-    """Version, board and figures of the panel whose application socket has this path; connects for this one question.
+class PanelFigures:
+    """Figures of the panel whose application socket has this path, by one connection that is kept.
 
-    Raises
-    ------
-    ControllerError
-        If no panel answers.
+    Parameters
+    ----------
+    path : str
     """
-    with PanelClient(path) as panel:
-        greeting = panel.hello()
-        return greeting.version, greeting.board, panel.figures()
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._panel: PanelClient | None = None
+        self._greeting: Greeting | None = None
+
+    def __call__(self) -> tuple[str, str, dict[str, Any]]:
+        """Version, board and figures.
+
+        Raises
+        ------
+        ControllerError
+            If no panel answers.
+        """
+        kept = self._panel is not None
+        try:
+            return self._ask()
+        except ControllerError:
+            self.close()
+            if not kept:
+                raise
+        try:  # it was started anew, or another client needed the place
+            return self._ask()
+        except ControllerError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """End the connection."""
+        if self._panel is not None:
+            self._panel.close()
+        self._panel = self._greeting = None
+
+    def _ask(self) -> tuple[str, str, dict[str, Any]]:
+        if self._panel is None:
+            self._panel = PanelClient(self._path)
+        if self._greeting is None:
+            self._greeting = self._panel.hello()
+        return self._greeting.version, self._greeting.board, self._panel.figures()
 
 
 class PanelCollector(Collector):

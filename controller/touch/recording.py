@@ -8,8 +8,6 @@ where fingers are, is an error.
 from __future__ import annotations
 
 import math
-import os
-import stat
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -20,6 +18,7 @@ from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.errors import ConfigError, TouchError
+from controller.regular_file import read_regular
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
@@ -132,13 +131,7 @@ class Recording:
             If it is no recording, holds no event, or see `read_recording`.
         """
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # do not block on a pipe without a writer
-            with os.fdopen(fd, "rb") as file:
-                if not stat.S_ISREG(os.fstat(fd).st_mode):
-                    raise TouchError(f"{path}: the recording cannot be read (not a regular file)")
-                data = file.read(MAX_BYTES + 1)
-            if len(data) > MAX_BYTES:
-                raise TouchError(f"{path}: the recording cannot be read (more than {MAX_BYTES >> 20} MiB)")
+            data = read_regular(path, MAX_BYTES, links=True)
         except OSError as error:
             raise TouchError(f"{path}: the recording cannot be read ({error.strerror})") from error
         except ValueError as error:  # a NUL in the name
