@@ -14,6 +14,7 @@ from controller.board.records import Positive, Record
 
 Address = Annotated[int, Meta(ge=0x08, le=0x77)]
 Extent = Annotated[int, Meta(ge=1, le=65535)]
+SideMm = Annotated[float, Meta(gt=0, le=1e5)]
 AxisMm = Annotated[float, Meta(ge=-1e5, le=1e5)]  # a raw axis may be many times as long as the plate
 Name = Annotated[str, Meta(min_length=1)]
 
@@ -36,6 +37,9 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     ghost_ms
         After an emission, until false contacts that it caused have gone; 0: it causes none. `calibrate-touch --ghosts`
         measures it.
+    no_finger_mm
+        Rectangles on the plate where nothing is a finger, each as x and y of its corner, length along x, width along y: for a
+        panel that reports contacts there that nobody makes, such as in its corners while it is idle.
     recording
         Recording that `run` replays on a board without devices.
     """
@@ -47,6 +51,7 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     confirm_reports: Annotated[int, Meta(ge=1, le=10)] = 1
     max_emissions_unconfirmed: Annotated[int, Meta(ge=1, le=100)] = 1
     ghost_ms: Annotated[float, Meta(ge=0, le=500)] = 30.0
+    no_finger_mm: tuple[tuple[AxisMm, AxisMm, SideMm, SideMm], ...] = ()
     recording: str = ""
 
     @property
@@ -63,6 +68,11 @@ class TouchPanel(Record, frozen=True, kw_only=True):
     def ghost_s(self) -> float:
         """Time after an emission until its ghosts have gone, in s."""
         return self.ghost_ms * 1e-3
+
+    @property
+    def no_finger_m(self) -> tuple[tuple[float, float, float, float], ...]:
+        """Rectangles where nothing is a finger, each as smallest x and y, largest x and y, in m."""
+        return tuple([(x * 1e-3, y * 1e-3, (x + length) * 1e-3, (y + width) * 1e-3) for x, y, length, width in self.no_finger_mm])
 
 
 class RecordingTouch(TouchPanel, frozen=True, kw_only=True, tag_field="kind", tag="recording"):

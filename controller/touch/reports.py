@@ -17,7 +17,11 @@ WARNINGS: Final = {
     "time_backwards": "events earlier than the one before: given the time of the one before",
     "time_absurd": "events with an impossible time: given the time of the one before",
     "value_absurd": "event values beyond 32 bits were clamped",
-    "outside_axes": "positions outside the axes were clamped",
+    "outside_axes": "positions a little outside the axes were clamped",
+    "far_outside": "positions far outside the axes were taken for no finger",
+    "no_finger": "positions where the board says that there is no finger were left out",
+    "too_fast": "positions that no hand reaches so soon, and that no further report confirmed, were left out",
+    "fallen_silent": "fingers of a panel that repeats its reports and fell silent were released",
     "slot_beyond_range": "contacts in slots that the device does not declare were decoded all the same",
     "slot_absurd": "slot numbers that no device has: their events were skipped",
     "contacts_absurd": "contacts beyond 256 in one report were skipped",
@@ -37,10 +41,11 @@ WARNINGS: Final = {
 
 MAX_AHEAD_S: Final = 0.01  # an event may be stamped after the loop read its clock, but not much later
 
-INITIAL_PERIOD_S: Final = 10e-3
+INITIAL_PERIOD_S: Final = 10e-3  # until the first interval is measured
 MIN_PERIOD_S: Final = 2e-3  # limits of the running median: a flood or a slow finger must not lead it astray
-MAX_PERIOD_S: Final = 25e-3
-MEDIAN_STEP: Final = 0.02  # relative step of the running median per report
+MAX_PERIOD_S: Final = 40e-3
+FIRST_INTERVALS: Final = 9  # of so many the median is exact, from the first on
+MEDIAN_STEP: Final = 0.02  # relative step of the running median per report, afterwards
 BIN_S: Final = 0.25e-3
 BINS: Final = 256  # up to 64 ms; longer is a pause
 
@@ -85,28 +90,50 @@ class ReportRate:
     Attributes
     ----------
     period_s : float
-        Running median, for the tracker; it follows a change within about ten reports.
+        Median of the intervals: of the first ones exactly, then a running one that follows a change within some ten reports.
+    measured : int
+        Intervals that it is of so far, at most `FIRST_INTERVALS`; 0: it is assumed.
     """
 
-    __slots__ = ("_counts", "_last_s", "period_s")
+    __slots__ = ("_counts", "_first_s", "_last_s", "measured", "period_s")
 
     def __init__(self) -> None:
         self.period_s = INITIAL_PERIOD_S
+        self.measured = 0
+        self._first_s = array("d", [0.0]) * FIRST_INTERVALS  # sorted
         self._last_s: float | None = None
         self._counts = array("L", [0]) * BINS
+
+    def restart(self) -> None:
+        """Measure anew: another panel may have been connected. What was counted stays in `median_s` and `jitter_s`."""
+        self.period_s = INITIAL_PERIOD_S
+        self.measured = 0
+        self._last_s = None
 
     def report(self, time_s: float) -> None:
         """Count a report at `time_s` (loop's clock) with a finger down."""
         last_s, self._last_s = self._last_s, time_s
-        if last_s is None:
+        if last_s is not None:
+            self.interval(time_s - last_s)
+
+    def interval(self, interval_s: float) -> None:
+        """Count a time between two consecutive reports."""
+        index = int(interval_s / BIN_S)
+        if not 0 < index < BINS:
             return
-        index = int((time_s - last_s) / BIN_S)
-        if 0 < index < BINS:
-            self._counts[index] += 1
-            if time_s - last_s > self.period_s:
-                self.period_s = min(self.period_s * (1 + MEDIAN_STEP), MAX_PERIOD_S)
-            else:
-                self.period_s = max(self.period_s * (1 - MEDIAN_STEP), MIN_PERIOD_S)
+        self._counts[index] += 1
+        if self.measured < FIRST_INTERVALS:
+            first_s, at = self._first_s, self.measured
+            while at and first_s[at - 1] > interval_s:
+                first_s[at] = first_s[at - 1]
+                at -= 1
+            first_s[at] = interval_s
+            self.period_s = min(max(first_s[self.measured // 2], MIN_PERIOD_S), MAX_PERIOD_S)
+            self.measured += 1
+        elif interval_s > self.period_s:
+            self.period_s = min(self.period_s * (1 + MEDIAN_STEP), MAX_PERIOD_S)
+        else:
+            self.period_s = max(self.period_s * (1 - MEDIAN_STEP), MIN_PERIOD_S)
 
     def pause(self) -> None:
         """Ignore the time until the next report: no finger is down."""
