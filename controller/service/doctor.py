@@ -180,7 +180,8 @@ def _touch(board: Board) -> str:
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     panel = open_panel(board)
     try:
-        return f"{touch.__struct_config__.tag} answers"
+        places = f"; no finger in {len(touch.no_finger_mm)} rectangles of the plate" if touch.no_finger_mm else ""
+        return f"{touch.__struct_config__.tag} answers{places}"
     finally:
         panel.close()
 

@@ -5,8 +5,9 @@ A position that a panel reports is a claim. Each is counted (`Counts.points`), a
 - More than `EDGE_M` outside the axes, or in a rectangle of `touch.no_finger_mm`: no finger. A contact that begins there waits until
   it is reported elsewhere. A finger that is reported there keeps its last place for one report, and is released by the next.
 - A step that no hand makes from one report to the next (`SPEED_CHANGE`, `HAND_SPEED`): held back until the next report. If that
-  lies within reach of the last place, the position was an outlier; if it lies near the new one, it is believed. A contact that
-  begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means what it said.
+  lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
+  believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
+  what it said.
 - A contact beyond the ten that are played.
 - Believed: it becomes a touch sample. Positions up to `EDGE_M` outside the axes are clamped to them.
 
@@ -38,7 +39,7 @@ SILENT_PERIODS: Final = 2.5  # of a repeating panel, which may lose a report
 SHORTEST_PAUSE_S: Final = 60e-3  # nobody lifts a finger and taps again sooner: a shorter silence need not be told from a rest
 REPEATING_REPORTS: Final = 16  # in a row without any contact having moved: such a panel repeats its reports
 
-CLAIMS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played")  # of `reports.WARNINGS`
+KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fallen_silent")  # of `reports.WARNINGS`
 
 
 def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
@@ -55,12 +56,11 @@ def figures(counts: Counts, warnings: Mapping[str, int]) -> dict[str, int]:
     -------
     dict
         `points` = `believed` + `far_outside` + `no_finger` + `held` + `more_than_played`. Of those `held` back because of a step
-        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `palms` and
-        `fallen_silent` are contacts.
+        that no hand makes, `confirmed` were right and `too_fast` were outliers; the rest still waits. `fallen_silent` are
+        fingers.
     """
     found = {"points": counts.points, "believed": counts.believed, "held": counts.held, "confirmed": counts.confirmed}
-    found |= {kind: warnings.get(kind, 0) for kind in CLAIMS}
-    return found | {"palms": counts.palms, "fallen_silent": warnings.get("fallen_silent", 0)}
+    return found | {kind: warnings.get(kind, 0) for kind in KINDS}
 
 
 class Plausibility:
@@ -379,9 +379,15 @@ class Plausibility:
         return hypot(off_x_m, off_y_m) <= NOISE_M + change * step_s
 
     def _goes_on(self, contact: Contact, x_m: float, y_m: float, time_s: float) -> bool:
-        """Whether this place confirms the one that was held back."""
-        reach_m = NOISE_M + HAND_SPEED * self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
-        return hypot(x_m - contact.held_x_m, y_m - contact.held_y_m) <= reach_m  # False for NaN
+        """Whether this place confirms the one that was held back: near it, or as far beyond it as that was from the last one."""
+        step_s = self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
+        off_x_m, off_y_m = x_m - contact.held_x_m, y_m - contact.held_y_m
+        if hypot(off_x_m, off_y_m) <= NOISE_M + HAND_SPEED * step_s:  # False for NaN
+            return True
+        share = step_s / self._step_s(self._before_s - contact.held_s, MAX_STEP_PERIODS + 1)
+        off_x_m -= (contact.held_x_m - contact.x_m) * share
+        off_y_m -= (contact.held_y_m - contact.y_m) * share
+        return hypot(off_x_m, off_y_m) <= NOISE_M + SPEED_CHANGE * step_s
 
     def _step_s(self, since_s: float, periods: float) -> float:
         """Time in which a finger may have moved: reports may be late, or lost."""

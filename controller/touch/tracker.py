@@ -26,8 +26,9 @@ from controller.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS, Motion
 from controller.touch.reports import MAX_PERIOD_S, ReportRate
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-BRIDGE_RADIUS_M: Final = 5e-3
-BRIDGE_SHARE: Final = 0.5  # of the way from its last report: by so much a moving finger may be off its predicted position
+BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
+BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
+BRIDGE_SHARE: Final = 0.5  # of the way from its last report: the same of a fast finger
 BRIDGE_PERIODS: Final = 1.5  # the panel finds it one period after it has reported the loss
 UNKNOWN_LOSSES: Final = 3  # of a panel without a measured period; one whose fingers have not come back by then keeps them
 MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
@@ -149,6 +150,7 @@ class Tracker:
         median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
         self.tracking.listened_s = round(self._quiet.total_s, 6)
         return asdict(self.tracking) | {
+            "palms": self.counts.palms,
             "plausibility": plausibility.figures(self.counts, self._source.warnings),
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
@@ -301,7 +303,7 @@ class Tracker:
             since_s = min(time_s - motion.time_s, motion.pause_s)
             way_x_m, way_y_m = motion.vx * since_s, motion.vy * since_s
             off_m = hypot(x_m - motion.x_m - way_x_m, y_m - motion.y_m - way_y_m)
-            share = off_m / max(BRIDGE_RADIUS_M, BRIDGE_SHARE * hypot(way_x_m, way_y_m))
+            share = off_m / max(BRIDGE_RADIUS_M, BRIDGE_SPEED * since_s, BRIDGE_SHARE * hypot(way_x_m, way_y_m))
             if share <= nearest and time_s <= self._bridged_until_s(lost):
                 found, nearest = lost, share
         return found
