@@ -105,7 +105,7 @@ class Decoder:
             tells_all=self._is_a,
             counts=self.counts,
             warnings=self.warnings,
-            next_finger=after._plausibility.next_finger if after else 0,
+            after=after._plausibility if after else None,
         )
         self._serials = count(FIRST_SERIAL)
         self._slot = slot

@@ -77,25 +77,30 @@ class Plausibility:
     counts : Counts
     warnings : Counter of str
         Of the decoder.
-    next_finger : int
-        Number of its first finger.
+    after : Plausibility, optional
+        That of the device before a reconnection, whose finger numbers are continued.
 
     Attributes
     ----------
     due_s : float
         When to call `overdue` unless there is a report before; inf: never.
-    next_finger : int
-        Number of the next finger.
     touched : bool
         Whether the last report had a contact down, and all fingers have their places.
     """
 
     def __init__(
-        self, axes: Axes, max_played: int, *, tells_all: bool, counts: Counts, warnings: Counter[str], next_finger: int = 0
+        self,
+        axes: Axes,
+        max_played: int,
+        *,
+        tells_all: bool,
+        counts: Counts,
+        warnings: Counter[str],
+        after: Plausibility | None = None,
     ) -> None:
         self.due_s = inf
         self.touched = False
-        self.next_finger = next_finger
+        self._next_finger: int = after._next_finger if after else 0
         self._counts = counts
         self._warnings = warnings
         self._axes = axes
@@ -108,7 +113,8 @@ class Plausibility:
         self._max_size_m = axes.settings.max_size_m
         self._max_played = max_played
         self._played = 0
-        self._rate = ReportRate()
+        self._rate: ReportRate = after._rate if after else ReportRate()
+        self._rate.restart()
         self._number = 0  # of the last report
         self._report_s = self._before_s = 0.0  # times of the last report and of the one before
         self._down = 0  # contacts of the last report
@@ -325,8 +331,8 @@ class Plausibility:
             self._warnings["more_than_played"] += 1
             contact.refused = True
             return
-        contact.finger = self.next_finger
-        self.next_finger += 1
+        contact.finger = self._next_finger
+        self._next_finger += 1
         self._played += 1
         self._counts.believed += 1
         contact.x_m, contact.y_m = place

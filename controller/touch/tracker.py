@@ -129,6 +129,7 @@ class Tracker:
         self._lag_s = settings.lag_s
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
+        self._ghostly = settings.ghost_s > 0
         self._guard = GhostGuard(settings.ghost_s)
         self._quiet = QuietBudget(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
@@ -288,7 +289,7 @@ class Tracker:
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
-        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
+        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
         self.tracking.held_back += contact.suspect
