@@ -7,7 +7,7 @@ A position that a panel reports is a claim. Each is counted (`Counts.points`), a
 - A step that no hand makes from one report to the next (`SPEED_CHANGE`, `HAND_SPEED`): held back until the next report. If that
   lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
   believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
-  what it said.
+  what it said. In protocol A without tracking ids a step too far for one finger, once confirmed, is another finger.
 - A contact beyond the ten that are played.
 - Believed: it becomes a touch sample. Positions up to `EDGE_M` outside the axes are clamped to them.
 
@@ -212,6 +212,8 @@ class Plausibility:
                 contact.silent = True
             elif contact.held and contact.held_x_m == contact.held_x_m:
                 self._counts.confirmed += 1
+                if contact.jumped:
+                    samples.append(self._replaced(contact, time_s))
                 self._believe(contact, contact.held_x_m, contact.held_y_m, time_s, samples)
             elif contact.held:
                 samples.append(self.released(contact, time_s))
@@ -297,6 +299,8 @@ class Plausibility:
                 self._leave_out(contact)
         elif contact.held and self._goes_on(contact, x_m, y_m, time_s):
             counts.confirmed += 1
+            if contact.jumped:
+                samples.append(self._replaced(contact, time_s))
         else:
             if contact.held:
                 self._leave_out(contact, more=True)
@@ -339,11 +343,20 @@ class Plausibility:
         self._believe(contact, contact.x_m, contact.y_m, time_s, samples)
         contact.step_vx = contact.step_vy = nan
 
+    def _replaced(self, contact: Contact, time_s: float) -> TouchSample:
+        """Release the finger of a contact that is another finger now; its position that was held back is believed next."""
+        released = TouchSample(contact.finger or 0, contact.x_m, contact.y_m, time_s, False, contact.size_m)
+        contact.finger = self._next_finger
+        self._next_finger += 1
+        self._counts.contacts += 1
+        return released
+
     def _believe(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
         """Append a sample of a finger at this place."""
         if contact.held and contact.held_x_m == contact.held_x_m:  # it is confirmed: what it did before is unknown
             contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         contact.held = 0
+        contact.jumped = False
         step_s = self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
         contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
         contact.stepped = self._number
