@@ -99,7 +99,7 @@ class Decoder:
         self._dropping = False
         self.touched = False
         self.due_s = inf
-        self._plausibility = Plausibility(
+        self._plausibility: Plausibility = Plausibility(
             axes,
             MAX_PLAYED,
             tells_all=self._is_a,

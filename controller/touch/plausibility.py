@@ -4,7 +4,7 @@ A position that a panel reports is a claim. Each is counted (`Counts.points`), a
 
 - More than `EDGE_M` outside the axes, or in a rectangle of `touch.no_finger_mm`: no finger. A contact that begins there waits until
   it is reported elsewhere. A finger that is reported there keeps its last place for one report, and is released by the next.
-- A step that no hand makes from one report to the next (`SPEED_CHANGE`, `HAND_SPEED`): held back until the next report. If that
+- A step that no hand makes from one report to the next (`hand_steps.py`): held back until the next report. If that
   lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
   believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
   what it said. In protocol A without tracking ids a step too far for one finger, once confirmed, is another finger.
@@ -14,30 +14,24 @@ A position that a panel reports is a claim. Each is counted (`Counts.points`), a
 A palm, by tool or by size, stays one until it is lifted, and its positions are no claims. A panel that repeats its reports while
 it is touched, and falls silent, has no finger (`Plausibility.overdue`).
 
-Times are measured in the panel's own report period.
+Times are measured in the panel's own report period (`reports.PanelHabits`).
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from math import hypot, inf, nan
+from math import inf, nan
 from typing import Final
 
 from controller.touch.associate import IMPLIED, Contact
 from controller.touch.axes import Axes
-from controller.touch.reports import ReportRate
+from controller.touch.hand_steps import goes_on, moving_s, reaches
+from controller.touch.reports import PanelHabits, ReportRate
 from controller.touch.source import Counts, TouchSample, touch_sample
 
 EDGE_M: Final = 5e-3  # half a fingertip: one that is centred farther outside does not touch the panel's outermost electrodes
-SPEED_CHANGE: Final = 0.6  # m/s between two steps; libinput takes 7 mm more in 12 ms than in the 12 ms before for a jump
-HAND_SPEED: Final = 2.0  # m/s of the first step; 20 cm in 0.2 s, a very fast stroke, reach 1.9 (minimum jerk: Flash and Hogan, 1985)
-NOISE_M: Final = 2e-3  # of a position; the coarsest panel recorded has steps of 1.8 mm
-MAX_STEP_PERIODS: Final = 2.0  # a panel may lose a report: for so long at most a finger is taken to have moved unseen
 CONFIRMING_PERIODS: Final = 1.5  # without a report in this time, a position held back is where the finger rests
-SILENT_PERIODS: Final = 2.5  # of a repeating panel, which may lose a report
-SHORTEST_PAUSE_S: Final = 60e-3  # nobody lifts a finger and taps again sooner: a shorter silence need not be told from a rest
-REPEATING_REPORTS: Final = 16  # in a row without any contact having moved: such a panel repeats its reports
 
 KINDS: Final = ("far_outside", "no_finger", "too_fast", "more_than_played", "fallen_silent")  # of `reports.WARNINGS`
 
@@ -113,20 +107,13 @@ class Plausibility:
         self._max_size_m = axes.settings.max_size_m
         self._max_played = max_played
         self._played = 0
-        self._rate: ReportRate = after._rate if after else ReportRate()
-        self._rate.restart()
+        self._habits = PanelHabits(after._habits.rate if after else ReportRate(), tells_all=tells_all)
         self._number = 0  # of the last report
-        self._report_s = self._before_s = 0.0  # times of the last report and of the one before
-        self._down = 0  # contacts of the last report
-        self._tells_all = tells_all
-        self._tells_releases = False  # it has reported that no contact is left
-        self._repeats = False  # it has reported contacts again that had not moved
-        self._rests = False  # it has gone on with a contact after a silence
-        self._still = 0  # reports in a row without any contact having moved
-        self._fell_silent = False
-        self._silent_s = self._confirm_s = inf
+        self._confirm_s = inf  # when a position held back is confirmed by silence
 
-    def report(self, contacts: Iterable[Contact], replaced: list[Contact], time_s: float, *, hovering: bool) -> tuple[TouchSample, ...]:
+    def report(
+        self, contacts: Iterable[Contact], replaced: list[Contact], time_s: float, *, hovering: bool
+    ) -> tuple[TouchSample, ...]:
         """Take a report.
 
         Parameters
@@ -164,7 +151,7 @@ class Plausibility:
                 if not contact.moved:
                     continue
                 contact.silent = False
-                self._rests = True
+                self._habits.rests = True
             down += 1
             if not contact.counted and identity >= 0:
                 contact.counted = True
@@ -180,15 +167,21 @@ class Plausibility:
             elif contact.moved or contact.finger is None or contact.held:
                 moved = moved or contact.moved
                 changed.append(contact)
-        self._arrived(down, time_s, moved=moved)
+        self._number += 1
+        self._confirm_s = inf
+        if down:
+            counts.reports += 1
+            counts.max_fingers = max(counts.max_fingers, down)
+        habits = self._habits
+        habits.arrived(down, time_s, moved=moved)
         for contact in changed:  # after all releases, which make room for new fingers
             self._place(contact, time_s, samples)
         self.touched = down > 0 and self._confirm_s == inf
-        self.due_s = min(self._silent_s, self._confirm_s)
+        self.due_s = min(habits.silent_s, self._confirm_s)
         return tuple(samples)
 
     def overdue(self, contacts: Iterable[Contact], time_s: float) -> tuple[TouchSample, ...]:
-        """Take it that there was no report by `due_s`: a panel that repeats its reports has no finger, any other has fingers that rest.
+        """Decide, as there was no report by `due_s`: a panel that repeats its reports has no finger, any other has fingers at rest.
 
         Parameters
         ----------
@@ -203,7 +196,8 @@ class Plausibility:
             Fingers released, or confirmed where they were held back.
         """
         samples: list[TouchSample] = []
-        silent = time_s >= self._silent_s
+        habits = self._habits
+        silent = time_s >= habits.silent_s
         for contact in contacts:
             if contact.finger is None:
                 continue
@@ -219,10 +213,10 @@ class Plausibility:
                 samples.append(self.released(contact, time_s))
         if silent:
             self._warnings["fallen_silent"] += len(samples)
-            self._fell_silent = True
-            self.forget()
+            habits.fell_silent = True
+            habits.forget()
         self._confirm_s = inf
-        self.due_s = self._silent_s
+        self.due_s = habits.silent_s
         return tuple(samples)
 
     def released(self, contact: Contact, time_s: float) -> TouchSample:
@@ -244,35 +238,8 @@ class Plausibility:
 
     def forget(self) -> None:
         """Wait for nothing: every finger has been released."""
-        self._down = self._still = 0
-        self._silent_s = self._confirm_s = self.due_s = inf
-        self._rate.pause()
-
-    def _arrived(self, down: int, time_s: float, *, moved: bool) -> None:
-        """Learn from a report with `down` contacts, of which any has `moved` or none, how the panel reports."""
-        self._number += 1
-        self._before_s, self._report_s = self._report_s, time_s
-        self._confirm_s = self._silent_s = inf
-        rate = self._rate
-        if not down:
-            if self._down or self._fell_silent:  # it was touched all the time if it had fallen silent
-                self._tells_releases = True
-                rate.pause()
-        else:
-            counts = self._counts
-            counts.reports += 1
-            counts.max_fingers = max(counts.max_fingers, down)
-            rate.report(time_s)
-            period_s = rate.period_s
-            if moved or down != self._down or time_s - self._before_s > MAX_STEP_PERIODS * period_s:
-                self._still = 0
-            elif self._still < REPEATING_REPORTS:
-                self._still += 1
-                self._repeats = self._still == REPEATING_REPORTS or self._repeats
-            if self._tells_all and not self._tells_releases or self._repeats and not self._rests:
-                self._silent_s = time_s + max(SHORTEST_PAUSE_S, SILENT_PERIODS * period_s)
-        self._fell_silent = False
-        self._down = down
+        self._habits.forget()
+        self._confirm_s = self.due_s = inf
 
     def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
         """Append the sample of a contact that has moved, begun or been held back, if it is believed."""
@@ -294,10 +261,11 @@ class Plausibility:
                 self._hold(contact, nan, nan)
             return
         x_m, y_m = place
-        if self._reaches(contact, x_m, y_m, time_s):
+        before_s, period_s = self._habits.before_s, self._habits.rate.period_s
+        if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
             if contact.held:
                 self._leave_out(contact)
-        elif contact.held and self._goes_on(contact, x_m, y_m, time_s):
+        elif contact.held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
             counts.confirmed += 1
             if contact.jumped:
                 samples.append(self._replaced(contact, time_s))
@@ -357,7 +325,7 @@ class Plausibility:
             contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         contact.held = 0
         contact.jumped = False
-        step_s = self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
+        step_s = moving_s(time_s - self._habits.before_s, self._habits.rate.period_s)
         contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
         contact.stepped = self._number
         contact.x_m = x_m
@@ -370,9 +338,10 @@ class Plausibility:
     def _hold(self, contact: Contact, x_m: float, y_m: float) -> None:
         """Hold a position back until the next report; NaN: it is no place of a finger."""
         if not contact.held:
-            contact.held, contact.held_s = self._number, self._before_s
+            contact.held = self._number
+            contact.held_s = self._habits.before_s
         contact.held_x_m, contact.held_y_m = x_m, y_m
-        self._confirm_s = self._report_s + CONFIRMING_PERIODS * self._rate.period_s
+        self._confirm_s = self._habits.report_s + CONFIRMING_PERIODS * self._habits.rate.period_s
 
     def _leave_out(self, contact: Contact, *, more: bool = False) -> None:
         """Leave out the position of a contact that was held back; `more`: another one is held back in its place."""
@@ -380,35 +349,3 @@ class Plausibility:
             self._warnings["too_fast"] += 1
         if not more:
             contact.held = 0
-
-    def _reaches(self, contact: Contact, x_m: float, y_m: float, time_s: float) -> bool:
-        """Whether a hand may have moved a finger from its last place to this one."""
-        off_x_m, off_y_m = x_m - contact.x_m, y_m - contact.y_m
-        if contact.held:
-            last, step_s = contact.held - 1, self._step_s(time_s - contact.held_s, MAX_STEP_PERIODS + 1)
-        else:
-            last, step_s = self._number - 1, self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
-        change = SPEED_CHANGE
-        if contact.stepped == last:  # else it rested
-            if contact.step_vx == contact.step_vx:
-                off_x_m -= contact.step_vx * step_s
-                off_y_m -= contact.step_vy * step_s
-            else:
-                change = HAND_SPEED
-        return hypot(off_x_m, off_y_m) <= NOISE_M + change * step_s
-
-    def _goes_on(self, contact: Contact, x_m: float, y_m: float, time_s: float) -> bool:
-        """Whether this place confirms the one that was held back: near it, or as far beyond it as that was from the last one."""
-        step_s = self._step_s(time_s - self._before_s, MAX_STEP_PERIODS)
-        off_x_m, off_y_m = x_m - contact.held_x_m, y_m - contact.held_y_m
-        if hypot(off_x_m, off_y_m) <= NOISE_M + HAND_SPEED * step_s:  # False for NaN
-            return True
-        share = step_s / self._step_s(self._before_s - contact.held_s, MAX_STEP_PERIODS + 1)
-        off_x_m -= (contact.held_x_m - contact.x_m) * share
-        off_y_m -= (contact.held_y_m - contact.y_m) * share
-        return hypot(off_x_m, off_y_m) <= NOISE_M + SPEED_CHANGE * step_s
-
-    def _step_s(self, since_s: float, periods: float) -> float:
-        """Time in which a finger may have moved: reports may be late, or lost."""
-        period_s = self._rate.period_s
-        return min(max(since_s, period_s), periods * period_s)

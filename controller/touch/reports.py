@@ -6,6 +6,7 @@ from array import array
 from collections import Counter
 from collections.abc import Mapping
 from itertools import accumulate
+from math import inf
 from typing import Final
 
 # Anomalies that are handled, counted by kind and listed once at the end of a run
@@ -46,6 +47,11 @@ MIN_PERIOD_S: Final = 2e-3  # limits of the running median: a flood or a slow fi
 MAX_PERIOD_S: Final = 40e-3
 FIRST_INTERVALS: Final = 9  # of so many the median is exact, from the first on
 MEDIAN_STEP: Final = 0.02  # relative step of the running median per report, afterwards
+SILENT_PERIODS: Final = 2.5  # of a panel that repeats its reports, and may lose one
+SHORTEST_PAUSE_S: Final = 60e-3  # nobody lifts a finger and taps again sooner: a shorter silence need not be told from a rest
+REPEATING_REPORTS: Final = 16  # in a row without any contact having moved: such a panel repeats its reports
+LATE_PERIODS: Final = 2.0  # after so long a report no longer follows on the one before
+
 BIN_S: Final = 0.25e-3
 BINS: Final = 256  # up to 64 ms; longer is a pause
 
@@ -155,3 +161,81 @@ class ReportRate:
         if not total:
             return None
         return (next(i for i, below in enumerate(accumulate(self._counts)) if below >= share * total) + 0.5) * BIN_S
+
+
+class PanelHabits:
+    """How a panel reports, learnt from its reports: its period, and what it means if it falls silent while it is touched.
+
+    Parameters
+    ----------
+    rate : ReportRate
+        Measured anew.
+    tells_all : bool
+        Whether each report lists all contacts (protocol A): then it repeats itself, and a panel that has never reported that no
+        contact is left reports releases by silence.
+
+    Attributes
+    ----------
+    rate : ReportRate
+        Of the reports with a contact down.
+    report_s, before_s : float
+        Times of the last report and of the one before.
+    silent_s : float
+        When it has fallen silent unless there is a report before; inf: it may be silent for ever while fingers rest.
+    rests : bool
+        Set it once the panel has gone on with a contact after a silence: silence means nothing then.
+    fell_silent : bool
+        Set it after a silence: a release that is reported next shows that the panel was touched all the time.
+    """
+
+    __slots__ = (
+        "_down",
+        "_repeats",
+        "_still",
+        "_tells_all",
+        "_tells_releases",
+        "before_s",
+        "fell_silent",
+        "rate",
+        "report_s",
+        "rests",
+        "silent_s",
+    )
+
+    def __init__(self, rate: ReportRate, *, tells_all: bool) -> None:
+        rate.restart()
+        self.rate = rate
+        self.report_s = self.before_s = 0.0
+        self.silent_s = inf
+        self.rests = self.fell_silent = False
+        self._tells_all = tells_all
+        self._tells_releases = False  # it has reported that no contact is left
+        self._repeats = False  # it has reported again and again what had not moved
+        self._still = 0  # reports in a row without any contact having moved
+        self._down = 0  # contacts of the last report
+
+    def arrived(self, down: int, time_s: float, *, moved: bool) -> None:
+        """Learn from a report at `time_s` with `down` contacts, of which any has `moved` or none."""
+        self.before_s, self.report_s = self.report_s, time_s
+        self.silent_s = inf
+        rate = self.rate
+        if down:
+            rate.report(time_s)
+            if moved or down != self._down or time_s - self.before_s > LATE_PERIODS * rate.period_s:
+                self._still = 0
+            elif self._still < REPEATING_REPORTS:
+                self._still += 1
+                self._repeats = self._repeats or self._still == REPEATING_REPORTS
+            if (self._tells_all and not self._tells_releases) or (self._repeats and not self.rests):
+                self.silent_s = time_s + max(SHORTEST_PAUSE_S, SILENT_PERIODS * rate.period_s)
+        elif self._down or self.fell_silent:
+            self._tells_releases = True
+            rate.pause()
+        self.fell_silent = False
+        self._down = down
+
+    def forget(self) -> None:
+        """Take it that no contact is down."""
+        self._down = self._still = 0
+        self.silent_s = inf
+        self.rate.pause()

@@ -13,8 +13,8 @@ from controller.board.lookup import data_folder
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
 from controller.touch.event_codes import Protocol
-from controller.touch.plausibility import EDGE_M, SHORTEST_PAUSE_S, figures
-from controller.touch.reports import describe_warnings
+from controller.touch.plausibility import EDGE_M, figures
+from controller.touch.reports import SHORTEST_PAUSE_S, describe_warnings
 
 BOARD = load_board(data_folder("boards") / "simulated")
 SYN, KEY, ABS = 0, 1, 3
