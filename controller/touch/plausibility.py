@@ -98,7 +98,7 @@ class Plausibility:
         self._counts = counts
         self._warnings = warnings
         self._axes = axes
-        self._limits = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
+        self._limits: tuple[float, float, float, float] = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
         x_unit_m, y_unit_m = axes.unit_m
         x_edge, y_edge = EDGE_M / x_unit_m if x_unit_m else inf, EDGE_M / y_unit_m if y_unit_m else inf
         self._far = (axes.x.minimum - x_edge, axes.x.maximum + x_edge, axes.y.minimum - y_edge, axes.y.maximum + y_edge)
@@ -107,7 +107,7 @@ class Plausibility:
         self._max_size_m = axes.settings.max_size_m
         self._max_played = max_played
         self._played = 0
-        self._habits = PanelHabits(after._habits.rate if after else ReportRate(), tells_all=tells_all)
+        self._habits: PanelHabits = PanelHabits(after._habits.rate if after else ReportRate(), tells_all=tells_all)
         self._number = 0  # of the last report
         self._confirm_s = inf  # when a position held back is confirmed by silence
 
@@ -264,11 +264,16 @@ class Plausibility:
         before_s, period_s = self._habits.before_s, self._habits.rate.period_s
         if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
             if contact.held:
+                step_s = moving_s(time_s - contact.held_s, period_s, lost=2)
                 self._leave_out(contact)
+            else:
+                step_s = moving_s(time_s - before_s, period_s)
         elif contact.held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
             counts.confirmed += 1
             if contact.jumped:
                 samples.append(self._replaced(contact, time_s))
+            step_s = moving_s(time_s - before_s, period_s)
+            contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         else:
             if contact.held:
                 self._leave_out(contact, more=True)
@@ -276,6 +281,7 @@ class Plausibility:
             self._hold(contact, x_m, y_m)
             return
         counts.believed += 1
+        contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
         self._believe(contact, x_m, y_m, time_s, samples)
 
     def _position_m(self, x: int, y: int) -> tuple[float, float] | None:
@@ -307,9 +313,9 @@ class Plausibility:
         self._next_finger += 1
         self._played += 1
         self._counts.believed += 1
-        contact.x_m, contact.y_m = place
-        self._believe(contact, contact.x_m, contact.y_m, time_s, samples)
         contact.step_vx = contact.step_vy = nan
+        x_m, y_m = place
+        self._believe(contact, x_m, y_m, time_s, samples)
 
     def _replaced(self, contact: Contact, time_s: float) -> TouchSample:
         """Release the finger of a contact that is another finger now; its position that was held back is believed next."""
@@ -321,12 +327,8 @@ class Plausibility:
 
     def _believe(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
         """Append a sample of a finger at this place."""
-        if contact.held and contact.held_x_m == contact.held_x_m:  # it is confirmed: what it did before is unknown
-            contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         contact.held = 0
         contact.jumped = False
-        step_s = moving_s(time_s - self._habits.before_s, self._habits.rate.period_s)
-        contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
         contact.stepped = self._number
         contact.x_m = x_m
         contact.y_m = y_m
