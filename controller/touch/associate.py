@@ -2,8 +2,7 @@
 
 Contacts without tracking ids are assigned all at once: the assignment with the smallest sum of squared distances between the
 predicted position of each old contact and a new one. Assigning the nearest first would swap fingers that pass each other
-within a few mm. Where an old contact is missing and a new one appears too far from it, the panel may have lifted one finger and
-found another, or made an error: `plausibility.py` finds out with the next report.
+within a few mm.
 """
 
 from __future__ import annotations
@@ -63,8 +62,6 @@ class Contact:
         Number of the report of its last sample.
     step_vx, step_vy : float
         Velocity in m/s of the last step between two samples; NaN before the first.
-    jumped : bool
-        Without a tracking id: whether it has been assigned to a position too far away for one finger.
     silent : bool
         Whether its panel has fallen silent: it is no finger until the panel reports it again.
     """
@@ -80,7 +77,6 @@ class Contact:
         "held_y_m",
         "hovers",
         "identity",
-        "jumped",
         "moved",
         "palm",
         "refused",
@@ -105,8 +101,7 @@ class Contact:
         self.identity = identity
         self.x: int | None = None
         self.y: int | None = None
-        self.moved = self.hovers = self.tool_palm = self.palm = self.counted = self.refused = False
-        self.silent = self.jumped = False
+        self.moved = self.hovers = self.tool_palm = self.palm = self.counted = self.refused = self.silent = False
         self.finger = finger
         self.x_m = x_m
         self.y_m = y_m
@@ -150,15 +145,8 @@ def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: 
             now[contact.identity] = _carried_over(old.get(contact.identity), contact)
     old_untracked = [contact for contact in old.values() if contact.identity >= FIRST_SERIAL]
     partners = _partners(old_untracked, untracked, step_s)
-    missing = [contact for contact in old_untracked if contact not in partners]
     for contact, partner in zip(untracked, partners, strict=True):
-        if partner is None and missing:
-            partner = _nearest(missing, contact)  # noqa: PLW2901
-            missing.remove(partner)
-            partner.at_x_m, partner.at_y_m = contact.at_x_m, contact.at_y_m
-            partner.vx = partner.vy = 0.0
-            partner.jumped = True
-        elif partner is None:
+        if partner is None:
             contact.identity = next(serials)
         else:
             _update_velocity(partner, contact, step_s)
@@ -233,7 +221,10 @@ def _partners(old: Sequence[Contact], new: Sequence[Contact], step_s: float) -> 
     released = [farthest] * len(old)
     costs = []
     for contact in old:
-        x_m, y_m = contact.at_x_m + contact.vx * ahead_s, contact.at_y_m + contact.vy * ahead_s
+        if contact.held:  # its last report may have been an error
+            x_m, y_m = contact.x_m, contact.y_m
+        else:
+            x_m, y_m = contact.at_x_m + contact.vx * ahead_s, contact.at_y_m + contact.vy * ahead_s
         squares = [(x_m - other.at_x_m) ** 2 + (y_m - other.at_y_m) ** 2 for other in new]
         costs.append([square if square <= farthest else math.inf for square in squares] + released)
     for contact, column in zip(old, assignment(costs), strict=True):
@@ -242,14 +233,9 @@ def _partners(old: Sequence[Contact], new: Sequence[Contact], step_s: float) -> 
     return partners
 
 
-def _nearest(old: Sequence[Contact], new: Contact) -> Contact:
-    """The old contact that was last reported nearest to a new one."""
-    return min(old, key=lambda contact: (contact.at_x_m - new.at_x_m) ** 2 + (contact.at_y_m - new.at_y_m) ** 2)
-
-
 def _update_velocity(old: Contact, new: Contact, step_s: float) -> None:
     """Update the velocity of a contact with its last step."""
-    if step_s > MAX_INTERVAL_S:
+    if step_s > MAX_INTERVAL_S or old.held:
         old.vx = old.vy = 0.0
     elif step_s > 0.0:
         gain_hz = VELOCITY_GAIN / max(step_s, MIN_INTERVAL_S)

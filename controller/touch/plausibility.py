@@ -7,7 +7,7 @@ A position that a panel reports is a claim. Each is counted (`Counts.points`), a
 - A step that no hand makes from one report to the next (`hand_steps.py`): held back until the next report. If that
   lies within reach of the last place, the position was an outlier; if it lies near the new one, or goes on at that speed, it is
   believed. A contact that begins is no step: a second tap elsewhere is played at once. A panel that reports nothing more means
-  what it said. In protocol A without tracking ids a step too far for one finger, once confirmed, is another finger.
+  what it said.
 - A contact beyond the ten that are played.
 - Believed: it becomes a touch sample. Positions up to `EDGE_M` outside the axes are clamped to them.
 
@@ -206,8 +206,6 @@ class Plausibility:
                 contact.silent = True
             elif contact.held and contact.held_x_m == contact.held_x_m:
                 self._counts.confirmed += 1
-                if contact.jumped:
-                    samples.append(self._replaced(contact, time_s))
                 self._believe(contact, contact.held_x_m, contact.held_y_m, time_s, samples)
             elif contact.held:
                 samples.append(self.released(contact, time_s))
@@ -270,8 +268,6 @@ class Plausibility:
                 step_s = moving_s(time_s - before_s, period_s)
         elif contact.held and goes_on(contact, x_m, y_m, time_s, before_s, period_s):
             counts.confirmed += 1
-            if contact.jumped:
-                samples.append(self._replaced(contact, time_s))
             step_s = moving_s(time_s - before_s, period_s)
             contact.x_m, contact.y_m = contact.held_x_m, contact.held_y_m
         else:
@@ -317,18 +313,9 @@ class Plausibility:
         x_m, y_m = place
         self._believe(contact, x_m, y_m, time_s, samples)
 
-    def _replaced(self, contact: Contact, time_s: float) -> TouchSample:
-        """Release the finger of a contact that is another finger now; its position that was held back is believed next."""
-        released = TouchSample(contact.finger or 0, contact.x_m, contact.y_m, time_s, False, contact.size_m)
-        contact.finger = self._next_finger
-        self._next_finger += 1
-        self._counts.contacts += 1
-        return released
-
     def _believe(self, contact: Contact, x_m: float, y_m: float, time_s: float, samples: list[TouchSample]) -> None:
         """Append a sample of a finger at this place."""
         contact.held = 0
-        contact.jumped = False
         contact.stepped = self._number
         contact.x_m = x_m
         contact.y_m = y_m

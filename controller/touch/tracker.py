@@ -7,8 +7,8 @@ States of a contact:
 - A lost finger is kept for `BRIDGE_PERIODS`; a contact that begins near its predicted position meanwhile is the same finger.
   A release therefore reaches the loop that much later, with the time at which the panel reported it. One that has become a palm
   does not wait.
-- The period is the panel's own. Until it is measured, a finger that is lost is kept for as long as if the panel had reported it
-  once and then lost it (`UNKNOWN_LOSSES`).
+- The period is the panel's own. Until it is measured, a finger that is lost soon after a report is taken to have been lost by the
+  next, as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back sooner than any hand shows the period.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
 BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
 BRIDGE_SHARE: Final = 0.5  # of the way from its last report: the same of a fast finger
 BRIDGE_PERIODS: Final = 1.5  # the panel finds it one period after it has reported the loss
-UNKNOWN_LOSSES: Final = 3  # of a panel without a measured period; one whose fingers have not come back by then keeps them
+SLOW_PERIOD_S: Final = 30e-3  # it takes 45 ms at most to come back: nobody taps again in less than 50
+UNKNOWN_LOSSES: Final = 3  # after so many, a panel without a measured period reports taps that do not move, and loses none
 MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
 CONFIRMING_REPORTS: Final = 2
 
@@ -137,6 +138,7 @@ class Tracker:
         self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
         self._lost: list[_Contact] = []
         self._losses = 0  # while the period is not measured
+        self._gone: _Contact | None = None  # the finger that was released last
         self._devices = source.counts.devices
         self._known_s = -inf  # time up to which all reports have been taken
         self._due_s = inf  # when a decision is due without a report
@@ -289,6 +291,8 @@ class Tracker:
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
+        if not self.rate.measured and self._gone is not None:
+            self._learn(self._gone, x_m, y_m, time_s)
         contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
         contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
@@ -309,6 +313,12 @@ class Tracker:
                 found, nearest = lost, share
         return found
 
+    def _learn(self, gone: _Contact, x_m: float, y_m: float, time_s: float) -> None:
+        """Learn the period from a finger that comes back sooner than any hand."""
+        back_s = time_s - gone.lost_s
+        if back_s <= BRIDGE_PERIODS * SLOW_PERIOD_S and hypot(x_m - gone.motion.x_m, y_m - gone.motion.y_m) <= BRIDGE_RADIUS_M:
+            self.rate.interval(back_s)
+
     def _lift(self, contact: _Contact, time_s: float) -> None:
         if contact.played:
             contact.lost_s = time_s
@@ -321,7 +331,7 @@ class Tracker:
             self.tracking.flickers += 1
 
     def _release(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
-        self._released[contact.finger] = self._fingers.pop(contact.finger)
+        self._released[contact.finger] = self._gone = self._fingers.pop(contact.finger)
         out.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:
@@ -368,5 +378,7 @@ class Tracker:
     def _bridged_until_s(self, lost: _Contact) -> float:
         period_s = self.rate.period_s
         if not self.rate.measured and self._losses <= UNKNOWN_LOSSES:
-            period_s = max(period_s, min(lost.lost_s - lost.motion.time_s, MAX_PERIOD_S))
+            since_s = lost.lost_s - lost.motion.time_s
+            if since_s <= MAX_PERIOD_S:
+                period_s = max(period_s, min(since_s, SLOW_PERIOD_S))
         return lost.lost_s + BRIDGE_PERIODS * period_s

@@ -246,6 +246,20 @@ def test_rate_and_jitter_are_those_of_the_panel():
     assert t.rate.period_s == pytest.approx(8e-3, rel=0.05)
 
 
+def test_a_slow_panel_that_reports_changes_only_shows_its_period_by_the_first_finger_that_comes_back():
+    """A finger that rests, found at 0, 0.6, … s, lost for 30 ms each time."""
+    t = tracker(*[report for k in range(9) for report in ((1 + 0.63 * k, [touch(k, 100)]), (1.6 + 0.63 * k, []))])
+    assert len({sample.finger for sample in played(t)}) == 2
+    assert t.rate.period_s == pytest.approx(0.03)
+    assert t.tracking.bridged == 7
+
+
+def test_taps_50_ms_apart_are_taps_whatever_is_known_of_the_panel():
+    t = tracker(*[report for k in range(9) for report in ((1 + 0.1 * k, [touch(k, 100)]), (1.05 + 0.1 * k, []))])
+    assert len({sample.finger for sample in played(t)}) == 9
+    assert t.rate.measured == t.tracking.bridged == 0
+
+
 def test_pauses_between_touches_are_not_in_the_rate():
     t = tracker(*[report for k in range(9) for report in reports(50, 51, None, start_s=1 + 0.05 * k)])
     played(t)
