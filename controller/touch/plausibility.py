@@ -172,10 +172,10 @@ class Plausibility:
         if down:
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)
-        habits = self._habits
-        habits.arrived(down, time_s, moved=moved)
         for contact in changed:  # after all releases, which make room for new fingers
             self._place(contact, time_s, samples)
+        habits = self._habits
+        habits.arrived(down, time_s, moved=moved)
         self.touched = down > 0 and self._confirm_s == inf
         self.due_s = min(habits.silent_s, self._confirm_s)
         return tuple(samples)
@@ -256,10 +256,10 @@ class Plausibility:
             if contact.held:
                 samples.append(self.released(contact, time_s))
             else:
-                self._hold(contact, nan, nan)
+                self._hold(contact, nan, nan, time_s)
             return
         x_m, y_m = place
-        before_s, period_s = self._habits.before_s, self._habits.rate.period_s
+        before_s, period_s = self._habits.report_s, self._habits.rate.period_s
         if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
             if contact.held:
                 step_s = moving_s(time_s - contact.held_s, period_s, lost=2)
@@ -274,7 +274,7 @@ class Plausibility:
             if contact.held:
                 self._leave_out(contact, more=True)
             counts.held += 1
-            self._hold(contact, x_m, y_m)
+            self._hold(contact, x_m, y_m, time_s)
             return
         counts.believed += 1
         contact.step_vx, contact.step_vy = (x_m - contact.x_m) / step_s, (y_m - contact.y_m) / step_s
@@ -324,13 +324,13 @@ class Plausibility:
         assert finger is not None
         samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))
 
-    def _hold(self, contact: Contact, x_m: float, y_m: float) -> None:
+    def _hold(self, contact: Contact, x_m: float, y_m: float, time_s: float) -> None:
         """Hold a position back until the next report; NaN: it is no place of a finger."""
         if not contact.held:
             contact.held = self._number
-            contact.held_s = self._habits.before_s
+            contact.held_s = self._habits.report_s
         contact.held_x_m, contact.held_y_m = x_m, y_m
-        self._confirm_s = self._habits.report_s + CONFIRMING_PERIODS * self._habits.rate.period_s
+        self._confirm_s = time_s + CONFIRMING_PERIODS * self._habits.rate.period_s
 
     def _leave_out(self, contact: Contact, *, more: bool = False) -> None:
         """Leave out the position of a contact that was held back; `more`: another one is held back in its place."""

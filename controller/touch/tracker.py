@@ -184,15 +184,16 @@ class Tracker:
         self.touched = touched = self._source.touched
         if not samples and not touched and now_s < self._due_s:
             return ()
-        out: list[TouchSample] = []
-        for sample in samples:
-            self._take(sample, out)
         if self._devices != self.counts.devices:  # it may be another panel
             self._devices = self.counts.devices
             self._losses = 0
             self.rate.restart()
         if touched:
             self.rate.report(known_s)
+        out: list[TouchSample] = []
+        for sample in samples:
+            self._take(sample, out)
+        if touched:
             self._found_still(known_s)
         self._decide(known_s, out)
         if not self._contacts:
