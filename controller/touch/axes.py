@@ -33,6 +33,10 @@ class Axes:
 
     Attributes
     ----------
+    from_axes : tuple of 6 float
+        The map: metres along x per raw unit of x, of y, at raw (0, 0); the same along y.
+    plate_m : (float, float)
+        Length and width of the plate.
     settings : TouchPanel
         The board's [touch].
     unit_m : (float, float)
@@ -41,15 +45,15 @@ class Axes:
         Metres per raw unit of a contact's size, the mean of both axes.
     """
 
-    __slots__ = ("_from_axes", "_plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
+    __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
 
     def __init__(self, board: Board, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
         self.settings: TouchPanel = board.touch
-        self._plate_m = (board.plate.length_m, board.plate.width_m)
-        self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
-        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self._from_axes
+        self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self.from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
+        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self.from_axes
         # The kernel gives a contact's size in units of its position, which may differ between the axes
         self.unit_m = (math.hypot(x_by_x, y_by_x), math.hypot(x_by_y, y_by_y))
         self.size_m_per_unit = sum(self.unit_m) / 2
@@ -71,8 +75,8 @@ class Axes:
         (x_m, y_m)
             Clamped to the plate.
         """
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes
-        length_m, width_m = self._plate_m
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
+        length_m, width_m = self.plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0
         return (

@@ -99,6 +99,7 @@ class Plausibility:
         self._warnings = warnings
         self._axes = axes
         self._limits: tuple[float, float, float, float] = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
+        self._from_axes, self._plate_m = axes.from_axes, axes.plate_m
         x_unit_m, y_unit_m = axes.unit_m
         x_edge, y_edge = EDGE_M / x_unit_m if x_unit_m else inf, EDGE_M / y_unit_m if y_unit_m else inf
         self._far = (axes.x.minimum - x_edge, axes.x.maximum + x_edge, axes.y.minimum - y_edge, axes.y.maximum + y_edge)
@@ -172,10 +173,10 @@ class Plausibility:
         if down:
             counts.reports += 1
             counts.max_fingers = max(counts.max_fingers, down)
-        for contact in changed:  # after all releases, which make room for new fingers
-            self._place(contact, time_s, samples)
         habits = self._habits
         habits.arrived(down, time_s, moved=moved)
+        for contact in changed:  # after all releases, which make room for new fingers
+            self._place(contact, time_s, samples)
         self.touched = down > 0 and self._confirm_s == inf
         self.due_s = min(habits.silent_s, self._confirm_s)
         return tuple(samples)
@@ -259,7 +260,7 @@ class Plausibility:
                 self._hold(contact, nan, nan, time_s)
             return
         x_m, y_m = place
-        before_s, period_s = self._habits.report_s, self._habits.rate.period_s
+        before_s, period_s = self._habits.before_s, self._habits.rate.period_s
         if reaches(contact, x_m, y_m, time_s, self._number, before_s, period_s):
             if contact.held:
                 step_s = moving_s(time_s - contact.held_s, period_s, lost=2)
@@ -290,14 +291,18 @@ class Plausibility:
                 return None
             self._warnings["outside_axes"] += 1
             x, y = self._axes.clamp(x, y)
-        place = self._axes.position_m(x, y)
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes  # as `Axes.position_m`, without its call for each report
+        length_m, width_m = self._plate_m
+        x_m = x_by_x * x + x_by_y * y + x_at_0
+        y_m = y_by_x * x + y_by_y * y + y_at_0
+        x_m = 0.0 if x_m < 0.0 else length_m if x_m > length_m else x_m
+        y_m = 0.0 if y_m < 0.0 else width_m if y_m > width_m else y_m
         if self._no_finger_m:
-            x_m, y_m = place
             for left_m, low_m, right_m, high_m in self._no_finger_m:
                 if left_m <= x_m <= right_m and low_m <= y_m <= high_m:
                     self._warnings["no_finger"] += 1
                     return None
-        return place
+        return x_m, y_m
 
     def _begin(self, contact: Contact, place: tuple[float, float], time_s: float, samples: list[TouchSample]) -> None:
         """Begin a finger where a contact is, unless as many as are played are down."""
@@ -328,7 +333,7 @@ class Plausibility:
         """Hold a position back until the next report; NaN: it is no place of a finger."""
         if not contact.held:
             contact.held = self._number
-            contact.held_s = self._habits.report_s
+            contact.held_s = self._habits.before_s
         contact.held_x_m, contact.held_y_m = x_m, y_m
         self._confirm_s = time_s + CONFIRMING_PERIODS * self._habits.rate.period_s
 

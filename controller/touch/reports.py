@@ -178,8 +178,8 @@ class PanelHabits:
     ----------
     rate : ReportRate
         Of the reports with a contact down.
-    report_s : float
-        Time of the last report.
+    report_s, before_s : float
+        Times of the last report and of the one before.
     silent_s : float
         When it has fallen silent unless there is a report before; inf: it may be silent for ever while fingers rest.
     rests : bool
@@ -194,6 +194,7 @@ class PanelHabits:
         "_still",
         "_tells_all",
         "_tells_releases",
+        "before_s",
         "fell_silent",
         "rate",
         "report_s",
@@ -204,7 +205,7 @@ class PanelHabits:
     def __init__(self, rate: ReportRate, *, tells_all: bool) -> None:
         rate.restart()
         self.rate = rate
-        self.report_s = 0.0
+        self.report_s = self.before_s = 0.0
         self.silent_s = inf
         self.rests = self.fell_silent = False
         self._tells_all = tells_all
@@ -215,12 +216,12 @@ class PanelHabits:
 
     def arrived(self, down: int, time_s: float, *, moved: bool) -> None:
         """Learn from a report at `time_s` with `down` contacts, of which any has `moved` or none."""
-        since_s, self.report_s = time_s - self.report_s, time_s
+        self.before_s, self.report_s = self.report_s, time_s
         self.silent_s = inf
         rate = self.rate
         if down:
             rate.report(time_s)
-            if moved or down != self._down or since_s > LATE_PERIODS * rate.period_s:
+            if moved or down != self._down or time_s - self.before_s > LATE_PERIODS * rate.period_s:
                 self._still = 0
             elif self._still < REPEATING_REPORTS:
                 self._still += 1
