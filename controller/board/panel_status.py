@@ -73,6 +73,8 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         Emissions that were due and not played.
     waiting : int
         Emissions that are due now.
+    touch_points, touch_points_refused : int
+        Positions that the touch panel has reported, and those of them that were no finger's (`touch/plausibility.py`).
     log_lines_lost, statuses_lost : int
         Lines that the log, and statuses that this file did not take.
     upload, resident : LatencyStatus
@@ -109,6 +111,8 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     statuses_lost: Count
     upload: LatencyStatus
     resident: LatencyStatus
+    touch_points: Count = 0
+    touch_points_refused: Count = 0
     outage_causes: dict[str, Count] = {}
     stall_pauses: Count = 0
     touch_warnings: dict[str, Count] = {}

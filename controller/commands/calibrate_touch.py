@@ -124,9 +124,9 @@ def _seconds(text: str) -> float:
 
 
 def _bare(board: Board) -> Board:
-    """The board with a panel that covers the plate exactly, so that positions are fractions of the axes and none is clipped."""
+    """The board with a panel that covers the plate exactly, so that positions are fractions of the axes and none is left out."""
     plate = board.plate
-    whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0)}
+    whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0), "no_finger_mm": ()}
     return msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, **whole))
 
 

@@ -71,6 +71,8 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
         f"{f', armed again after a pause {status.stall_pauses:,}' if status.stall_pauses else ''}; "
         f"outages {status.outages:,}{f' ({causes})' if causes else ''}; log lines lost {status.log_lines_lost:,}",
     ]
+    if status.touch_points:
+        lines.append(f"positions of the touch panel {status.touch_points:,}, not a finger's {status.touch_points_refused:,}")
     for name, latency in (("an upload", status.upload), ("a resident play", status.resident)):
         if latency.count:
             p50_ms, p99_ms, worst_ms = (1e-3 * us for us in (latency.p50_us, latency.p99_us, latency.worst_us))

@@ -187,6 +187,8 @@ def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
         panel.close()
     said = [f"{touch.__struct_config__.tag} answers", *filter(None, faults)]
     warns = len(said) > 1
+    if touch.no_finger_mm:
+        said.append(f"no finger in {len(touch.no_finger_mm)} rectangles of the plate")
     if isinstance(touch, I2cTouch):
         said.append(
             f"whether line {touch.interrupt_line!r} announces reports shows when it is touched: `haptic-panel status`"

@@ -16,6 +16,7 @@ from controller.clocks import NEVER
 from controller.log import LOG, Priority, log
 from controller.loop.runtime import SpareTime
 from controller.metrics import Counters, LatencyHistogram
+from controller.touch.source import Counts
 from controller.update.layout import running_release
 
 PERIOD_S: Final = 1.0
@@ -53,6 +54,7 @@ class StatusFile(SpareTime):
         self._counters = Counters()
         self._waiting: Callable[[], int] = int
         self._touch: Callable[[], tuple[Mapping[str, int], str]] = _untouched
+        self._touches = Counts()
         self._encoder = msgspec.json.Encoder()
         self._bytes = bytearray(4096)
         self._folder = -1
@@ -72,6 +74,7 @@ class StatusFile(SpareTime):
         self,
         counters: Counters,
         waiting: Callable[[], int],
+        touches: Counts | None = None,
         touch: Callable[[], tuple[Mapping[str, int], str]] | None = None,
     ) -> None:
         """Take what is told; the first status follows the first condition.
@@ -81,12 +84,15 @@ class StatusFile(SpareTime):
         counters : Counters
         waiting : callable
             How many emissions are due now.
+        touches : Counts, optional
+            What became of the positions that the touch panel reports.
         touch : callable, optional
             Anomalies of the touch panel by kind, and the remark of its device.
         """
         self._counters = counters
         self._waiting = waiting
         self._touch = touch or _untouched
+        self._touches = touches or self._touches
 
     def changed(self, condition: Condition) -> None:
         """Take the panel's new condition, which is written soon."""
@@ -133,7 +139,7 @@ class StatusFile(SpareTime):
             log(f"the status file cannot be written to {FOLDER} ({error.strerror}); the panel plays on", Priority.WARNING)
 
     def _status(self, now_s: float, ended: bool) -> PanelStatus:
-        condition, counters = self._condition, self._counters
+        condition, counters, touches = self._condition, self._counters, self._touches
         warnings, remark = self._touch()
         return PanelStatus(
             release=self._release,
@@ -163,6 +169,8 @@ class StatusFile(SpareTime):
             touch_remark=remark,
             skipped=counters.skipped.emissions,
             waiting=self._waiting(),
+            touch_points=touches.points,
+            touch_points_refused=touches.points - touches.believed - touches.confirmed,
             log_lines_lost=LOG.lost,
             statuses_lost=self._lost,
             upload=_latency(counters.upload_latency.host),

@@ -164,18 +164,23 @@ class Recording:
         slots = self._declared.get(ev.ABS_MT_SLOT)
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
-    def tracks(self, axes: Axes) -> dict[int, Track]:
+    def tracks(self, axes: Axes, start_s: float = 0.0) -> dict[int, Track]:
         """Track of each finger by its number in a replay, with a position at every report while it is down.
 
         Parameters
         ----------
         axes : Axes
             From `self.axes`.
+        start_s : float
+            Start of the replay: a decision at the very time of a report falls as in that replay.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
         for kind, code, value, time_s in self.events:
-            if decoder.feed(kind, code, value, time_s) is None:
+            if (kind, code) == (ev.EV_SYN, ev.SYN_REPORT):
+                while decoder.due_s < start_s + time_s:
+                    decoder.overdue(decoder.due_s)
+            if decoder.feed(kind, code, value, start_s + time_s) is None:
                 continue
             for finger, x_m, y_m in decoder.fingers():
                 points.setdefault(finger, []).append((time_s, x_m, y_m))

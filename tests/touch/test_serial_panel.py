@@ -62,10 +62,10 @@ def samples(source, now_s):
 def test_a_finger_comes_moves_and_goes(port, source):
     assert source.fileno() is not None
     assert samples(source, 1.0) == []
-    port.send(touch(0, MAX_COORDINATE, INITIAL) + touch(MAX_COORDINATE, 0, STREAM))
-    assert samples(source, 1.1) == [(0, 0, 148, True), (0, 210, 0, True)]
-    port.send(touch(MAX_COORDINATE, 0, UNTOUCH))
-    assert samples(source, 1.2) == [(0, 210, 0, False)]
+    port.send(touch(0, MAX_COORDINATE, INITIAL) + touch(39, MAX_COORDINATE, STREAM))
+    assert samples(source, 1.1) == [(0, 0, 148, True), (0, 2, 148, True)]
+    port.send(touch(39, MAX_COORDINATE, UNTOUCH) + touch(MAX_COORDINATE, 0, INITIAL) + touch(MAX_COORDINATE, 0, UNTOUCH))
+    assert samples(source, 1.2) == [(0, 2, 148, False), (1, 210, 0, True), (1, 210, 0, False)]
     assert source.next_time_s() is None
     assert not source.warnings
 
