@@ -4,6 +4,7 @@ import json
 import shutil
 from dataclasses import fields, replace
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -72,6 +73,9 @@ def test_without_any_skipping_everything_is_composed_and_sent_for_itself(board, 
     ids=lambda value: value if isinstance(value, str) else value.name,
 )
 def test_a_switch_ends_what_it_is_named_for(board, bank_file, off, case, figure, skipped):
+    if off == "cells":  # keys within 1 mm of the cells of this coarse bank, none within the board's own 0.25
+        board = msgspec.structs.replace(board, bank=msgspec.structs.replace(board.bank, snap_mm=1.0))
+        skipped.pop(case.name, None)
     if case.name not in skipped:
         skipped[case.name] = figures(board, bank_file, case, ALL)
     assert skipped[case.name][figure] > 0
