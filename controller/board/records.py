@@ -13,6 +13,7 @@ from msgspec import Meta
 
 from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
+from controller.text_file import read_text
 
 T = TypeVar("T")
 
@@ -42,7 +43,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        tables = tomllib.loads(read_text(file))
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:

@@ -13,6 +13,7 @@ from controller.board.lookup import find_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.commands.tables import plain_table
+from controller.console import tell
 from controller.errors import CalibrationError, LinkError, UsageError
 from controller.service.drivers import open_link, open_session, open_simulated
 
@@ -107,7 +108,7 @@ def measure(options: argparse.Namespace) -> int:
             _move(options, names[index], done, len(names), x_m * 1e3, y_m * 1e3, ask=sensor is None)
             write_records(folder, settings, names[index], _measured(played, names[index]).astype("float32"))
     except KeyboardInterrupt:
-        print(f"haptic-panel: the outputs are off; the same command goes on with what {options.folder} lacks", file=sys.stderr)
+        tell(f"the outputs are off; the same command goes on with what {options.folder} lacks")
         raise
     finally:
         if recorder is not None:
@@ -136,7 +137,7 @@ def _measured(played: InPlace, name: str) -> Any:
         except (CalibrationError, LinkError) as error:
             if attempt == TRIES:
                 raise type(error)(f"point {name}: {error}") from error
-            print(f"haptic-panel: point {name}: {error}; once more", file=sys.stderr)
+            tell(f"point {name}: {error}; once more")
     raise AssertionError
 
 
@@ -214,11 +215,11 @@ def _move(options: argparse.Namespace, name: str, done: int, count: int, x_mm: f
         except (OSError, subprocess.CalledProcessError) as error:
             raise CalibrationError(f"{where}: the head was not moved: {error}") from error
     elif ask and not options.yes:
-        print(f"haptic-panel: outputs are off; put the sensor on {where}, and press Enter", file=sys.stderr, flush=True)
+        tell(f"outputs are off; put the sensor on {where}, and press Enter")
         if not sys.stdin.readline():
             raise CalibrationError(f"{where}: nobody pressed Enter; with --yes nobody is asked")
     else:
-        print(f"haptic-panel: {where}", file=sys.stderr)
+        tell(where)
 
 
 def _check(options: argparse.Namespace, board: Board) -> None:

@@ -8,13 +8,13 @@ import fcntl
 import os
 import shlex
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import ConfigError, GatewareError, LinkError
 from controller.fpga.bitstream import differences, read_identity
 from controller.service.drivers import bitstream_path, gateware_hash
@@ -48,7 +48,7 @@ def gateware_load(options: argparse.Namespace) -> int:
         raise ConfigError(f"{file}: bring-up would refuse it: {'; '.join(complaints)}")
     command = [word.replace("{bitstream}", str(file)) for word in command]
     with _nobody_else(board):
-        print(f"haptic-panel: {shlex.join(command)}", file=sys.stderr, flush=True)
+        tell(f"{shlex.join(command)}")
         try:
             code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=STDERR, check=False).returncode
         except FileNotFoundError as error:

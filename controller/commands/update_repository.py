@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import UpdateError, UsageError
+from controller.text_file import read_text
 
 if TYPE_CHECKING:
     from securesystemslib.signer import CryptoSigner
@@ -119,8 +121,8 @@ def sign_draft(options: argparse.Namespace) -> int:
     from controller.update.publisher import Repository
 
     with Repository.opened(options.repository) as repository:
-        for line in describe(repository):
-            print(line, file=sys.stderr)
+        for part in describe(repository):
+            tell(part)
         must_be(repository, options.same_as)
         for copy in options.copies:
             repository.take(copy)
@@ -211,10 +213,10 @@ def _passphrase(options: argparse.Namespace, key: Path, new: bool = False) -> st
     """The passphrase: of a file, of the environment, or asked at the terminal (twice for a new key)."""
     if options.passphrase_file:
         try:
-            text: str = options.passphrase_file.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+            text = read_text(options.passphrase_file)
+        except (OSError, ValueError) as error:
             raise UpdateError(f"{options.passphrase_file}: the passphrase cannot be read: {error}") from error
-        return text.rstrip("\r\n")
+        return text.rstrip("\n")
     if PASSPHRASE in os.environ:
         return os.environ[PASSPHRASE]
     if not sys.stdin.isatty():
