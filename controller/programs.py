@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO, Final, NamedTuple
 
@@ -23,7 +23,20 @@ PERMANENT: Final = (FileNotFoundError, PermissionError, NotADirectoryError)  # o
 
 
 class ProgramError(ControllerError):
-    """A program failed, did not end in time, or cannot be started; the message names it and has its last line."""
+    """A program failed, did not end in time, or cannot be started; the message names it and has its last line.
+
+    Attributes
+    ----------
+    code : int or None
+        Its exit code; negative: the signal that ended it; None: it did not end by itself, or was not started.
+    said : str
+        All that it wrote, its messages first.
+    """
+
+    def __init__(self, message: str, code: int | None = None, said: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+        self.said = said
 
 
 class CannotStart(ProgramError):
@@ -47,6 +60,7 @@ def run_program(
     package: str = "",
     cwd: Path | None = None,
     environment: Mapping[str, str] | None = None,
+    good: Collection[int] = (0,),
     shown: bool = False,
 ) -> Output:
     """Run a program of others, without standard input, until it succeeds.
@@ -63,6 +77,8 @@ def run_program(
     cwd : Path, optional
     environment : mapping, optional
         Instead of this process's.
+    good : collection of int
+        Exit codes that are no failure.
     shown : bool
         Repeat on standard error what it writes, while it writes it.
 
@@ -76,12 +92,13 @@ def run_program(
     words = [os.fspath(word) for word in command]
     for left in reversed(range(attempts)):
         try:
-            return _run(words, limit_s, package, cwd, environment, shown)
+            return _run(words, limit_s, package, cwd, environment, good, shown)
         except CannotStart:
             raise
         except ProgramError as error:
             if not left:
-                raise type(error)(f"{error} ({attempts} attempts)" if attempts > 1 else str(error)) from error
+                many = f" ({attempts} attempts)" if attempts > 1 else ""
+                raise ProgramError(f"{error}{many}", error.code, error.said) from error
     raise AssertionError("at least one attempt")
 
 
@@ -108,8 +125,9 @@ def start(
             words, stdin=subprocess.DEVNULL, stdout=out, stderr=err, cwd=cwd, env=environment, start_new_session=True
         )
     except PERMANENT as error:
-        how = f": apt-get install {package}" if package and isinstance(error, FileNotFoundError) else ""
-        raise CannotStart(f"{words[0]} cannot be started ({error.strerror}){how}") from error
+        if package and isinstance(error, FileNotFoundError):
+            raise CannotStart(f"{words[0]} is not installed: apt-get install {package}") from error
+        raise CannotStart(f"{words[0]} cannot be started ({error.strerror})") from error
     except OSError as error:
         raise ProgramError(f"{words[0]} cannot be started ({error.strerror})") from error
 
@@ -128,14 +146,20 @@ def how_it_ended(name: str, code: int, said: str) -> str:
     return f"{name} {ended}{': ' * bool(said)}{said}"
 
 
-def last_line(said: bytes) -> str:
+def last_line(said: str) -> str:
     """The last line of a program's output that has any text, short enough for a message."""
-    lines = [line.strip() for line in said[-SAID_BYTES:].decode(errors="replace").splitlines() if line.strip()]
+    lines = [line.strip() for line in said[-SAID_BYTES:].splitlines() if line.strip()]
     return "".join(filter(str.isprintable, lines[-1]))[-SAID_CHARACTERS:] if lines else ""
 
 
 def _run(
-    words: Sequence[str], limit_s: float, package: str, cwd: Path | None, environment: Mapping[str, str] | None, shown: bool
+    words: Sequence[str],
+    limit_s: float,
+    package: str,
+    cwd: Path | None,
+    environment: Mapping[str, str] | None,
+    good: Collection[int],
+    shown: bool,
 ) -> Output:
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:  # a pipe is held open by what a program leaves behind
         merged = out if shown else err
@@ -144,14 +168,17 @@ def _run(
             code = _shown_until_it_ends(process, out, limit_s) if shown else process.wait(limit_s)
         except subprocess.TimeoutExpired:
             end(process)
-            said = last_line(_written(merged)) or last_line(_written(out))
-            raise ProgramError(f"{words[0]} did not end within {limit_s:g} s{': ' * bool(said)}{said}") from None
+            code = None
         except BaseException:
             end(process)
             raise
-        if code:
-            raise ProgramError(how_it_ended(words[0], code, last_line(_written(merged)) or last_line(_written(out))))
-        return Output(_written(out).decode(errors="replace"), _written(err).decode(errors="replace"))
+        output = Output(_written(out), _written(err))
+    if code in good:
+        return output
+    said = last_line(output.err) or last_line(output.out)
+    if code is None:
+        raise ProgramError(f"{words[0]} did not end within {limit_s:g} s{': ' * bool(said)}{said}", None, output.err + output.out)
+    raise ProgramError(how_it_ended(words[0], code, said), code, output.err + output.out)
 
 
 def _shown_until_it_ends(process: subprocess.Popen[bytes], out: BinaryIO, limit_s: float) -> int:
@@ -171,6 +198,5 @@ def _shown_until_it_ends(process: subprocess.Popen[bytes], out: BinaryIO, limit_
             raise subprocess.TimeoutExpired(process.args, limit_s)
 
 
-def _written(file: BinaryIO) -> bytes:
-    size = os.fstat(file.fileno()).st_size
-    return os.pread(file.fileno(), size, 0)
+def _written(file: BinaryIO) -> str:
+    return os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0).decode(errors="replace")

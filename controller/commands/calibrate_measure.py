@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from controller.commands.output import show
 from controller.commands.tables import plain_table
 from controller.console import tell
 from controller.errors import CalibrationError, LinkError, UsageError
+from controller.programs import ProgramError, run_program
 from controller.service.drivers import open_link, open_session, open_simulated
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from controller.calibration.simulated_recorder import SimulatedRecorder
     from controller.fpga.link import Link
 
+MOVE_S = 600.0  # that the program which moves the head may take
 TRIES = 3  # of a point, before the measurement ends
 SENSITIVITIES = {"v_per_m": "m", "v_per_m_s": "m/s", "v_per_m_s2": "m/s^2"}
 
@@ -211,8 +212,8 @@ def _move(options: argparse.Namespace, name: str, done: int, count: int, x_mm: f
     where = f"point {name} ({done + 1} of {count}): x = {x_mm:.2f} mm, y = {y_mm:.2f} mm"
     if options.move:
         try:
-            subprocess.run([options.move, f"{x_mm:.4f}", f"{y_mm:.4f}"], check=True, stdin=subprocess.DEVNULL)
-        except (OSError, subprocess.CalledProcessError) as error:
+            run_program([options.move, f"{x_mm:.4f}", f"{y_mm:.4f}"], MOVE_S)  # no second try: nobody knows where the head stands
+        except ProgramError as error:
             raise CalibrationError(f"{where}: the head was not moved: {error}") from error
     elif ask and not options.yes:
         tell(f"outputs are off; put the sensor on {where}, and press Enter")

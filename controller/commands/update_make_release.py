@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -22,6 +21,7 @@ from controller.errors import BankError, UpdateError, UsageError
 from controller.fpga.bitstream import differences, read_identity
 from controller.fpga.build_hash import build_hash
 from controller.fpga.registers import PROTOCOL_VERSION
+from controller.programs import ProgramError, run_program
 from controller.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
 from controller.update.release_folder import write_release
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from controller.update.lock_file import Target
 
 DISTRIBUTION = "haptic-panel"
+GIT_S = 60.0  # for an answer
 PIECE_BYTES_MIN = 256  # rows of a bank shorter than this are one piece: an index has 8 bytes for each
 
 
@@ -132,8 +133,12 @@ def _time_s(checkout: Path) -> int:
     told = os.environ.get("SOURCE_DATE_EPOCH")
     if told is None:
         command = ["git", "-C", str(checkout), "log", "-1", "--format=%ct"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        told = done.stdout.strip()
+        try:
+            told = run_program(command, GIT_S, package="git").out.strip()
+        except ProgramError as error:
+            raise UpdateError(
+                f"{checkout}: no checkout whose last commit gives the release its time ({error}): set SOURCE_DATE_EPOCH"
+            ) from error
     if not told.isdecimal():
         raise UpdateError(f"{checkout}: is no checkout whose last commit gives the release its time: set SOURCE_DATE_EPOCH")
     return int(told)

@@ -131,4 +131,4 @@ class BitstreamLoader:
 
     def _last_line(self) -> str:
         size = os.fstat(self._said).st_size
-        return last_line(os.pread(self._said, SAID_BYTES, max(size - SAID_BYTES, 0)))
+        return last_line(os.pread(self._said, SAID_BYTES, max(size - SAID_BYTES, 0)).decode(errors="replace"))

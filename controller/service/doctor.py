@@ -8,7 +8,6 @@ import os
 import pwd
 import resource
 import stat
-import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -24,6 +23,7 @@ from controller.board.touch_panels import LinuxInputTouch, RecordingTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
+from controller.programs import ProgramError, run_program
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
 from controller.service.drivers import open_link, open_panel
@@ -34,6 +34,8 @@ from controller.service.raspberry_pi import look_at_pi
 from controller.touch.recording import Recording
 
 MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
+
+ASK_S = 10.0  # for an answer of systemd
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,8 +238,8 @@ def _unit_allows() -> _Allowed:
     names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
     asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
     try:
-        said = subprocess.run(asked, capture_output=True, text=True, check=True, timeout=10).stdout
-    except (OSError, subprocess.SubprocessError) as error:
+        said = run_program(asked, ASK_S, attempts=2).out
+    except ProgramError as error:
         raise ConfigError(f"systemctl does not tell the limits of {SERVICE}.service ({error})") from None
     told = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
     if told.get("LoadState") != "loaded":
