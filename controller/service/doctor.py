@@ -26,7 +26,7 @@ from controller.fpga.link import Link
 from controller.programs import ProgramError, run_program
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
-from controller.service.drivers import open_link, open_panel
+from controller.service.drivers import open_link, open_panel, recording_path
 from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
@@ -176,8 +176,7 @@ def _lines(link: LinkSettings) -> str:
 def _touch(board: Board) -> str:
     touch = board.touch
     if isinstance(touch, RecordingTouch):
-        file = board.beside(touch.recording)
-        return f"recording {Recording.open(file).name}"
+        return f"recording {Recording.open(recording_path(board, None)).name}"
     if isinstance(touch, LinuxInputTouch):
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     panel = open_panel(board)

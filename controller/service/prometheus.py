@@ -122,7 +122,11 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
     causes = dict.fromkeys([*(fault.name or "" for fault in Fault), "LINK"], 0) | figures.get("outage_causes", {})
     yield _by_cause("haptic_panel_faults", "Outages by the fault that the FPGA named; LINK: it named none.", causes)
     yield _by_cause("haptic_panel_skipped", "Work and emissions that were left out.", figures.get("skipped", {}))
-    yield _by_cause("haptic_panel_socket", "Clients and commands of the application socket.", figures.get("application_socket", {}))
+    told = dict(figures.get("application_socket", {}))
+    if "clients_connected" in told:
+        text = "Clients of the application socket that are connected."
+        yield GaugeMetricFamily("haptic_panel_clients_connected", text, told.pop("clients_connected"))
+    yield _by_cause("haptic_panel_socket", "Clients and commands of the application socket.", told)
     yield from _histograms(figures.get("latency_histograms"))
 
 
