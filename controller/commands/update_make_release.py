@@ -9,13 +9,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import platformdirs
-
 from controller.bank.file_format import VERSION as BANK_FORMAT
 from controller.bank.file_format import Section
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
+from controller.board.paths import user_cache
 from controller.commands.output import show
 from controller.errors import BankError, UpdateError, UsageError
 from controller.fpga.bitstream import differences, read_identity
@@ -114,7 +113,7 @@ def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: 
     from controller.update import lock_file, wheel_folder
     from controller.update.sbom import sbom
 
-    tools, cache = systemd / "build.lock", platformdirs.user_cache_path(DISTRIBUTION)
+    tools, cache = systemd / "build.lock", user_cache()
     wanted = lock_file.wanted(lock_file.read_lock(systemd / "requirements.lock"), target)
     folder = options.wheels or wheel_folder.fetched(wanted, target, tools, cache)
     others = list(lock_file.choose(wanted, target, folder).values())
