@@ -43,7 +43,7 @@ def add(step: argparse.ArgumentParser) -> None:
         "--gateware", nargs="+", default=[], type=Path, metavar="FILE", help="bitstreams, by the names boards call them"
     )
     step.add_argument(
-        "--platform", default=this_platform(), metavar="P", help=f"such as aarch64-cp311 (default: {this_platform()})"
+        "--platform", default=this_platform(), metavar="P", help="such as aarch64-cp311 (default: that of this computer and Python)"
     )
     step.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take wheels from here, without a network (default: fetch, build)"
