@@ -6,7 +6,7 @@ import codecs
 from pathlib import Path
 from typing import Final
 
-MAX_BYTES: Final = 256 << 20  # so that a device or pipe without end ends
+MAX_BYTES: Final = 1 << 30  # so that a device or pipe without end ends
 MARKS: Final = (
     (codecs.BOM_UTF8, "UTF-8"),
     (codecs.BOM_UTF16_LE, "UTF-16-LE"),  # what Windows calls Unicode, and what its shell's > writes
