@@ -185,6 +185,22 @@ class Skipped:
 
 
 @dataclass(slots=True)
+class LinkCounters:
+    """Where what a status of the FPGA said was other than what the host believed, by cause."""
+
+    messages_repeated: int = 0  # plays sent again since a frame or an answer was damaged, and no copy of them had been taken
+    first_copies_taken: int = 0  # plays whose answer was damaged, which the FPGA had taken all the same
+    triggers_lost: int = 0  # edges of the trigger that the FPGA did not see
+    triggers_ignored: int = 0  # edges that it saw while nothing could start
+    triggers_stray: int = 0  # edges that it saw and that this host did not send
+    plays_stale: int = 0  # plays found waiting after they should have begun: removed
+    plays_missed: int = 0  # emissions at a time that the FPGA let pass
+    emissions_unexpected: int = 0  # emissions that nobody here started
+    misplaced: int = 0  # emissions that played what the slot had held before, since an upload was damaged
+    emissions_lost: int = 0  # emissions counted as played that never began, of all causes
+
+
+@dataclass(slots=True)
 class Counters:
     """Counters of one run of the event loop; they are only reported, nothing is decided by them."""
 
@@ -203,6 +219,7 @@ class Counters:
     near: int = 0  # of `resident`: played with the waveform of a place near by
     bad_entry: str = ""  # why the first of `skipped.bad_entries` was left out
     host_silent: int = 0  # times the FPGA switched off since this process stalled; armed again
+    stall_pauses: int = 0  # of these: times it was armed again only after a pause, since stalls came in a row
     outages: int = 0  # times the FPGA was lost, reset, or switched off for another cause
     outage: str = ""  # cause of the last one
     outage_causes: dict[str, int] = field(default_factory=dict)  # how often the FPGA named each fault; LINK: it was lost or reset
@@ -213,6 +230,7 @@ class Counters:
     scene_refused: str = ""  # why the last one was
     reloads: int = 0  # scenes loaded or refused that SIGHUP asked for
     reload_refused: str = ""  # why the last reload was refused; empty if it was not
+    link: LinkCounters = field(default_factory=LinkCounters)
     skipped: Skipped = field(default_factory=Skipped)
     report_latency: LatencyHistogram = field(default_factory=LatencyHistogram)  # from the kernel's timestamp to our read
     upload_latency: Stages = field(default_factory=Stages)
@@ -223,6 +241,7 @@ class Counters:
         plain = {name: getattr(self, name) for name in self.__slots__ if isinstance(getattr(self, name), int | float | str)}
         return plain | {
             "outage_causes": dict(self.outage_causes),
+            "link_counts": asdict(self.link),
             "skipped": asdict(self.skipped),
             "latency_us": {
                 "report": self.report_latency.export(histograms),

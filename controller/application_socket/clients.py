@@ -48,7 +48,7 @@ class Clients:
     next_s : float
         When to serve although nothing is readable, in s of the host's clock; inf: never.
     users : int
-        Different users among the clients.
+        Different users among the clients that may play.
     touch_subscribers : int
         Clients that subscribed to touches.
 
@@ -246,7 +246,7 @@ class Clients:
         self._count_users()
 
     def _count_users(self) -> None:
-        self.users = len({client.peer.uid for client in self})
+        self.users = len({client.peer.uid for client in self if "play" in client.rights})
 
 
 def _send_away(accepted: socket.socket, reason: str, lacks: Right | None = None) -> None:

@@ -103,7 +103,7 @@ class Greeting(Struct, frozen=True, kw_only=True, tag_field="kind", tag="hello",
     width_mm: float
     max_amplitude: float
     effects: tuple[str, ...]
-    rights: tuple[Literal["play", "operate"], ...]
+    rights: tuple[Literal["look", "play", "operate"], ...]
 
 
 class Figures(Struct, frozen=True, kw_only=True, tag_field="kind", tag="figures", gc=False):
@@ -127,8 +127,9 @@ class Touch(Struct, frozen=True, kw_only=True, tag_field="kind", tag="touch", gc
 class State(Struct, frozen=True, kw_only=True, tag_field="kind", tag="state", gc=False):
     """State of the panel: the answer to `AskState` or, with an id of null, a notification to subscribers.
 
-    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `temperature_c` is the plate's
-    temperature, null if unknown.
+    `state` is a value of `panel_state.PanelState`; `cause` says why not everything works; `outputs_on` is false only once a status
+    of the FPGA has said that there is no voltage at the actuators, or it has certainly switched off by itself; `temperature_c` is
+    the plate's temperature, null if unknown.
     """
 
     id: Id = None
@@ -143,7 +144,7 @@ class Farewell(Struct, frozen=True, kw_only=True, omit_defaults=True, tag_field=
     """The panel ends the connection for `reason`; `lacks` is the right that the user does not have."""
 
     reason: str
-    lacks: Literal["play", "operate"] | None = None
+    lacks: Literal["look", "play", "operate"] | None = None
 
 
 AnyRequest = Play | Subscribe | Unsubscribe | Arm | Disarm | LoadScene | AskFigures | AskState | Hello

@@ -16,10 +16,10 @@ import struct
 from dataclasses import dataclass
 from typing import Literal
 
-from controller.board.devices import ApplicationSocket
+from controller.board.devices import LOOK_GROUP, ApplicationSocket
 from controller.errors import ConfigError
 
-Right = Literal["play", "operate"]
+Right = Literal["look", "play", "operate"]
 SO_PEERGROUPS = 59  # asm-generic/socket.h: of every machine but alpha, mips, parisc and sparc
 CREDENTIALS = struct.Struct("iII")
 GROUP_BYTES = 4
@@ -57,14 +57,15 @@ def _groups(client: socket.socket) -> list[int]:
 
 
 class Rights:
-    """Rights of users: to play (and to read touches, states and figures), and to operate (which includes to play).
+    """Rights of users: to look (at states and figures), to play (and to read touches), and to operate (which includes to play).
 
-    Root and the service's own user have both. User names are read once, at the start.
+    Root and the service's own user have all. User names are read once, at the start.
 
     Parameters
     ----------
     settings : ApplicationSocket
-        Its groups; without `play_group` whoever may connect may play, without `operate_group` no other user may operate.
+        Its groups; without `play_group` whoever may connect may play, without `operate_group` no other user may operate. Who is in
+        `look_group` may not play, whatever else he is in: to connect at all, he has to be in the group of the socket.
 
     Raises
     ------
@@ -74,6 +75,7 @@ class Rights:
 
     def __init__(self, settings: ApplicationSocket) -> None:
         self._groups = {"play": settings.play_group, "operate": settings.operate_group}
+        self._look = _look(settings.look_group)
         self._play = _number("play_group", settings.play_group) if settings.play_group else EVERYBODY
         self._operate = _number("operate_group", settings.operate_group) if settings.operate_group else None
         self._masters = {ROOT, os.geteuid()}
@@ -81,7 +83,11 @@ class Rights:
 
     def of(self, peer: Peer) -> tuple[Right, ...]:
         """Rights of a process."""
-        if peer.uid in self._masters or self._operate in peer.groups:
+        if peer.uid in self._masters:
+            return ("play", "operate")
+        if self._look in peer.groups:
+            return ("look",)
+        if self._operate in peer.groups:
             return ("play", "operate")
         return ("play",) if self._play == EVERYBODY or self._play in peer.groups else ()
 
@@ -92,9 +98,23 @@ class Rights:
 
     def why_not(self, peer: Peer, right: Right) -> str:
         """Message for a process without a right: which one, and which group has it."""
+        if right == "play" and self._look in peer.groups:
+            return f"{self.called(peer)} does not have the right to play: it is in the group that may only look"
         group = self._groups[right]
         gives = f"group {group!r} gives it" if group else "the board's application_socket names no operate_group that could give it"
         return f"{self.called(peer)} does not have the right to {right}: {gives}"
+
+
+def _look(group: str) -> int | None:
+    """Number of the group that may only look; None: there is none."""
+    if not group:
+        return None
+    try:
+        return _number("look_group", group)
+    except ConfigError:
+        if group == LOOK_GROUP:
+            return None
+        raise
 
 
 def _number(key: str, group: str) -> int:

@@ -14,6 +14,7 @@ from controller.application_socket.connection import Connection, LineTooLong, Me
 from controller.application_socket.counters import SocketCounters
 from controller.application_socket.messages import LEAST_AMPLITUDE, AnyRequest, Id, Play
 from controller.application_socket.notifications import Notifications
+from controller.application_socket.peers import Right
 from controller.application_socket.pending_commands import PendingCommands
 from controller.application_socket.switched_off import SwitchedOff
 from controller.application_socket.tickets import FULL
@@ -133,6 +134,9 @@ class Requests:
             self._do(client, request, now_s, control)
 
     def _play(self, client: Connection, play: Play, now_s: float, control: PanelControl) -> None:
+        if "play" not in client.rights:
+            self._not_allowed(client, play.id, "play")
+            return
         amplitude = self._max_amplitude if play.amplitude is None else play.amplitude
         reason = self._why_not(play, amplitude)
         if reason:
@@ -167,8 +171,9 @@ class Requests:
         rights = self._clients.rights
         match request:
             case messages.Arm() | messages.Disarm() | messages.LoadScene() if "operate" not in client.rights:
-                self._counters.not_allowed += 1
-                self._answer(client, request.id, "refused", rights.why_not(client.peer, "operate"))
+                self._not_allowed(client, request.id, "operate")
+            case messages.Subscribe(to=to) if "touches" in to and "play" not in client.rights:
+                self._not_allowed(client, request.id, "play")
             case messages.Arm() | messages.Disarm():
                 on = isinstance(request, messages.Arm)
                 log(f"{rights.called(client.peer)} {'arms' if on else 'disarms'} the panel", Event.OPERATED)
@@ -192,6 +197,10 @@ class Requests:
             case messages.Unsubscribe():
                 self._clients.unsubscribe(client)
                 self._answer(client, request.id, "done")
+
+    def _not_allowed(self, client: Connection, number: Id, right: Right) -> None:
+        self._counters.not_allowed += 1
+        self._answer(client, number, "refused", self._clients.rights.why_not(client.peer, right))
 
     def _load_scene(self, client: Connection, number: Id, name: str, control: PanelControl) -> None:
         ticket = self._ticket(client, number)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import grp
 import os
@@ -17,6 +18,7 @@ from controller.errors import ConfigError, ControllerError
 
 BACKLOG = 16  # connections that the kernel queues between two turns of the loop
 UNCHANGED = -1  # owner or group, for chown
+PASSING = frozenset({errno.ENOSPC, errno.EDQUOT, errno.ENOMEM, errno.ENOBUFS, errno.EMFILE, errno.ENFILE, errno.EIO})
 
 
 class SocketFile:
@@ -42,7 +44,7 @@ class SocketFile:
     ConfigError
         If there is no such folder, user or group, or this user may not create the file.
     ControllerError
-        If another service listens there.
+        If another service listens there, or the system lacks space, memory or files at the moment.
     """
 
     def __init__(self, settings: ApplicationSocket) -> None:
@@ -71,6 +73,8 @@ class SocketFile:
             raise
         except OSError as error:
             self.listener.close()
+            if error.errno in PASSING:  # the settings are not to blame: the next start may succeed
+                raise ControllerError(f"application_socket.path = {settings.path!r} cannot be made ({error.strerror})") from error
             raise ConfigError(
                 f"application_socket.path = {settings.path!r} cannot be made ({error.strerror or error});"
                 " its folder has to exist and be this user's, and this user be owner and in the group asked for"

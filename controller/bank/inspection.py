@@ -17,8 +17,10 @@ from controller.bank.grid import Grid
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.paths import is_there
+from controller.board.records import BYTES_MAX
 from controller.errors import BankError
 from controller.kernel import unpack_loads
+from controller.regular_file import open_regular, read_regular
 
 
 def bank_info(path: Path) -> dict[str, Any]:
@@ -202,7 +204,7 @@ def header_of(path: Path) -> Header:
     OSError, BankError
         If it cannot be read, or is damaged.
     """
-    with path.open("rb") as file:
+    with os.fdopen(open_regular(path, links=True), "rb") as file:
         size = os.fstat(file.fileno()).st_size
         length = header_length(file.read(16), size)
         file.seek(0)
@@ -211,7 +213,7 @@ def header_of(path: Path) -> Header:
 
 def asked_of(board: Board, scene_file: Path) -> dict[str, Any]:
     """What a choice is made for, as its bank repeats it: the board's bounds, and the CRC-32 of the scene's file."""
-    return bounds_of(board) | {"scene_crc32": zlib.crc32(scene_file.read_bytes())}
+    return bounds_of(board) | {"scene_crc32": zlib.crc32(read_regular(scene_file, BYTES_MAX, links=True))}
 
 
 def bounds_of(board: Board) -> dict[str, Any]:

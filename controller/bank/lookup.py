@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from controller.board.board import Board
 from controller.board.lookup import running_release
 from controller.board.paths import bank_path, earlier_bank_path, is_there
 from controller.errors import BankError
+from controller.regular_file import open_regular
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +61,7 @@ def of_this_format(path: Path) -> bool:
     if not is_there(path):
         return False
     try:
-        with path.open("rb") as file:
+        with os.fdopen(open_regular(path, links=True), "rb") as file:
             start = file.read(16)
     except OSError:
         return True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import mmap
 import os
 import weakref
@@ -22,6 +23,7 @@ from controller.board.board import Board
 from controller.board.paths import build_line
 from controller.errors import BankError
 from controller.kernel import unpack_loads
+from controller.regular_file import open_regular
 
 AHEAD = 2  # cells around one that is used for the first time whose responses are read ahead
 LatticePoints = tuple[tuple[int, int, int], ...]  # x, y and amplitude of each point in steps (waveforms/selection.py)
@@ -96,9 +98,9 @@ class Bank:
         """
         rebuild = build_line(path, board)
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+            fd = open_regular(path, links=True)
         except OSError as error:
-            hint = "" if isinstance(error, PermissionError) else f"; build it: {rebuild}"
+            hint = f"; build it: {rebuild}" if isinstance(error, FileNotFoundError) else ""
             raise BankError(f"{path}: cannot be read ({error.strerror}){hint}") from error
         start: bytes | None = None  # None: unreadable, so no advice to rebuild it
         try:
@@ -140,8 +142,13 @@ class Bank:
         return self.header.wave_scale
 
     def snap_m(self, board: Board) -> float:
-        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says."""
-        choice = self.header.choice if board.compose.method == "auto" else None
+        """How far from a cell a lone finger plays it: as was chosen with this bank, or as the board says.
+
+        A bank without responses has nothing else to play: its cells are played as far as was chosen with it in any case.
+        """
+        choice = self.header.choice if board.compose.method == "auto" or not self.composes else None
+        if choice is None and not self.composes:
+            return math.inf
         return float(choice["snap_mm"] if choice else board.bank.snap_mm) * 1e-3
 
     @property

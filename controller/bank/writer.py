@@ -207,8 +207,11 @@ def _create_locked(path: Path) -> tuple[Path, int]:
     """Create a temporary file beside `path` and lock it; the lock shows other writers that this one is alive."""
     while True:
         temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.building")
-        fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
-        fcntl.flock(fd, fcntl.LOCK_EX)
+        fd = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+        fcntl.flock(fd, fcntl.LOCK_EX)  # as no other user can open it yet
+        umask = os.umask(0o077)
+        os.umask(umask)
+        os.fchmod(fd, 0o666 & ~umask)
         if os.fstat(fd).st_nlink:  # else another writer removed it as a leftover before it was locked
             return temporary, fd
         os.close(fd)
@@ -219,7 +222,7 @@ def remove_leftovers(path: Path) -> int:
     removed = 0
     for leftover in path.parent.glob(f".{glob.escape(path.name)}.*.building"):
         with contextlib.suppress(OSError):  # another writer may remove it first, or own it
-            fd = os.open(leftover, os.O_RDWR | os.O_CLOEXEC)
+            fd = os.open(leftover, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)
             try:
                 fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 leftover.unlink()

@@ -31,6 +31,7 @@ from controller.bank_builder.dask_client import dask_errors, open_client, result
 from controller.board.board import Board
 from controller.errors import BankError, UsageError
 from controller.physics.impulse_response import ResponseModel
+from controller.regular_file import open_private
 from controller.waveform_design.descent import CELLS_AT_ONCE, Aim, Descent
 
 Words = NDArray[np.uint32]
@@ -225,8 +226,7 @@ class _Kept:
     @contextlib.contextmanager
     def open(cls, path: Path, samples: int) -> Iterator[_Kept]:
         try:
-            fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-            with os.fdopen(fd, "r+b") as file:
+            with os.fdopen(open_private(path), "r+b") as file:
                 try:
                     fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 except BlockingIOError:

@@ -116,6 +116,7 @@ class Board(Record, frozen=True):
                     )
         if self.patches is not None:
             self.patches.on(self.plate, self.actuators)
+        self.touch.check_no_finger(self.plate.length_mm, self.plate.width_mm)
 
     @property
     def called(self) -> str:

@@ -1,12 +1,12 @@
 """Tables of board.toml that name devices: link to the FPGA, temperature sensor, socket, scheduling.
 
 Name devices by what does not change from one boot or kernel to the next: paths below /dev/input/by-path or /dev/serial/by-id,
-GPIO chips by label, lines by name.
+GPIO chips by label, lines by name or, where they have none, by number.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from msgspec import Meta
 
@@ -40,7 +40,8 @@ class LinkSettings(Record, frozen=True, kw_only=True):
     baud
         Baud rate of a serial link.
     gpio_chip
-        Label of the GPIO chip with the following lines.
+        Label of the GPIO chip with the following lines, each given by its name or, where it has none of its own, by its number on
+        the chip, such as "25". Where several chips have the label: the path of a udev link to the chip.
     trigger_line
         Output: starts the waveform that was prepared.
     configured_line
@@ -159,6 +160,9 @@ class Realtime(Record, frozen=True, kw_only=True):
     lock_memory: bool = True
 
 
+LOOK_GROUP: Final = "haptic-look"  # made by the Debian package, for haptic-panel-metrics
+
+
 class ApplicationSocket(Record, frozen=True, kw_only=True):
     """The Unix socket through which a user interface drives the panel.
 
@@ -174,6 +178,9 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
         Its file mode, octal.
     play_group
         Group that may play; empty: whoever may connect.
+    look_group
+        Group that may only look: read state and figures, whatever other groups a user is in. Where there is none of the default's
+        name, nobody.
     operate_group
         Group that may also arm, disarm and load scenes; empty: root and the service's own user only.
     max_clients
@@ -196,6 +203,7 @@ class ApplicationSocket(Record, frozen=True, kw_only=True):
     mode: Annotated[str, Meta(pattern="^0?[0-7]{3}$")] = "660"
     play_group: str = ""
     operate_group: str = ""
+    look_group: str = LOOK_GROUP
     max_clients: Annotated[int, Meta(ge=1, le=64)] = 8
     clients_per_user: Annotated[int, Meta(ge=1, le=64)] = 4
     idle_s: Annotated[float, Meta(ge=0, le=86_400)] = 10.0

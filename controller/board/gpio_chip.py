@@ -1,10 +1,14 @@
-"""GPIO lines by the chip's label and the line's name, which do not change between kernels and boots as numbers do."""
+"""GPIO lines by the chip's label and the line's name, which do not change between kernels and boots as chip numbers do.
+
+Lines of some chips have no names, or one name for several ("NC", "-"): a line is then given by its number on the chip, written as
+text ("25"), which the wiring of the chip fixes. A name goes before a number, as in the tools of libgpiod.
+"""
 
 from __future__ import annotations
 
 import difflib
 import errno
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import gpiod
@@ -21,36 +25,81 @@ def find_chip(label: str, failure: type[ControllerError]) -> Path:
     Parameters
     ----------
     label : str
-        As `gpiodetect` lists it.
+        As `gpiodetect` lists it; a path is taken as it is: a link of udev tells apart several chips with one label.
     failure : type of ControllerError
         What to raise: LinkError, TouchError.
 
     Raises
     ------
     ControllerError
-        If there is none, or this user may not open it; the message lists the chips that exist.
+        If there is none, or several, or this user may not open it; the message lists the chips that exist.
     """
+    if label.startswith("/"):
+        return Path(label)
     labels = []
     refused = []
+    found: list[Path] = []
     for path in sorted(DEVICES.glob("gpiochip*")):
         try:
             with gpiod.Chip(str(path)) as chip:
-                found = chip.get_info().label
+                its = chip.get_info().label
         except OSError as error:
             refused.append(f"{path} ({error.strerror})")
             continue
-        if found == label:
-            return path
-        labels.append(found)
+        labels.append(its)
+        if its == label and path.resolve() not in [other.resolve() for other in found]:  # a Pi 5 has two names for one chip
+            found.append(path)
+    if len(found) > 1:
+        paths = ", ".join(map(str, found))
+        raise failure(f"{len(found)} GPIO chips have the label {label!r}: {paths}; give the path of a udev link to one of them")
+    if found:
+        return found[0]
     there = f"there are: {', '.join(sorted(set(labels))) or 'none'}"
     if refused:
         there += f"; not permitted: {', '.join(refused)}: add this user to the group that owns them (on Debian: gpio)"
     raise failure(f"no GPIO chip has the label {label!r}; {there}")
 
 
+def find_lines(chip: gpiod.Chip, label: str, lines: Iterable[str], failure: type[ControllerError]) -> dict[str, int]:
+    """Numbers of lines on their chip.
+
+    Parameters
+    ----------
+    chip : gpiod.Chip
+        Open.
+    label : str
+        Of the chip, for messages.
+    lines : iterable of str
+        A name each, or a number in decimal digits where no line has this name.
+    failure : type of ControllerError
+        What to raise.
+
+    Returns
+    -------
+    dict of str to int
+        Number by what was given.
+
+    Raises
+    ------
+    ControllerError
+        If there is no such line, if several have the name, or if two of `lines` are the same line.
+    OSError
+        If the chip fails.
+    """
+    names = [chip.get_line_info(number).name or "" for number in range(chip.get_info().num_lines)]
+    found: dict[str, int] = {}
+    for line in lines:
+        number = _number_of(line, names, label, failure)
+        for other, its in found.items():
+            if its == number and other != line:
+                raise failure(f"lines {other!r} and {line!r} of GPIO chip {label!r} are one line: its number {number}")
+        found[line] = number
+    return found
+
+
 def request_lines(
     label: str, lines: dict[str, gpiod.LineSettings], consumer: str, failure: type[ControllerError]
-) -> gpiod.LineRequest:
+) -> tuple[gpiod.LineRequest, dict[str, int]]:
     """Request lines of one chip for exclusive use.
 
     Parameters
@@ -58,11 +107,16 @@ def request_lines(
     label : str
         Label of the chip.
     lines : dict
-        Settings by line name.
+        Settings by line: a name or a number, see `find_lines`.
     consumer : str
         Name of the user of the lines, as gpioinfo shows it.
     failure : type of ControllerError
         What to raise.
+
+    Returns
+    -------
+    (gpiod.LineRequest, dict of str to int)
+        The request, and the number of each line, by which the request knows it.
 
     Raises
     ------
@@ -72,29 +126,36 @@ def request_lines(
     path = find_chip(label, failure)
     try:
         with gpiod.Chip(str(path)) as chip:
-            for name in lines:
-                _require_free(chip, label, name, failure)
-            config: dict[Iterable[int | str] | int | str, gpiod.LineSettings | None] = dict(lines.items())
-            return chip.request_lines(config, consumer=consumer)
+            numbers = find_lines(chip, label, lines, failure)
+            for line, number in numbers.items():
+                info = chip.get_line_info(number)
+                if info.used:
+                    holder = info.consumer or "the kernel"
+                    raise failure(f"line {line!r} of GPIO chip {label!r} is in use by {holder}: end it, or choose another line")
+            config: dict[Iterable[int | str] | int | str, gpiod.LineSettings | None] = {
+                numbers[line]: settings for line, settings in lines.items()
+            }
+            return chip.request_lines(config, consumer=consumer), numbers
     except OSError as error:
         if error.errno == errno.EBUSY:  # taken since it was checked
             raise failure(f"a line of GPIO chip {label!r} is in use by another program: end it first") from error
         raise failure(f"GPIO chip {label!r} ({path}) failed: {error.strerror}") from error
 
 
-def _require_free(chip: gpiod.Chip, label: str, name: str, failure: type[ControllerError]) -> None:
-    """Raise unless a line exists and is not in use."""
-    try:
-        info = chip.get_line_info(name)
-    except OSError as error:
-        if error.errno != errno.ENOENT:
-            raise
-        names = [chip.get_line_info(offset).name for offset in range(chip.get_info().num_lines)]
-        known = sorted({line for line in names if line})
-        near = difflib.get_close_matches(name, known, NEAR_NAMES, cutoff=0.4) or known[:NEAR_NAMES]
-        raise failure(
-            f"GPIO chip {label!r} has no line named {name!r}; names like it: {', '.join(near) or 'none, its lines have no names'}"
-        ) from None
-    if info.used:
-        holder = info.consumer or "the kernel"
-        raise failure(f"line {name!r} of GPIO chip {label!r} is in use by {holder}: end it, or choose another line")
+def _number_of(line: str, names: Sequence[str], label: str, failure: type[ControllerError]) -> int:
+    """Number of a line by its name, or as it is given."""
+    numbers = [number for number, name in enumerate(names) if name == line]
+    if len(numbers) == 1:
+        return numbers[0]
+    if numbers:
+        listed = ", ".join(f'"{number}"' for number in numbers)
+        raise failure(f"{len(numbers)} lines of GPIO chip {label!r} are named {line!r}: give the number of one: {listed}")
+    if line.isascii() and line.isdecimal() and len(line) <= len(str(len(names))) and int(line) < len(names):
+        return int(line)
+    known = sorted({name for name in names if name})
+    listed = ", ".join(difflib.get_close_matches(line, known, NEAR_NAMES, cutoff=0.4) or known[:NEAR_NAMES])
+    said = f"names like it: {listed}; " if listed else "its lines have no names; "
+    raise failure(
+        f"GPIO chip {label!r} has no line named {line!r}; {said}"
+        f'a line without a name is given by its number, "0" to "{len(names) - 1}"'
+    )

@@ -17,6 +17,7 @@ from msgspec import Meta
 from controller.board.panel_state import PanelState
 from controller.board.validation import NO_JSON
 from controller.errors import ControllerError
+from controller.regular_file import open_regular
 
 FOLDER: Final = Path("/run/haptic-panel")  # RuntimeDirectory= of the unit
 NAME: Final = "status.json"
@@ -24,7 +25,7 @@ BOOT_ID: Final = Path("/proc/sys/kernel/random/boot_id")
 FORMAT: Final = 1
 BYTES_MAX: Final = 65_536
 STALE_S: Final = 5.0  # a loop that is silent for 3 s is ended by the service manager; a busy one writes at least every 2 s
-SERVES: Final = frozenset({PanelState.ARMED, PanelState.PLAYING, PanelState.IDLE, PanelState.DISARMED})
+SERVES: Final = frozenset({PanelState.ARMED, PanelState.PLAYING, PanelState.IDLE, PanelState.DISARMED, PanelState.RAMPING})
 
 Count = Annotated[int, Meta(ge=0)]
 Microseconds = Annotated[float, Meta(ge=0)]
@@ -64,7 +65,7 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         The service has ended; state and counters are its last.
     state, cause, outputs_on, panel_present, temperature_c
         As `Condition` has them.
-    heartbeats, due, foci, emissions, uploads, late, idled, host_silent, outages : int
+    heartbeats, due, foci, emissions, uploads, late, idled, host_silent, stall_pauses, outages : int
         As `Counters` has them, since the start.
     outage_causes : dict
         How often the FPGA named each fault; LINK: it was lost or reset.
@@ -72,10 +73,16 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         Emissions that were due and not played.
     waiting : int
         Emissions that are due now.
+    touch_points, touch_points_refused : int
+        Positions that the touch panel has reported, and those of them that were no finger's (`touch/plausibility.py`).
     log_lines_lost, statuses_lost : int
         Lines that the log, and statuses that this file did not take.
     upload, resident : LatencyStatus
         Of emissions with an upload, and of those whose waveform was resident.
+    touch_warnings : dict
+        Anomalies of the touch panel since the start, by kind.
+    touch_remark : str
+        What its device lacks and works without; empty: nothing.
     """
 
     release: str
@@ -104,7 +111,12 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
     statuses_lost: Count
     upload: LatencyStatus
     resident: LatencyStatus
+    touch_points: Count = 0
+    touch_points_refused: Count = 0
     outage_causes: dict[str, Count] = {}
+    stall_pauses: Count = 0
+    touch_warnings: dict[str, Count] = {}
+    touch_remark: str = ""
     ended: bool = False
     format: Annotated[int, Meta(ge=FORMAT, le=FORMAT)] = FORMAT
 
@@ -129,23 +141,47 @@ class PanelStatus(msgspec.Struct, frozen=True, kw_only=True):
         return ""
 
 
+def status_bytes(file: Path) -> bytes | None:
+    """Content of a status file, its first `BYTES_MAX`; it belongs to who owns its folder. None if there is no file.
+
+    Raises
+    ------
+    ControllerError
+        If it cannot be read: it is no regular file, or another user's.
+    """
+    try:
+        with os.fdopen(open_regular(file, owner=file.parent.stat().st_uid), "rb") as opened:
+            return opened.read(BYTES_MAX)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise ControllerError(f"{file}: cannot be read ({error.strerror})") from error
+
+
+def status_in(data: bytes, file: Path) -> PanelStatus:
+    """The status that a file's content is.
+
+    Raises
+    ------
+    ControllerError
+        If it is no status that this software knows.
+    """
+    try:
+        return _decoder.decode(data)
+    except NO_JSON as error:
+        raise ControllerError(f"{file}: is no status of a panel that this software knows: {error}") from error
+
+
 def read_status(file: Path) -> PanelStatus | None:
     """The status in a file; None if there is no file.
 
     Raises
     ------
     ControllerError
-        If it cannot be read, or is no status that this software knows.
+        As `status_bytes` and `status_in`.
     """
-    try:
-        with file.open("rb") as opened:
-            return _decoder.decode(opened.read(BYTES_MAX))
-    except FileNotFoundError:
-        return None
-    except OSError as error:
-        raise ControllerError(f"{file}: cannot be read ({error.strerror})") from error
-    except NO_JSON as error:
-        raise ControllerError(f"{file}: is no status of a panel that this software knows: {error}") from error
+    data = status_bytes(file)
+    return None if data is None else status_in(data, file)
 
 
 def boot_id(environment: Mapping[str, str] = os.environ) -> str:

@@ -6,16 +6,19 @@ import math
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Final, TypeVar
 
 import msgspec
 from msgspec import Meta
 
 from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
-from controller.text_file import read_text
+from controller.regular_file import read_regular
+from controller.text_file import decoded
 
 T = TypeVar("T")
+
+BYTES_MAX: Final = 1 << 25  # of a board or a scene; the largest here has 20 kB
 
 Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
@@ -43,7 +46,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     try:
-        tables = tomllib.loads(read_text(file))
+        tables = tomllib.loads(decoded(read_regular(file, BYTES_MAX, links=True)))
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:

@@ -69,6 +69,7 @@ def board_check(options: argparse.Namespace) -> int:
         "channels": len(board.actuators),
         "emission_ms": board.waveform.duration_s * 1e3,
         "touch": _tag(board.touch),
+        "no_finger_mm": [list(rectangle) for rectangle in board.touch.no_finger_mm],
         "link": board.link.kind,
         "temperature": board.temperature.kind if board.temperature else None,
         "application_socket": board.application_socket.path if board.application_socket else None,
@@ -108,6 +109,8 @@ def _table(figures: dict[str, Any]) -> str:
         f"devices: {', '.join(devices)}",
         f"{figures['scene']}: {figures['regions']} regions, {len(figures['effects'])} effects that a command can play",
     ]
+    if figures["no_finger_mm"]:
+        lines.append(f"no finger in {len(figures['no_finger_mm'])} rectangles (touch.no_finger_mm)")
     if figures["recording"]:
         lines.append(f"recording: {figures['recording']}")
     return "\n".join([*lines, "PASS: every key is valid"])

@@ -53,7 +53,7 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
     command.add_argument("--reference", metavar="DEVICE", help="with --lag: the mouse, best by its path below /dev/input/by-id")
     command.add_argument("--seconds", type=_seconds, metavar="N", help="with --lag: for so long (default: 20)")
     command.add_argument("--out", metavar="FILE", help="with --ghosts or --lag: store the measurement, for --replay")
-    command.add_argument("--replay", metavar="FILE", help="take the touches from an evemu recording, not from the board's panel")
+    command.add_argument("--replay", metavar="FILE", help="take the touches from a recording, not from the board's panel")
     command.add_argument("--write", action="store_true", help="change these lines of the board's board.toml")
     command.set_defaults(command=calibrate_touch)
 
@@ -124,9 +124,9 @@ def _seconds(text: str) -> float:
 
 
 def _bare(board: Board) -> Board:
-    """The board with a panel that covers the plate exactly, so that positions are fractions of the axes and none is clipped."""
+    """The board with a panel that covers the plate exactly, so that positions are fractions of the axes and none is left out."""
     plate = board.plate
-    whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0)}
+    whole = {"x_mm_from_axes": (plate.length_mm, 0.0, 0.0), "y_mm_from_axes": (0.0, plate.width_mm, 0.0), "no_finger_mm": ()}
     return msgspec.structs.replace(board, touch=msgspec.structs.replace(board.touch, **whole))
 
 

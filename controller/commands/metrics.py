@@ -12,6 +12,8 @@ from controller.console import say
 from controller.errors import ControllerError, UsageError
 
 if TYPE_CHECKING:
+    from prometheus_client import CollectorRegistry
+
     from controller.commands.output import Declare
 
 LISTEN = "127.0.0.1:9750"
@@ -21,8 +23,8 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser = declare(
         description="Show the figures of a running panel in the text format of Prometheus: states, faults by cause, latency "
-        "histograms, skips, queue, temperature, release and update. Asks the panel's application socket, as often as it is asked "
-        "itself; a panel that does not answer is haptic_panel_up 0. Without options: once, on stdout.",
+        "histograms, skips, queue, temperature, release and update. Asks the panel's application socket, at most once a second; "
+        "a panel that does not answer is haptic_panel_up 0. Without options: once, on stdout.",
     )
     parser.add_argument("--socket", default=DEFAULT_PATH, metavar="PATH", help=f"the panel's application socket ({DEFAULT_PATH})")
     how = parser.add_mutually_exclusive_group()
@@ -30,6 +32,14 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
         "--listen", metavar="HOST:PORT", nargs="?", const=LISTEN, help=f"serve http until SIGTERM or Ctrl-C (default: {LISTEN})"
     )
     how.add_argument("--textfile", metavar="FILE.prom", help="write a file for the textfile collector of node_exporter, once")
+    parser.add_argument(
+        "--host",
+        dest="hosts",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="answer requests to this name or address of the device too; else to localhost and the address listened at",
+    )
     parser.set_defaults(command=run)
 
 
@@ -37,23 +47,17 @@ def run(options: argparse.Namespace) -> int:
     """Export the figures."""
     from functools import partial
 
-    from prometheus_client import generate_latest, start_http_server, write_to_textfile
+    from prometheus_client import generate_latest, write_to_textfile
 
-    from controller.service.prometheus import PanelCollector, ask_panel, registry, update_metrics
+    from controller.service.prometheus import PanelCollector, PanelFigures, registry, update_metrics
     from controller.update.layout import Layout
 
-    alone = registry(PanelCollector(partial(ask_panel, options.socket), partial(update_metrics, Layout.from_environment())))
+    alone = registry(PanelCollector(PanelFigures(options.socket), partial(update_metrics, Layout.from_environment())))
     if options.listen:
-        host, port = _address(options.listen)
-        try:
-            server, thread = start_http_server(port, host, alone)
-        except OSError as error:
-            raise ControllerError(f"--listen {options.listen}: cannot listen there ({error.strerror})") from error
-        try:
-            thread.join()
-        except KeyboardInterrupt:
-            server.shutdown()
+        _serve(alone, options.listen, options.hosts)
         return 0
+    if options.hosts:
+        raise UsageError("--host: only with --listen")
     if options.textfile:
         file = Path(options.textfile)
         if file.suffix != ".prom":
@@ -65,6 +69,23 @@ def run(options: argparse.Namespace) -> int:
         return 0
     say(generate_latest(alone).decode(), end="")
     return 0
+
+
+def _serve(collected: CollectorRegistry, listen: str, hosts: list[str]) -> None:
+    import asyncio
+    import contextlib
+    import socket
+
+    from controller.service.metrics_server import MetricsServer
+
+    host, port = _address(listen)
+    try:
+        listener = socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
+    except OSError as error:
+        said = os.strerror(error.errno) if error.errno and error.errno > 0 else error.strerror  # else of the name, not of the port
+        raise ControllerError(f"--listen {listen}: cannot listen there ({said})") from error
+    with contextlib.suppress(KeyboardInterrupt):
+        asyncio.run(MetricsServer(collected, [host, *hosts]).serve(listener))
 
 
 def _address(listen: str) -> tuple[str, int]:

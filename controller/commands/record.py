@@ -46,6 +46,8 @@ def store(options: argparse.Namespace) -> int:
         reader.close()
     for warning in stored["warnings"]:
         tell(warning)
+    if not stored["events"]:
+        tell(f"{options.out}: holds no event, as the panel sent none: it cannot be replayed")
     show(options, {"file": options.out} | stored, plain_table)
     return 0
 

@@ -38,7 +38,10 @@ def add(declare: Declare, common: argparse.ArgumentParser) -> None:
         "Builds the board's bank when it is missing or stale.",
     )
     play.add_argument(
-        "--replay", metavar="FILE", help="evemu recording instead of the panel (default: the board's own, if it has no panel)"
+        "--replay",
+        metavar="FILE",
+        help="recording instead of the panel: of haptic-panel record, evemu, libinput record, evtest or getevent "
+        "(default: the board's own, if it has no panel)",
     )
     play.add_argument("--scene", metavar="S", help="name beside the board's file, or path (default: the board's own)")
     play.add_argument(

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from controller.board.panel_state import PLAYS, PanelState
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
 from controller.console import say
 from controller.errors import LinkError
+from controller.touch.reports import describe_warnings
 from controller.update.installed import UpdateState, update_state
 from controller.update.layout import Layout
 
@@ -63,21 +65,35 @@ def _in_words(status: PanelStatus, old: str, updates: UpdateState) -> str:
     lines = [
         f"{status.state.value}: {status.cause}" if status.cause else status.state.value,
         f"board {status.board!r}, release {status.release}, process {status.pid}, for {_duration(status.uptime_s)}",
-        f"outputs {'on' if status.outputs_on else 'off'}; touch panel {'connected' if status.panel_present else 'absent'}; "
+        f"outputs {_outputs(status)}; touch panel {'connected' if status.panel_present else 'absent'}; "
         f"temperature of the plate {plate}",
         f"emissions {status.emissions:,}, of them {status.late:,} late; not played {status.skipped:,}; waiting {status.waiting}",
-        f"heartbeats {status.heartbeats:,}; stalls of this host {status.host_silent:,}; "
+        f"heartbeats {status.heartbeats:,}; stalls of this host {status.host_silent:,}"
+        f"{f', armed again after a pause {status.stall_pauses:,}' if status.stall_pauses else ''}; "
         f"outages {status.outages:,}{f' ({causes})' if causes else ''}; log lines lost {status.log_lines_lost:,}",
     ]
+    if status.touch_points:
+        lines.append(f"positions of the touch panel {status.touch_points:,}, not a finger's {status.touch_points_refused:,}")
     for name, latency in (("an upload", status.upload), ("a resident play", status.resident)):
         if latency.count:
             p50_ms, p99_ms, worst_ms = (1e-3 * us for us in (latency.p50_us, latency.p99_us, latency.worst_us))
             lines.append(f"the host's work for {name}: median {p50_ms:.3f} ms, 99 % {p99_ms:.3f} ms, worst {worst_ms:.3f} ms")
+    if status.touch_remark:
+        lines.append(status.touch_remark)
+    lines += [f"touch panel: {said}" for said in describe_warnings(status.touch_warnings)]
     if updates.in_use:
         lines.append(f"release in use: {updates.in_use}{_trial(updates)}; `haptic-panel update status` has more")
     if old:
         lines.insert(0, f"NOT NOW: {old}")
     return "\n".join(lines)
+
+
+def _outputs(status: PanelStatus) -> str:
+    if not status.outputs_on:
+        return "off"
+    if status.state is PanelState.RAMPING:
+        return "ramping"
+    return "on" if status.state in PLAYS else "not known to be off yet"
 
 
 def _trial(updates: UpdateState) -> str:

@@ -14,6 +14,7 @@ LABELS = {
     "spot_wavelengths": "spot (λ)",
     "distance_mm": "crest to finger (mm)",
 }
+REFUSED = ("far_outside", "no_finger", "too_fast", "more_than_played")
 
 
 def run_table(figures: dict[str, Any]) -> str:
@@ -68,12 +69,26 @@ def _drift_line(drift: dict[str, Any] | None) -> list[str]:
 
 
 def _became(figures: dict[str, Any]) -> list[str]:
-    """Emissions that were due, and waveforms sent ahead, by outcome."""
-    return [
+    """Emissions that were due, and waveforms sent ahead, by outcome; where the FPGA was found in another state than believed."""
+    lines = [
         f"due for fingers, spots and commands: {figures['due']}, of which {figures['foci']} played; "
         f"waveforms sent ahead: {figures['prefetched']}, of which {figures['prefetch_wasted']} not played",
-        "skipped: " + ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in figures["skipped"].items()),
+        f"skipped: {_counts(figures['skipped'])}",
+        *_implausible(figures["touch"]["plausibility"]),
     ]
+    happened = {name: count for name, count in figures["link_counts"].items() if count}
+    return [*lines, f"on the link: {_counts(happened)}"] if happened else lines
+
+
+def _counts(counts: dict[str, int]) -> str:
+    return ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in counts.items())
+
+
+def _implausible(found: dict[str, int]) -> list[str]:
+    """Positions of the touch panel that were not taken for a finger's; nothing if there were none."""
+    refused = found["points"] - found["believed"] - found["confirmed"]
+    kinds = ", ".join(f"{kind.replace('_', ' ')} {found[kind]}" for kind in REFUSED if found[kind])
+    return [f"{refused} of {found['points']} positions of the touch panel were no finger's: {kinds}"] if kinds else []
 
 
 def service_table(figures: dict[str, Any]) -> str:

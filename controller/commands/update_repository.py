@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import getpass
 import os
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -67,10 +68,17 @@ def add(step: argparse.ArgumentParser) -> None:
         "--role", nargs="+", choices=ROLES, metavar="ROLE", help="for what (default: what the dropped keys count for)"
     )
     rotate.add_argument("--threshold", type=int, metavar="N", help="people who must sign root and releases (default: as it is)")
-    action("renew", renew, "draft a longer life of what is published")
+    renewal = action("renew", renew, "draft a longer life of what is published")
     export = action("export", export_stick, "copy what the channels offer into a folder, such as on a stick, valid for a year")
     export.add_argument("folder", type=Path, metavar="FOLDER")
     export.add_argument("--key", required=True, type=Path, metavar="KEY", help="a key of the publisher")
+    for parser in (release, sign, rotate, renewal, export):
+        parser.add_argument(
+            "--date",
+            type=_date,
+            metavar="YYYY-MM-DD",
+            help="date of the new timestamp, if it is right although the last one is later, or more than 90 days older",
+        )
     for parser in (key, sign, export):
         parser.add_argument(
             "--passphrase-file", type=Path, metavar="F", help=f"file with the passphrase (default: ${PASSPHRASE}, or asked)"
@@ -110,23 +118,24 @@ def add_releases(options: argparse.Namespace) -> int:
     from controller.update.publications import draft_releases
     from controller.update.publisher import Repository, now
 
-    with Repository.opened(options.repository) as repository:
+    with Repository.opened(options.repository, dated=options.date) as repository:
         draft_releases(repository, options.release, options.channel, now())
         return _tell(options, repository, published=False)
 
 
 def sign_draft(options: argparse.Namespace) -> int:
     """Show a draft, sign it, publish it if nothing is lacking."""
-    from controller.update.draft import describe, must_be
-    from controller.update.publisher import Repository
+    from controller.update.draft import describe, must_be, must_be_of_today
+    from controller.update.publisher import Repository, now
 
-    with Repository.opened(options.repository) as repository:
+    with Repository.opened(options.repository, dated=options.date) as repository:
         for part in describe(repository):
             tell(part)
         must_be(repository, options.same_as)
         for copy in options.copies:
             repository.take(copy)
         if options.key:
+            must_be_of_today(repository, now())
             repository.sign(_signer(options, options.repository))
         return _tell(options, repository, repository.publish())
 
@@ -139,7 +148,7 @@ def change_keys(options: argparse.Namespace) -> int:
 
     if not (options.drop or options.add or options.threshold):
         raise UsageError("nothing to change: give --drop, --add or --threshold")
-    with Repository.opened(options.repository) as repository:
+    with Repository.opened(options.repository, dated=options.date) as repository:
         root = repository.root
         drop = [_known(repository, name) for name in options.drop]
         new = [read_public(file) for file in options.add]
@@ -156,7 +165,7 @@ def renew(options: argparse.Namespace) -> int:
     from controller.update.publications import draft_renewal
     from controller.update.publisher import Repository, now
 
-    with Repository.opened(options.repository) as repository:
+    with Repository.opened(options.repository, dated=options.date) as repository:
         draft_renewal(repository, now())
         return _tell(options, repository, published=False)
 
@@ -166,7 +175,7 @@ def export_stick(options: argparse.Namespace) -> int:
     from controller.update.publisher import Repository, now
     from controller.update.stick import export
 
-    with Repository.opened(options.repository) as repository:
+    with Repository.opened(options.repository, dated=options.date) as repository:
         copied_bytes = export(repository, options.folder, _signer(options, options.repository, options.folder), now())
     show(
         options,
@@ -207,6 +216,12 @@ def _check_outside(key: Path, *folders: Path) -> None:
             raise UpdateError(
                 f"{key}: a key must not lie in the repository {folder}, which others read: move it to a stick of its own"
             )
+
+
+def _date(text: str) -> str:
+    if not re.fullmatch("[0-9]{4}-[0-9]{2}-[0-9]{2}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no date such as 2027-03-28")
+    return text
 
 
 def _passphrase(options: argparse.Namespace, key: Path, new: bool = False) -> str:

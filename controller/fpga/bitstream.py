@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import Final
 
@@ -18,9 +19,11 @@ from controller.board.validation import NO_JSON
 from controller.errors import GatewareError
 from controller.fpga.build_parameters import top_parameters
 from controller.fpga.configuration import LIMITS
+from controller.regular_file import open_regular, read_regular
 
 KEY: Final = "Haptic-panel: "  # of the comment with the identity; tools that list comments split them at the colon
 SEAL: Final = "Haptic-panel-SHA-256: "  # of the last comment
+FIGURES_BYTES_MAX: Final = 1 << 20
 HEADER_BYTES: Final = 4096  # in which the comments end
 HASHED_BYTES: Final = 1 << 16  # at once
 
@@ -106,7 +109,7 @@ def read_identity(bitstream: Path) -> Identity:
     GatewareError
         If the file is no bitstream, has no identity or no seal, or was cut off or damaged since it was sealed.
     """
-    with bitstream.open("rb") as file:
+    with os.fdopen(open_regular(bitstream, links=True), "rb") as file:
         header = file.read(HEADER_BYTES)
         comments, end, content = header[2:].partition(b"\xff")
         if header[:2] != b"\xff\x00" or not end:
@@ -145,7 +148,7 @@ def read_figures(bitstream: Path) -> Figures | None:
     if not path.exists():
         return None
     try:
-        figures = msgspec.json.decode(path.read_bytes(), type=Figures)
+        figures = msgspec.json.decode(read_regular(path, FIGURES_BYTES_MAX, links=True), type=Figures)
     except NO_JSON as error:
         raise GatewareError(f"{path}: is damaged, or of another release ({error})") from error
     if figures.sha256 != sha256_of(bitstream):
@@ -155,7 +158,8 @@ def read_figures(bitstream: Path) -> Figures | None:
 
 def sha256_of(file: Path) -> str:
     """SHA-256 of a file, in hexadecimal."""
-    return hashlib.sha256(file.read_bytes()).hexdigest()
+    with os.fdopen(open_regular(file, links=True), "rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def differences(identity: Identity, board: Board, build_hash: int) -> list[str]:

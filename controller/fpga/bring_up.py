@@ -234,7 +234,7 @@ def channel_self_test(
                 session.play(0, CHIRP_REPETITIONS, period_s, stop=False, start=Start.NOW, mask=1 << channel)
                 rest(session.earliest_trigger_s() + CHIRP_REPETITIONS * period_s + pause_s)
                 done = session.heartbeat().emissions - before & ALL_CHANNELS
-                if done != CHIRP_REPETITIONS:
+                if done < CHIRP_REPETITIONS:  # a message that was sent again may have played one more
                     raise LinkError(f"channel {channel}: {done} of {CHIRP_REPETITIONS} chirps ran to their end")
                 yield channel
             rest(session.disarm())

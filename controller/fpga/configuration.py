@@ -8,7 +8,7 @@ from typing import Final
 from controller.board.board import Board
 from controller.errors import LinkError
 from controller.fpga.build_parameters import BuildParameters
-from controller.fpga.exchange import Exchange, Refused
+from controller.fpga.exchange import ATTEMPTS, DAMAGED, Exchange, Refused
 from controller.fpga.registers import CHANNELS, IDENTITY_MAGIC, PROTOCOL_VERSION, Register, Result
 
 LIMITS: Final = {  # built into the gateware, with the key of board.toml that each comes from
@@ -63,19 +63,23 @@ def verify(read: Callable[[Register], int], board: Board, build_hash: int) -> No
     }
     for register, value in expected.items():
         found = read(register)
-        if found != value:
+        if found != value and (found := read(register)) != value:  # nothing is refused for one reading
             raise OtherGateware(
                 f"the FPGA's {register.name} is 0x{found:08X}, not 0x{value:08X}: load the gateware that belongs to this host"
             )
-    geometry = read(Register.GEOMETRY)
-    slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
-    if slots < board.link.slots or depth < board.waveform.samples or channels != CHANNELS:
+    for _ in range(2):
+        geometry = read(Register.GEOMETRY)
+        slots, depth, channels = geometry & 0xFF, geometry >> 8 & 0xFFFF, geometry >> 24
+        if slots >= board.link.slots and depth >= board.waveform.samples and channels == CHANNELS:
+            break
+    else:
         raise OtherGateware(
             f"the FPGA has {slots} slots of {depth} words and {channels} channels; "
             f"the board asks for {board.link.slots}, {board.waveform.samples} and {CHANNELS}"
         )
     wanted = limits(board)
     built = {register: read(register) for register in wanted}
+    built |= {register: read(register) for register in wanted if built[register] != wanted[register]}
     other = [f"{of.name} is {built[of]}, not {wanted[of]} ({LIMITS[of]})" for of in wanted if built[of] != wanted[of]]
     if other:
         raise OtherGateware(
@@ -113,16 +117,23 @@ def write_settings(exchange: Exchange, board: Board, bit_period: int) -> None:
     IncompatibleFpga
         If the FPGA refuses a value for good.
     LinkError
-        If it refuses one for now, or reads back another.
+        If it refuses one for now, or reads back another each time that it is written.
     """
     for register, value in (settings(board) | {Register.BIT_PERIOD: bit_period}).items():
-        try:
-            exchange.write(register, value)
-        except Refused as refusal:
-            kind = IncompatibleFpga if refusal.result in PERMANENT else LinkError
-            raise kind(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
-        if exchange.read(register) != value:
-            raise LinkError(f"the FPGA did not keep the value of {register.name}: the link is not reliable")
+        if not any(_kept(exchange, register, value) for _ in range(ATTEMPTS)):
+            raise LinkError(f"the FPGA did not keep the value of {register.name}, written {ATTEMPTS} times")
+
+
+def _kept(exchange: Exchange, register: Register, value: int) -> bool:
+    """Write a register; whether it is read back so, at the second reading at the latest."""
+    try:
+        exchange.write(register, value)
+    except Refused as refusal:
+        if refusal.result in DAMAGED:
+            raise
+        kind = IncompatibleFpga if refusal.result in PERMANENT else LinkError
+        raise kind(f"the FPGA does not take {value} for {register.name}: {refusal.result.sentence}") from refusal
+    return any(exchange.read(register) == value for _ in range(2))
 
 
 def ramp_ticks(board: Board, bit_period: int) -> int:

@@ -5,6 +5,7 @@ The result of a frame is in the answer to the next one, so each message ends wit
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -36,6 +37,10 @@ class Refused(LinkError):
     def __init__(self, result: Result) -> None:
         super().__init__(f"the FPGA refused: {result.sentence}")
         self.result = result
+
+
+class OutOfStep(LinkError):
+    """The FPGA's queue holds other plays than this host had accepted."""
 
 
 class HostSilent(FaultError):
@@ -110,8 +115,8 @@ class Exchange:
         """
         return self._check(lengths, self._exchange(lengths), raise_faults)
 
-    def deliver(self, lengths: Sequence[int], loads: int = 0) -> None:
-        """Send the frames packed in `sent` of which nobody needs a status; raises as `send`.
+    def deliver(self, lengths: Sequence[int], loads: int = 0) -> int:
+        """Send the frames packed in `sent`, of whose statuses only few fields are needed; raises as `send`.
 
         Parameters
         ----------
@@ -120,22 +125,31 @@ class Exchange:
         loads : int
             This many frames at the beginning are LOADs before their STORE, which succeeds only if everything that it stores
             arrived intact: their answers are not checked if all after them are good. All frames after them are short.
+
+        Returns
+        -------
+        int
+            Where the last answer begins in `received`.
         """
         sequence = self._exchange(lengths)
-        if not statuses_good(self.received, sum(lengths[: loads + 1]), len(lengths) - loads - 1, DONE, sequence + loads):
+        start, count = sum(lengths[: loads + 1]), len(lengths) - loads - 1
+        if not statuses_good(self.received, start, count, DONE, sequence + loads):
             self._check(lengths, sequence, True)  # raises: it finds the first bad answer, which has the reason
+        return start + (count - 1) * FRAME_BYTES
 
     def send_short(self, end: int, *, raise_faults: bool = True) -> Status:
         """Send the short frames packed in `sent` from 0 to `end`; `raise_faults`, result and errors as in `send`."""
         return self.send([FRAME_BYTES] * (end // FRAME_BYTES), raise_faults=raise_faults)
 
-    def retry(self, send: Callable[[bool], T]) -> T:
-        """Send a message up to three times, until no frame and no answer of it is damaged; after the last failure, STOP.
+    def retry(self, send: Callable[[bool], T], *, then_stop: bool = True) -> T:
+        """Send a message up to three times, until no frame and no answer of it is damaged.
 
         Parameters
         ----------
         send : callable
             Packs and sends the message; its argument says whether this is a repetition.
+        then_stop : bool
+            Send STOP after the last failure, since something of the message may be left to play.
 
         Returns
         -------
@@ -157,42 +171,52 @@ class Exchange:
         try:
             return send(True)
         except LinkError:
-            self.stop()
+            if then_stop:
+                self.stop()
             raise
 
     def stop(self) -> None:
         """Send STOP up to three times, so that nothing is left to play; never raises."""
-        for _ in range(ATTEMPTS):
-            try:
-                self.control(Control.STOP)
-                return
-            except FaultError:
-                return  # its outputs are off
-            except LinkError:
-                continue
+        with contextlib.suppress(LinkError, FaultError):  # after a fault its outputs are off
+            self.control(Control.STOP)
 
-    def control(self, command: Control, *, raise_faults: bool = True) -> None:
-        """Send one command; `raise_faults` and errors as in `send`."""
-        end = frames.pack_control(self.sent, 0, self.sequence, command)
-        self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
+    def control(self, command: Control, *, raise_faults: bool = True) -> Status:
+        """Send a command that may be given twice (neither ARM nor TRIGGER), up to three times; the rest as in `send`."""
+
+        def send(_: bool) -> Status:
+            end = frames.pack_control(self.sent, 0, self.sequence, command)
+            return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1), raise_faults=raise_faults)
+
+        return self.retry(send, then_stop=False)
 
     def write(self, register: Register, value: int) -> None:
-        """Write `value` (u32) to a register; errors as in `send`."""
-        end = frames.pack_write(self.sent, 0, self.sequence, register, value)
-        self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1))
+        """Write `value` (u32) to a register, up to three times; errors as in `send`."""
+
+        def send(_: bool) -> Status:
+            end = frames.pack_write(self.sent, 0, self.sequence, register, value)
+            return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1))
+
+        self.retry(send, then_stop=False)
 
     def read(self, register: Register) -> int:
-        """Value (u32) of one register; raises as `send`."""
+        """Value (u32) of one register; as `read_address`."""
         return self.read_address(register)
 
     def read_slot_crc(self, slot: int) -> int:
-        """CRC-32 that the FPGA computed of a slot's waveform; raises as `send`."""
+        """CRC-32 that the FPGA computed of a slot's waveform; as `read_address`."""
         return self.read_address(READ_SLOT_CRC + slot)
 
     def read_address(self, address: int) -> int:
-        """Value (u32) at an address of READ: a register, a slot's CRC, a word of the queue or of waveform memory."""
-        end = frames.pack_read(self.sent, 0, self.sequence, address)
-        return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
+        """Value (u32) at an address of READ: a register, a slot's CRC, a word of the queue or of waveform memory.
+
+        It is asked for up to three times; errors as in `send`.
+        """
+
+        def send(_: bool) -> int:
+            end = frames.pack_read(self.sent, 0, self.sequence, address)
+            return self.send_short(frames.pack_nop(self.sent, end, self.sequence + 1)).data
+
+        return self.retry(send, then_stop=False)
 
     def send_unchecked(self, lengths: list[int]) -> int:
         """Send frames of these lengths in bytes and accept any result; returns how many answers were damaged."""

@@ -29,14 +29,14 @@ class GpioLines:
     Parameters
     ----------
     settings : LinkSettings
-        Label of the GPIO chip and names of the lines; permit and configured are optional.
+        Label of the GPIO chip and names or numbers of the lines; permit and configured are optional.
     now_s : callable
         The loop's clock.
 
     Raises
     ------
     LinkError
-        If the chip or a line is absent or held by another program.
+        If the chip or a line is absent or held by another program, or two lines are the same.
     """
 
     def __init__(self, settings: LinkSettings, now_s: Callable[[], float]) -> None:
@@ -44,13 +44,18 @@ class GpioLines:
         self._trigger = settings.trigger_line
         self._configured = settings.configured_line
         self._permit = settings.permit_line
+        given = [line for line in (self._trigger, self._configured, self._permit) if line]
+        if len(set(given)) < len(given):  # a trigger that takes the permit away, or gives it
+            raise LinkError(
+                f"trigger, configured and permit have to be lines of their own; given are {', '.join(map(repr, given))}"
+            )
         out = gpiod.LineSettings(direction=Direction.OUTPUT, output_value=Value.INACTIVE)
         lines = {name: out for name in (self._trigger, self._permit) if name}
         if self._configured:
             lines[self._configured] = gpiod.LineSettings(direction=Direction.INPUT)
-        self._request = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
+        self._request, self._numbers = request_lines(settings.gpio_chip, lines, CONSUMER, LinkError)
         self._fd: int = self._request.fd
-        bit = 1 << self._request.lines.index(self._trigger)
+        bit = 1 << self._request.offsets.index(self._numbers[self._trigger])
         self._high, self._low = bytearray(LINE_VALUES.pack(bit, bit)), bytearray(LINE_VALUES.pack(0, bit))
 
     def pulse(self) -> float:
@@ -84,7 +89,7 @@ class GpioLines:
         """
         if self._permit:
             try:
-                self._request.set_value(self._permit, Value.ACTIVE if given else Value.INACTIVE)
+                self._request.set_value(self._numbers[self._permit], Value.ACTIVE if given else Value.INACTIVE)
             except OSError as error:
                 raise _failure("permit", self._permit, error) from error
 
@@ -99,7 +104,7 @@ class GpioLines:
         if not self._configured:
             return True
         try:
-            return bool(self._request.get_value(self._configured) is Value.ACTIVE)
+            return bool(self._request.get_value(self._numbers[self._configured]) is Value.ACTIVE)
         except OSError as error:
             raise _failure("configured", self._configured, error) from error
 

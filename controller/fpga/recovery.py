@@ -2,7 +2,7 @@
 
 | failure | then |
 |---|---|
-| HOST_SILENT: this process stalled | retry at once |
+| HOST_SILENT: this process stalled | retry at once; arm later and later if it stalls again and again (`hold`) |
 | link error, reset, brown-out | retry once the FPGA has certainly switched off, then after pauses that double up to 2 s |
 | NO_PERMIT, OVER_TEMPERATURE | wait until the permit is back, then retry |
 | another FPGA, or one that refuses the board's settings | fail: waiting does not help |
@@ -24,7 +24,7 @@ from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.configuration import IncompatibleFpga
 from controller.fpga.exchange import Refused
 from controller.fpga.registers import Fault, Result, State
-from controller.fpga.supervision import Supervision
+from controller.fpga.supervision import StillOn, Supervision
 
 PERMIT_FAULTS: Final = Fault.NO_PERMIT | Fault.OVER_TEMPERATURE
 PERMITS: Final = State.RUN_PERMIT | State.TEMPERATURE_GOOD
@@ -73,6 +73,8 @@ def panel_state_after(error: ControllerError) -> PanelState:
     """State of the panel while it recovers from an error."""
     if isinstance(error, FaultError):
         return PanelState.NO_PERMIT if Fault.NO_PERMIT in Fault(error.faults) else PanelState.FAULTED
+    if isinstance(error, StillOn):
+        return PanelState.FAULTED
     if isinstance(error, Refused) and error.result is Result.NO_PERMIT:
         return PanelState.NO_PERMIT
     return PanelState.WAITING_FOR_FPGA
@@ -97,6 +99,8 @@ class Recovery:
         Newest state; while the outputs ramp up, the one before.
     cause : str
         Newest reason for the outputs being off, for the user; empty before the first step.
+    off_by_s : float
+        When the FPGA has switched off by itself at the latest, whatever became of what was sent: after an error.
     """
 
     def __init__(self, session: Supervision, board: Board) -> None:
@@ -104,11 +108,19 @@ class Recovery:
         self.wanted = True
         self.state = PanelState.WAITING_FOR_FPGA
         self.cause = ""
+        self.off_by_s = math.inf
         self._session = session
         self._safe_s = (board.limits.heartbeat_timeout_ms + board.limits.ramp_ms) * 1e-3
         self._pause_s = self._safe_s
         self._known = True  # no error since identity and settings were last verified
         self._armed_s: float | None = None  # when the ramp in progress ends
+        self._hold_s = -math.inf  # nothing is armed before
+        self._hold_cause = ""
+
+    @property
+    def arming(self) -> bool:
+        """Whether ARM was accepted, and the ramp up has not ended."""
+        return self._armed_s is not None
 
     def begin(self, error: ControllerError, now_s: float) -> None:
         """Switch the outputs off and schedule the first retry.
@@ -132,9 +144,14 @@ class Recovery:
             self.next_s = now_s
 
     def disarmed(self, off_s: float) -> None:
-        """Note that the outputs were disarmed and are off at `off_s`, on the loop's clock; the next step is then."""
+        """Note that the outputs were disarmed and their ramp ends at `off_s`, on the loop's clock; the next step is then."""
         self.next_s = off_s
         self._pause_s = self._safe_s
+        self._armed_s = None
+
+    def hold(self, until_s: float, cause: str) -> None:
+        """Arm no earlier than `until_s`, on the loop's clock, for this cause; everything else is done meanwhile."""
+        self._hold_s, self._hold_cause = until_s, cause
 
     def resume(self, now_s: float) -> None:
         """Arm after a time in which nothing was sent: the FPGA may have been reset meanwhile, and is verified first."""
@@ -193,6 +210,11 @@ class Recovery:
             self.state, self.cause = PanelState.DISARMED, "a client has switched the panel off"
             self.next_s = session.heartbeat_due_s
             return False
+        if now_s < self._hold_s:
+            self.state, self.cause = PanelState.FAULTED, self._hold_cause
+            self.next_s = min(self._hold_s, session.heartbeat_due_s)
+            return False
+        self.off_by_s = math.inf
         self._armed_s = session.arm()
         self.next_s = min(self._armed_s, session.heartbeat_due_s)
         return False
@@ -205,6 +227,8 @@ class Recovery:
             raise error
         self._known = False
         self._armed_s = None
+        if self.off_by_s == math.inf or isinstance(error, StillOn):
+            self.off_by_s = self._session.heartbeat_due_s + self._safe_s  # no frame was heard later than that
         self.next_s = now_s + (self._pause_s if action is Action.RETRY else PERMIT_POLL_S)
         if action is Action.RETRY:
             self._pause_s = min(2 * self._pause_s, PAUSE_MAX_S)

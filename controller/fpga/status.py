@@ -15,6 +15,9 @@ from controller.fpga.frames import CRC, FRAME_BYTES, ReadableBuffer, WritableBuf
 from controller.fpga.registers import STATUS_SYNC, Fault, Result, State
 
 STATUS: Final = struct.Struct("<HBBHHIIQIBBHI")
+TICKS: Final = struct.Struct("<Q")
+TICKS_AT: Final = 16  # where the time is in a status
+QUEUED_AT: Final = 28  # where `queued` is, one byte
 DONE: Final = STATUS_SYNC | Result.OK << 16  # how the status about a frame that was done begins
 
 

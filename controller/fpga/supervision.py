@@ -24,6 +24,10 @@ CLOCK_TOLERANCE: Final = 0.005  # more than crystals and a slewed host clock can
 FRESH_S: Final = 0.25  # after a heartbeat the settings are taken to be those of `bring_up` for so long
 
 
+class StillOn(LinkError):
+    """A status says that the outputs are on where they should be off: nothing is armed until one says that they are off."""
+
+
 class Supervision:
     """Supervises one FPGA, from the check of its identity until its outputs are off.
 
@@ -50,6 +54,8 @@ class Supervision:
         Lengths of emissions and periods at the bit period in use.
     ramp_end_s : float
         When the last ramp up or down ends, on the loop's clock.
+    may_be_on : bool
+        An ARM was sent since a status last said that the high voltage is off, or that a fault has switched it off.
     loader : BitstreamLoader or None
         Loads an FPGA that has another gateware; None: it is refused.
 
@@ -66,7 +72,7 @@ class Supervision:
         self._board = board
         self._build_hash = build_hash
         self._now_s = now_s
-        self._armed_by_us = False  # an ARM was sent since the outputs were last known to be off
+        self.may_be_on = False
         self._armed = False  # the FPGA accepted ARM, and was not told to disarm since
         self._heartbeat_s = math.inf  # end of the last heartbeat
         self._heartbeat_ticks = 0  # FPGA time in its status
@@ -85,16 +91,17 @@ class Supervision:
         ------
         IncompatibleFpga
             If its identity, gateware or limits are others and cannot be loaded, or it refuses a setting.
+        StillOn
+            If it is armed. If this host armed it, a DISARM was sent: call again after its ramp.
         LinkError
-            If it does not answer, is being loaded, or is armed. If this host armed it, a DISARM was sent: call again after its
-            ramp.
+            If it does not answer, or is being loaded.
         """
         self._armed = False
         self._heartbeat_s = math.inf  # its clock may have restarted
         if self.loader is not None:
             self.loader.require_done()
         try:
-            self.exchange.retry(lambda _: self._commanded(Control.CLEAR, raise_faults=False))  # with a fault every read would raise
+            self.exchange.control(Control.CLEAR, raise_faults=False)  # with a fault every read would raise
             configuration.verify(self.exchange.read, self._board, self._build_hash)
         except LinkError as error:  # another gateware, or silence
             if self.loader is None:
@@ -103,12 +110,11 @@ class Supervision:
         if self.loader is not None:
             self.loader.good()
         if State.HV_ENABLE in self.heartbeat().state:
-            if self._armed_by_us:
+            if self.may_be_on:
                 self.exchange.control(Control.DISARM)
-                raise LinkError("the FPGA was still armed and is told to disarm: try again when its ramp has passed")
-            raise LinkError("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
+                raise StillOn("the FPGA was still armed and is told to disarm: try again when its ramp has passed")
+            raise StillOn("the FPGA is armed already: another host drives it, or one has died; wait for its heartbeat timeout")
         configuration.write_settings(self.exchange, self._board, self.bit_period)
-        self._armed_by_us = False
 
     @property
     def fresh(self) -> bool:
@@ -167,7 +173,7 @@ class Supervision:
             end = frames.pack_control(self._sent, end, sequence + 2, Control.ARM)
             return self.exchange.send_short(frames.pack_nop(self._sent, end, sequence + 3))
 
-        self._armed_by_us = True
+        self.may_be_on = True
         self.exchange.retry(send)
         self._armed = True
         self.ramp_end_s = self._after_s(configuration.arming_ticks(self._board, self.bit_period))
@@ -187,12 +193,12 @@ class Supervision:
             raise LinkError(f"the FPGA did not arm: its state is {names or 'idle'}")
 
     def disarm(self) -> float:
-        """Ramp all outputs to 0 V.
+        """Ramp all outputs to 0 V. They are off when a heartbeat has said so (`may_be_on`).
 
         Returns
         -------
         float
-            When they are off, on the loop's clock.
+            When the ramp ends, on the loop's clock.
 
         Raises
         ------
@@ -200,19 +206,22 @@ class Supervision:
             If every attempt was damaged.
         """
         self._armed = False
-        self.exchange.retry(lambda _: self._commanded(Control.DISARM))
+        self.exchange.control(Control.DISARM)
         self.ramp_end_s = self._after_s(configuration.ramp_ticks(self._board, self.bit_period))
         return self.ramp_end_s
 
     def off(self) -> None:
-        """Try once to disarm, whatever the state of the link; without heartbeats the FPGA switches off by itself."""
+        """Try to disarm, whatever the state of the link; without heartbeats the FPGA switches off by itself."""
         self._armed = False
-        if self._armed_by_us:
+        if self.may_be_on:
             try:
-                self.exchange.control(Control.DISARM)
-            except (LinkError, FaultError):
-                return  # it has switched off already, or will within the heartbeat timeout
-            self._armed_by_us = False
+                status = self.exchange.control(Control.DISARM)
+            except FaultError:
+                self.may_be_on = False
+            except LinkError:
+                return
+            else:
+                self.may_be_on = State.HV_ENABLE in status.state
 
     def heartbeat(self) -> Status:
         """Send a heartbeat; returns the FPGA's status.
@@ -227,17 +236,18 @@ class Supervision:
             If every attempt was damaged.
         """
         before_s = self._now_s()
-        status = self.exchange.retry(lambda _: self.exchange.send_short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        try:
+            status = self.exchange.retry(lambda _: self.exchange.send_short(frames.pack_nop(self._sent, 0, self.exchange.sequence)))
+        except FaultError:
+            self.may_be_on = False
+            raise
+        self.may_be_on = self.may_be_on and State.HV_ENABLE in status.state
         after_s = max(self._now_s(), self.link.wire_free_s())
         least_ticks = (before_s - self._heartbeat_s) * self._board.link.clock_hz * (1 - CLOCK_TOLERANCE)
         if (self._armed and State.HV_ENABLE not in status.state) or status.timestamp_ticks - self._heartbeat_ticks < least_ticks:
             raise FpgaReset
         self._heartbeat_s, self._heartbeat_ticks = after_s, status.timestamp_ticks
         return status
-
-    def _commanded(self, command: Control, *, raise_faults: bool = True) -> Status:
-        end = frames.pack_control(self._sent, 0, self.exchange.sequence, command)
-        return self.exchange.send_short(frames.pack_nop(self._sent, end, self.exchange.sequence + 1), raise_faults=raise_faults)
 
     def _after_s(self, ticks: int) -> float:
         return self.earliest_trigger_s() + ticks / self._board.link.clock_hz

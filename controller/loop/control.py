@@ -80,9 +80,10 @@ class LoopControl:
 
     def figures(self) -> dict[str, Any]:
         """Counters and latencies, ready for JSON; without histograms, which would take 12 ms of the loop's time."""
-        outputs = "on" if self._outputs.on else self._outputs.cause or "off"
+        outputs = "ramping" if self._outputs.ramping else self._outputs.cause or ("on" if self._outputs.on else "off")
         return self._counters.export(histograms=False) | {
             "outputs": outputs,
+            "outputs_on": self._outputs.may_be_on,
             "waiting": len(self._scheduler.due),
             "schedule": self._timing.figures(),
             "latency_histograms": self._counters.coarse_latency(),

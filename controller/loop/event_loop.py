@@ -142,7 +142,10 @@ class EventLoop:
         self._reload = True
 
     def run(self, ready: Callable[[], None] = lambda: None) -> None:
-        """Arm, play until the source ends or `stop` is called, disarm; the outputs are off when this returns or raises.
+        """Arm, play until the source ends or `stop` is called, disarm.
+
+        However this returns or raises, the outputs are off then: a status of the FPGA has said so, or, where none arrives, the
+        FPGA's heartbeat timeout has passed.
 
         Parameters
         ----------
@@ -170,7 +173,7 @@ class EventLoop:
                         self._clock.wait(selector, next_s)
                     self._silence.known, self._no_command = files.silent("touch"), files.silent("commands")
                     try:
-                        if self._outputs.on and not self._outputs.wanted:
+                        if self._outputs.unwanted:
                             self._abandon()
                             self._outputs.disarm()
                         waited = self._outputs.waking
@@ -186,9 +189,9 @@ class EventLoop:
                     except (LinkError, FaultError) as error:
                         self._recover(error)
                         next_s = self._clock.now_s()
-                self._wait_for_ramp(selector, self._outputs.disarm())
+                        self._progress(next_s)  # the next turn may arm already
             finally:
-                self._session.off()
+                self._switch_off()
 
     def _fpga_now_s(self) -> FpgaTime:
         return self._clock_estimate.fpga_s(self._clock.now_s())
@@ -213,13 +216,26 @@ class EventLoop:
         if self._change is not None:
             files.watch("change", self._change.fileno())
 
-    def _wait_for_ramp(self, selector: selectors.BaseSelector, until_s: float) -> None:
-        """Wait for the end of the ramp to 0 V, with heartbeats."""
-        while self._clock.now_s() < until_s:
-            if self._clock.now_s() >= self._session.heartbeat_due_s:
-                self._session.heartbeat()
-                self._counters.heartbeats += 1
-            self._clock.wait(selector, min(until_s, self._session.heartbeat_due_s))
+    def _switch_off(self) -> None:
+        """Disarm, and wait until the outputs are off: with heartbeats while the FPGA answers, without any if it does not.
+
+        Raises
+        ------
+        ControllerError
+            If the FPGA reports a fault that the host must not clear; the outputs are off then, too.
+        """
+        outputs, clock = self._outputs, self._clock
+        with selectors.DefaultSelector() as nothing:  # neither touches nor signals end this
+            try:
+                outputs.disarm()
+                while not outputs.ramped_down(clock.now_s()):
+                    clock.wait(nothing, outputs.next_s())
+            except (LinkError, FaultError) as error:
+                try:
+                    outputs.failed(error, clock.now_s())
+                finally:
+                    while outputs.may_be_on:
+                        clock.wait(nothing, outputs.off_by_s)
 
     def _turn(self) -> float | None:
         """Do what is due now; host time of the next turn, or None when all of a replay is played."""
@@ -234,8 +250,8 @@ class EventLoop:
         if self._change is not None:
             self._change_scene(now_s)
         fpga_s = now_s + self._clock_estimate.offset_s
-        if self._idle_after_s != NEVER:
-            self._idle(now_s, touched=report_ns >= 0)
+        if self._idle_after_s != NEVER and self._begins_idle(now_s, touched=report_ns >= 0):
+            return now_s  # that the outputs ramp is told at once
         if self._outputs.waking:  # what is due is played once the outputs are on
             read_s = self._source.next_time_s()
             next_s = min(self._outputs.next_s(), NEVER if read_s is None else read_s)
@@ -251,8 +267,8 @@ class EventLoop:
             self._spare.use(self._clock.now_s(), then_s)
         return then_s
 
-    def _idle(self, now_s: float, *, touched: bool) -> None:
-        """Switch the outputs off when nothing has been touched for long."""
+    def _begins_idle(self, now_s: float, *, touched: bool) -> bool:
+        """Switch the outputs off when nothing has been touched for long; whether that was done now."""
         outputs, scheduler = self._outputs, self._scheduler
         if touched or not outputs.on or scheduler.active or self._playback.accepted is not None or not scheduler.scene.may_idle:
             self._active_s = now_s
@@ -261,6 +277,8 @@ class EventLoop:
         elif now_s - self._active_s >= self._idle_after_s and now_s >= self._playback.occupancy.free_s:
             self._abandon()
             outputs.begin_idle()
+            return True
+        return False
 
     def _read(self, now_s: float) -> tuple[int, int | None]:
         """Read at most one touch report: its age in ns, -1 without one, and the finger that it moved."""
@@ -293,9 +311,6 @@ class EventLoop:
         if prepared.scene is not None:
             if prepared.selection is not None:
                 self._playback.change_bank(prepared.selection)
-            if self._playback.repeating:  # the spots of the scene before
-                self._playback.stop()
-                self._source.emitted(now_s, now_s)
             self._scheduler.change_scene(prepared.scene, self._clock_estimate.fpga_s(now_s))
             self._playback.pin([(spot.x_m, spot.y_m, spot.amplitude) for spot in prepared.scene.spots])
             self._counters.scenes_loaded += 1
@@ -308,11 +323,14 @@ class EventLoop:
         self._scene_changed(prepared)
         if prepared.ticket and self._commands is not None:
             self._commands.loaded(prepared.ticket, prepared.reason)
+        if prepared.scene is not None and self._playback.repeating:  # the spots of the scene before; last, as the link may fail
+            self._playback.stop()
+            self._source.emitted(now_s, now_s)
 
     def _next_s(self, now_s: float) -> float | None:
         """Host time of the next turn; None at the end of a replay."""
         outputs, playback, dispatcher = self._outputs, self._playback, self._dispatcher
-        if outputs.on and not outputs.wanted:
+        if outputs.unwanted:
             return now_s
         read_s = self._source.next_time_s()
         times = [] if read_s is None else [read_s]

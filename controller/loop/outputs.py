@@ -1,7 +1,10 @@
 """Whether the FPGA's outputs are on: arming, heartbeats, and recovery after a fault or an outage.
 
-The FPGA decides; what the host does about it is in `fpga.recovery`. If the host itself missed heartbeats, it arms again only
-a few times: on a machine that is too slow, fingers would feel nothing but ramps.
+The FPGA decides; what the host does about it is in `fpga.recovery`. Outputs are off when a status of the FPGA says so, or when it
+has certainly switched off by its heartbeat timeout: not when a DISARM was accepted, which begins a ramp.
+
+A host that missed heartbeats arms again at once. If it stalls again and again without an emission in between, fingers would feel
+nothing but ramps: it arms later each time, and never gives up.
 """
 
 from __future__ import annotations
@@ -15,9 +18,14 @@ from controller.fpga.exchange import HostSilent
 from controller.fpga.recovery import Recovery
 from controller.fpga.registers import Fault
 from controller.fpga.session import Session
+from controller.fpga.supervision import StillOn
 from controller.metrics import Counters
 
-STALLS_IN_A_ROW = 3  # times the host arms again after it missed heartbeats, without an emission in between
+STALL_PAUSE_S = 0.5  # before arming after the second stall in a row; doubled with each further one
+STALL_PAUSE_MAX_S = 8.0
+STEADY_S = 10.0  # with outputs on, after which a stall is not in a row with those before
+OFF_LATE_S = 0.01  # after the end of a ramp down, for a status that says so
+OFF_POLL_S = 1e-3
 WAKE_S = 0.2  # what was due this long before the outputs are on again is not played any more
 IDLE_TURN_S = 0.5  # between turns of the loop while nothing happens: watchdogs look at it
 
@@ -44,12 +52,14 @@ class Outputs:
         Ramped down since nothing is touched; nothing is sent until `wake`.
     waking : bool
         The outputs are being armed for a touch or command, which waits for them.
+    ramping_down : bool
+        Disarmed, and no status has said yet that the outputs are off.
     """
 
     def __init__(self, session: Session, board: Board, clock: Clock, clock_estimate: ClockEstimate, counters: Counters) -> None:
         self.on = False
-        self.idle = self.waking = False
-        self._idle_from_s = 0.0  # end of the ramp
+        self.idle = self.waking = self.ramping_down = False
+        self._down_s = 0.0  # end of the last ramp down
         self._woken_s = -NEVER
         self._session = session
         self._clock = clock
@@ -58,24 +68,51 @@ class Outputs:
         self._recovery = Recovery(session, board)
         self._off_since_s = clock.now_s()
         self._stalls = 0  # without an emission in between
+        self._on_since_s = 0.0
+
+    @property
+    def may_be_on(self) -> bool:
+        """Whether there may be voltage at the actuators: no status has said that the outputs are off since they were armed."""
+        return self.on or (self._session.may_be_on and self._clock.now_s() < self.off_by_s)
+
+    @property
+    def off_by_s(self) -> float:
+        """Host time at which the FPGA has switched off by itself after an error, at the latest."""
+        return self._recovery.off_by_s
+
+    @property
+    def ramping(self) -> bool:
+        """Whether the outputs are on their way to their idle levels, or back to 0 V."""
+        return self.ramping_down or self._recovery.arming
+
+    @property
+    def unwanted(self) -> bool:
+        """Whether the outputs are on, or coming on, and not to be: call `disarm`."""
+        return not self._recovery.wanted and (self.on or self._recovery.arming)
 
     @property
     def state(self) -> PanelState:
-        """ARMED, or why the outputs are off; while they are being armed, the state before."""
-        if self.idle or self.waking:
-            return PanelState.IDLE
-        return PanelState.ARMED if self.on else self._recovery.state
+        """ARMED, RAMPING, or why the outputs are off."""
+        if self.on:
+            return PanelState.ARMED
+        if self.ramping:
+            return PanelState.RAMPING
+        return PanelState.IDLE if self.idle or self.waking else self._recovery.state
 
     @property
     def cause(self) -> str:
-        """Why the outputs are off; empty while they are on, or armed for the first time."""
+        """Why the outputs are off, or ramp; empty while they are on, or before the first step."""
+        if self.on:
+            return ""
+        if self._recovery.arming:
+            return "the outputs are being switched on"
         if self.idle or self.waking:
             return "nothing is touched"
-        return "" if self.on else self._recovery.cause
+        return "the outputs are being switched off" if self.ramping_down else self._recovery.cause
 
     @property
     def wanted(self) -> bool:
-        """Whether the outputs are to be on. If they are on and not wanted, call `disarm`."""
+        """Whether the outputs are to be on."""
         return self._recovery.wanted
 
     @wanted.setter
@@ -84,21 +121,27 @@ class Outputs:
 
     def next_s(self) -> float:
         """Host time at which `advance` is due."""
-        if self.idle and self._session.exchange.heartbeat_due_s >= self._idle_from_s:
+        if self.on:
+            return self._session.exchange.heartbeat_due_s
+        if self.ramping_down:
+            now_s = self._clock.now_s()
+            return min(self._session.heartbeat_due_s, self._down_s if now_s < self._down_s else now_s + OFF_POLL_S)
+        if self.idle:
             return self._clock.now_s() + IDLE_TURN_S
-        return self._session.exchange.heartbeat_due_s if self.on or self.idle else self._recovery.next_s
+        return min(self._recovery.next_s, self.off_by_s) if self.may_be_on else self._recovery.next_s
 
     def advance(self, now_s: float) -> bool:
-        """Do what is due: bring up, arm, end the ramp, or send a heartbeat; True when the outputs have just come on.
+        """Do what is due: bring up, arm, end a ramp, or send a heartbeat; True when the outputs have just come on.
 
         Raises
         ------
         ControllerError
             A fault of the FPGA or an error of the link: to be given to `failed`.
         """
+        if not self.ramped_down(now_s):
+            return False
         if self.on or self.idle:
-            due_s = self._session.exchange.heartbeat_due_s
-            if due_s <= now_s and (self.on or due_s < self._idle_from_s):
+            if self.on and self._session.heartbeat_due_s <= now_s:
                 self._beat()
             return False
         if self.waking and now_s >= self._woken_s + WAKE_S:
@@ -107,45 +150,52 @@ class Outputs:
             return False
         self.on, self.waking = True, False
         self._counters.outputs_off_s += now_s - self._off_since_s
+        self._on_since_s = now_s
         self._beat()
         return True
 
     def failed(self, error: ControllerError, now_s: float) -> None:
-        """Begin the recovery after an error: the outputs are off.
+        """Begin the recovery after an error: the outputs are off, or switch off by their heartbeat timeout.
 
         Raises
         ------
         ControllerError
-            The same, if there is no recovery from it; or the cause, if the host missed heartbeats too often.
+            The same, if there is no recovery from it.
         """
+        steady = self.on and now_s - self._on_since_s >= STEADY_S
         if self.on:
             self._off_since_s = now_s
-        self.on = self.idle = self.waking = False
+        self.on = self.idle = self.waking = self.ramping_down = False
         if isinstance(error, HostSilent):
             self._counters.host_silent += 1
-            self._stalls += 1
-            if self._stalls > STALLS_IN_A_ROW:
-                raise FaultError(f"{error} ({self._stalls} times in a row: the machine is too slow or too busy)") from error
+            self._stalls = 1 if steady else self._stalls + 1
         else:
             self._counters.outages += 1
             self._counters.outage = str(error)
             for cause in _causes(error):
                 self._counters.outage_causes[cause] = self._counters.outage_causes.get(cause, 0) + 1
         self._recovery.begin(error, now_s)
+        if isinstance(error, HostSilent) and self._stalls > 1:
+            pause_s = min(STALL_PAUSE_S * 2.0 ** min(self._stalls - 2, 16), STALL_PAUSE_MAX_S)
+            self._counters.stall_pauses += 1
+            self._recovery.hold(
+                now_s + pause_s,
+                f"{error} ({self._stalls} times in a row: the machine is too slow or too busy; armed again after {pause_s:g} s)",
+            )
 
     def emission_started(self) -> None:
         """Take note that an emission was played: a later stall is not in a row with an earlier one."""
         self._stalls = 0
 
     def begin_idle(self) -> None:
-        """Have the outputs ramp to 0 V, and send nothing afterwards: an FPGA whose outputs are off needs no heartbeats.
+        """Have the outputs ramp to 0 V, and send nothing once they are off: an FPGA whose outputs are off needs no heartbeats.
 
         Raises
         ------
         LinkError, FaultError
             As `disarm`.
         """
-        self._idle_from_s = self.disarm()
+        self.disarm()
         self.idle = True
         self._counters.idled += 1
 
@@ -159,25 +209,44 @@ class Outputs:
         """
         self.idle, self.waking = False, True
         self._woken_s = self._clock.now_s()
-        self._recovery.resume(max(self._woken_s, self._idle_from_s))
+        self._recovery.resume(max(self._woken_s, self._down_s))
         self._beat()  # what is due from now on is told in the FPGA's time
 
-    def disarm(self) -> float:
-        """Have the outputs ramp to 0 V; host time at which they are off.
+    def disarm(self) -> None:
+        """Have the outputs ramp to 0 V, also if they are only coming on; `ramping_down` until a status says that they are off.
 
         Raises
         ------
         LinkError, FaultError
             If the FPGA does not acknowledge it; it switches off by its heartbeat timeout then.
         """
-        now_s = self._clock.now_s()
-        if not self.on:
-            return now_s
-        self.on = False
-        self._off_since_s = now_s
-        off_s = self._session.disarm()
-        self._recovery.disarmed(off_s)
-        return off_s
+        if self.ramping_down or not self.may_be_on:
+            return
+        if self.on:
+            self._off_since_s = self._clock.now_s()
+        self.on, self.ramping_down = False, True
+        self._down_s = self._session.disarm()
+        self._recovery.disarmed(self._down_s)
+
+    def ramped_down(self, now_s: float) -> bool:
+        """Whether no ramp down is left to wait for, as a status has said; heartbeats are sent until then.
+
+        Raises
+        ------
+        StillOn
+            If none has said so in time.
+        LinkError, FaultError
+            As the session says.
+        """
+        if not self.ramping_down:
+            return True
+        if now_s < min(self._down_s, self._session.heartbeat_due_s):
+            return False
+        self._beat()
+        if self._session.may_be_on and now_s >= self._down_s + OFF_LATE_S:
+            raise StillOn(f"the FPGA still has its outputs on {OFF_LATE_S * 1e3:g} ms after the end of their ramp to 0 V")
+        self.ramping_down = self._session.may_be_on
+        return not self.ramping_down
 
     def _beat(self) -> None:
         before_s = self._clock.now_s()

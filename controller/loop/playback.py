@@ -16,6 +16,7 @@ from controller.fpga.exchange import DAMAGED, Refused
 from controller.fpga.frames import ReadyFrames
 from controller.fpga.registers import Result, Start
 from controller.fpga.session import Session
+from controller.log import Event, log
 from controller.loop.commands import Outcome
 from controller.loop.host_timing import DeliveryTime, HostTiming
 from controller.loop.occupancy import MARGIN_S, Occupancy, Repetition
@@ -107,6 +108,8 @@ class Playback:
         self._slots = self._new_slots(slots)
         self._prefetch = PrefetchRecord(counters)
         self._last_slot: int | None = None  # of the newest play
+        self._lost = 0  # times that an emission was found not to have begun
+        session.never_began = self._never_began
 
     @property
     def reuse_m(self) -> float:
@@ -276,7 +279,7 @@ class Playback:
             return
         self.accepted = None
         called_ns, blocked_ns = time.perf_counter_ns(), self._session.link.blocked_ns
-        trigger_s = self._session.link.trigger()
+        trigger_s = self._session.trigger()
         self._started(accepted, trigger_s, time.perf_counter_ns() - called_ns - (self._session.link.blocked_ns - blocked_ns))
 
     def reset(self) -> None:
@@ -288,6 +291,20 @@ class Playback:
         self.accepted = None
         self.repeating = False
         self.occupancy.reset()
+
+    def _never_began(self, repeats: bool) -> None:
+        """What was started last has not begun in the FPGA, which repeats an emission or not: spots begin anew."""
+        if self.occupancy.repetition is not None and not repeats:
+            self.occupancy.repetition = None
+            self.repeating = False
+        self._lost += 1
+        if not self._lost & (self._lost - 1):  # at powers of two
+            link = self._counters.link
+            log(
+                f"{self._lost} emissions so far never began: triggers that the FPGA did not see {link.triggers_lost}, that started "
+                f"nothing {link.triggers_ignored}, not of this host {link.triggers_stray}, times missed {link.plays_missed}",
+                Event.EMISSIONS_LOST,
+            )
 
     def _plan(self, batch: Batch, begun_s: float, predicted: bool, points: list[Point] | None) -> Plan:
         """Where and when a batch can be played: as a play command alone if that is enough, else with an upload before it.

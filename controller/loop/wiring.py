@@ -78,6 +78,7 @@ def assemble(
     """
     selection = Selection(bank, bank.snap_m(board) if skips.cells else -1.0, board.idle_word, ready=skips.cells)
     counters = Counters()
+    session.counters = counters.link
     clock_estimate = ClockEstimate(board.link.clock_hz)
     occupancy = Occupancy(clock_estimate, board.waveform.duration_s, board.limits.max_duty if max_duty is None else max_duty)
     timing = HostTiming(

@@ -18,8 +18,9 @@ from controller.bank.lookup import find_bank
 from controller.bank.reader import Bank
 from controller.board.board import Board
 from controller.board.devices import LinkSettings, Realtime
+from controller.board.panel_status import FOLDER, NAME, read_now
 from controller.board.paths import SERVICE, service_user
-from controller.board.touch_panels import LinuxInputTouch, RecordingTouch
+from controller.board.touch_panels import I2cTouch, LinuxInputTouch, RecordingTouch, SerialTouch
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
@@ -32,6 +33,7 @@ from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
 from controller.service.raspberry_pi import look_at_pi
 from controller.touch.recording import Recording
+from controller.touch.reports import FAULTS, describe_warnings
 
 MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
 
@@ -69,7 +71,7 @@ def look(board: Board, now_s: Callable[[], float]) -> list[Finding]:
         ]
     elif link.kind == "serial":
         checks.append(("serial port", lambda: _opened(open_link(board, now_s), link.device)))
-    checks += [("touch panel", lambda: _touch(board)), ("scene", lambda: _scene(board)), ("bank", lambda: _bank(board))]
+    checks += [("touch panel", lambda: _touch(board, now_s)), ("scene", lambda: _scene(board)), ("bank", lambda: _bank(board))]
     if board.temperature is not None:
         checks.append(("temperature", lambda: _temperature(board)))
     if link.kind != "simulated":
@@ -157,33 +159,55 @@ def _buffer() -> str:
 def _lines(link: LinkSettings) -> str:
     import gpiod
 
-    from controller.board.gpio_chip import find_chip
+    from controller.board.gpio_chip import find_chip, find_lines
     from controller.fpga.gpio_lines import CONSUMER
 
     path = find_chip(link.gpio_chip, LinkError)
-    wanted = [name for name in (link.trigger_line, link.configured_line, link.permit_line) if name]
+    wanted = [line for line in (link.trigger_line, link.configured_line, link.permit_line) if line]
     with gpiod.Chip(str(path)) as chip:
-        for name in wanted:
-            try:
-                info = chip.get_line_info(name)
-            except OSError:
-                raise LinkError(f"GPIO chip {link.gpio_chip!r} has no line named {name!r}: gpioinfo lists them") from None
+        for line, number in find_lines(chip, link.gpio_chip, wanted, LinkError).items():
+            info = chip.get_line_info(number)
             if info.used and info.consumer != CONSUMER:
-                raise LinkError(f"line {name!r} is in use by {info.consumer or 'the kernel'}: end it, or choose another line")
+                raise LinkError(f"line {line!r} is in use by {info.consumer or 'the kernel'}: end it, or choose another line")
     return f"{', '.join(wanted)} on {link.gpio_chip}"
 
 
-def _touch(board: Board) -> str:
+def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
     touch = board.touch
     if isinstance(touch, RecordingTouch):
         return f"recording {Recording.open(recording_path(board, None)).name}"
     if isinstance(touch, LinuxInputTouch):
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
+    if isinstance(touch, I2cTouch | SerialTouch) and (served := _served(board)):
+        return served  # its devices are the service's alone
     panel = open_panel(board)
     try:
-        return f"{touch.__struct_config__.tag} answers"
+        panel.read(now_s())  # a first look, also at the lines
+        faults = [panel.description.remark, *describe_warnings({kind: panel.warnings[kind] for kind in FAULTS})]
     finally:
         panel.close()
+    said = [f"{touch.__struct_config__.tag} answers", *filter(None, faults)]
+    warns = len(said) > 1
+    if touch.no_finger_mm:
+        said.append(f"no finger in {len(touch.no_finger_mm)} rectangles of the plate")
+    if isinstance(touch, I2cTouch):
+        said.append(
+            f"whether line {touch.interrupt_line!r} announces reports shows when it is touched: `haptic-panel status`"
+            if touch.interrupt_line
+            else "polled, as the board names no interrupt line"
+        )
+    return Finding("touch panel", True, "; ".join(said), warns=warns)
+
+
+def _served(board: Board) -> Finding | None:
+    """What the running service has found of the board's touch panel; None if no service has this panel now."""
+    status, old = read_now(FOLDER / NAME)
+    if status is None or old or status.board != board.name or not status.panel_present:
+        return None
+    counts = {kind: status.touch_warnings.get(kind, 0) for kind in FAULTS}
+    faults = [status.touch_remark, *describe_warnings(counts)]
+    said = ["read by the running service", *filter(None, faults)]
+    return Finding("touch panel", True, "; ".join(said), warns=len(said) > 1)
 
 
 def _scene(board: Board) -> str:

@@ -14,6 +14,7 @@ from controller.service.bit_clock import BitClock
 from controller.service.observed import Panel, Thermometer, Watched
 from controller.service.reloading import ReloadFile
 from controller.service.systemd import Notifier, Watchdog
+from controller.service.touch_faults import TouchFaults
 
 PLAYING_S = 1.0  # after an emission, for which the state is PLAYING
 WORKING = frozenset({PanelState.ARMED, PanelState.PLAYING})
@@ -67,10 +68,13 @@ class Housekeeping:
             self._bit_clock = BitClock(session, thermometer, board.temperature.period_s)
         self._loop: Watched | None = None
         self._panel: Panel | None = None
+        self._touch_faults: TouchFaults | None = None
         self._told: Sequence[Callable[[Condition], None]] = ()
         self._board_name = board.name
         self._reloading = False
-        self._ready = False  # was reported
+        self._known = False  # a condition was reported
+        self._ready = False  # to the service manager
+        self._armed = False
         self._scene_stays = ""
         self._played_s = -math.inf
         self._emission_started = False  # since the last turn
@@ -96,6 +100,7 @@ class Housekeeping:
         """
         self._loop = loop
         self._panel = panel
+        self._touch_faults = None if panel is None else TouchFaults(panel)
         self._told = told
 
     def emission_started(self) -> None:
@@ -119,6 +124,8 @@ class Housekeeping:
         if loop is None:
             return
         self._look(loop, now_s)
+        if self._touch_faults is not None:
+            self._touch_faults.look(now_s)
         if loop.reloading != self._reloading:
             self._reloading = loop.reloading
             if self._reloading:
@@ -151,19 +158,19 @@ class Housekeeping:
     def _look(self, loop: Watched, now_s: float) -> None:
         """Determine the panel's condition, and report it if it has changed."""
         outputs, panel = loop.outputs, self._panel
-        on, state, cause = outputs.on, outputs.state, outputs.cause
+        on, state, cause = outputs.may_be_on, outputs.state, outputs.cause
         present = panel is None or panel.present
         temperature_c = None if self._bit_clock is None else self._bit_clock.temperature_c
         if self._emission_started or loop.repeating:
             self._emission_started = False
             self._played_s = now_s
-        if (on or state is PanelState.IDLE) and panel is not None and not present:
+        if state in {PanelState.ARMED, PanelState.IDLE} and panel is not None and not present:
             state, cause = PanelState.WAITING_FOR_PANEL, panel.cause
-        elif on and now_s - self._played_s < PLAYING_S:
+        elif state is PanelState.ARMED and now_s - self._played_s < PLAYING_S:
             state = PanelState.PLAYING
         before = self.condition
         if (
-            self._ready
+            self._known
             and state is before.state
             and on == before.outputs_on
             and present == before.panel_present
@@ -172,25 +179,29 @@ class Housekeeping:
         ):
             return
         if not cause and state not in WORKING:
-            return  # the outputs are being switched on: the result is not known yet
+            return  # nothing is known yet
         self.condition = Condition(state, cause, on, present, temperature_c)
-        self._log(before)
+        self._known = True
+        self._log(before, outputs.on)
         if not self._ready:
-            self._ready = True
-            self._notifier.ready(self._status)
+            if state is not PanelState.RAMPING:  # what comes of the first ramp is known at its end
+                self._ready = True
+                self._notifier.ready(self._status)
         elif (state, cause) != (before.state, before.cause):
             self._notifier.status(self._status)
         for told in self._told:
             told(self.condition)
 
-    def _log(self, before: Condition) -> None:
-        """Log what changed, except whether something is being played."""
+    def _log(self, before: Condition, armed: bool) -> None:
+        """Log what changed, except whether something is being played; `armed`: the outputs have ended their ramp up."""
         now = self.condition
-        if now.outputs_on != before.outputs_on and now.outputs_on:
+        if armed and not self._armed:
             log("the outputs are on", Event.OUTPUTS_ON)
-        if not now.outputs_on and (now.state, now.cause) != (before.state, before.cause):
-            said = f"outputs off: {now.state.value}: {now.cause.removeprefix('outputs off: ')}"
-            log(said, OFF.get(now.state, Event.OUTPUTS_OFF))
+        self._armed = armed
+        changed = (now.state, now.cause, now.outputs_on) != (before.state, before.cause, before.outputs_on)
+        if not armed and now.state is not PanelState.RAMPING and changed:
+            said = f"{now.state.value}: {now.cause.removeprefix('outputs off: ')}"
+            log(said if now.outputs_on else f"outputs off: {said}", OFF.get(now.state, Event.OUTPUTS_OFF))
         if now.panel_present and not before.panel_present:
             log("the touch panel is back", Event.PANEL_BACK)
         elif now.state is PanelState.WAITING_FOR_PANEL and (now.state, now.cause) != (before.state, before.cause):

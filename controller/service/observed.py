@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from typing import Protocol
 
 from controller.board.panel_state import PanelState
+from controller.touch.event_reader import DeviceDescription
 
 
 class Thermometer(Protocol):
@@ -24,7 +26,19 @@ class Thermometer(Protocol):
 
 
 class Panel(Protocol):
-    """A touch panel that may be disconnected."""
+    """A touch panel that may be disconnected.
+
+    Attributes
+    ----------
+    warnings : Counter of str
+        Anomalies found by its driver, by kind (`reports.WARNINGS`).
+    """
+
+    warnings: Counter[str]
+
+    @property
+    def description(self) -> DeviceDescription:
+        """Description of the device as it was opened last."""
 
     @property
     def present(self) -> bool:
@@ -43,12 +57,16 @@ class OutputsSeen(Protocol):
         """Whether plays are accepted."""
 
     @property
+    def may_be_on(self) -> bool:
+        """Whether there may be voltage at the actuators."""
+
+    @property
     def state(self) -> PanelState:
-        """ARMED, or the state that keeps them off."""
+        """ARMED, RAMPING, or the state that keeps them off."""
 
     @property
     def cause(self) -> str:
-        """Why they are off."""
+        """Why they are off, or ramp."""
 
 
 class Playing(Protocol):

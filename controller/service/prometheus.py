@@ -13,6 +13,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Histo
 from prometheus_client.registry import Collector, CollectorRegistry
 
 from controller.application_socket.client import PanelClient
+from controller.application_socket.messages import Greeting
 from controller.board.panel_state import PanelState
 from controller.errors import ControllerError
 from controller.fpga.registers import Fault
@@ -30,6 +31,7 @@ COUNTERS: Final = {  # of `figures`: name here, help
     "heartbeats": ("heartbeats", "Heartbeats that the FPGA answered."),
     "late": ("late_emissions", "Beats that reached the FPGA too late for their time."),
     "host_silent": ("host_stalls", "Times the FPGA switched off because this host was silent."),
+    "stall_pauses": ("host_stall_pauses", "Of these, those after which it armed again only after a pause."),
     "outages": ("outages", "Times the FPGA was lost, reset, or switched off for another cause."),
     "idled": ("idle_times", "Times the outputs were ramped down because nothing was touched."),
     "outputs_off_s": ("outputs_off_seconds", "Time without outputs, until they were on again."),
@@ -46,17 +48,52 @@ HISTOGRAMS: Final = {
 Ask = Callable[[], tuple[str, str, dict[str, Any]]]
 
 
-def ask_panel(path: str) -> tuple[str, str, dict[str, Any]]:
-    """Version, board and figures of the panel whose application socket has this path; connects for this one question.
+class PanelFigures:
+    """Figures of the panel whose application socket has this path, by one connection that is kept.
 
-    Raises
-    ------
-    ControllerError
-        If no panel answers.
+    Parameters
+    ----------
+    path : str
     """
-    with PanelClient(path) as panel:
-        greeting = panel.hello()
-        return greeting.version, greeting.board, panel.figures()
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._panel: PanelClient | None = None
+        self._greeting: Greeting | None = None
+
+    def __call__(self) -> tuple[str, str, dict[str, Any]]:
+        """Version, board and figures.
+
+        Raises
+        ------
+        ControllerError
+            If no panel answers.
+        """
+        kept = self._panel is not None
+        try:
+            return self._ask()
+        except ControllerError:
+            self.close()
+            if not kept:
+                raise
+        try:  # it was started anew, or another client needed the place
+            return self._ask()
+        except ControllerError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """End the connection."""
+        if self._panel is not None:
+            self._panel.close()
+        self._panel = self._greeting = None
+
+    def _ask(self) -> tuple[str, str, dict[str, Any]]:
+        if self._panel is None:
+            self._panel = PanelClient(self._path)
+        if self._greeting is None:
+            self._greeting = self._panel.hello()
+        return self._greeting.version, self._greeting.board, self._panel.figures()
 
 
 class PanelCollector(Collector):
@@ -111,7 +148,8 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
     for state in PanelState:
         states.add_metric([state.value], float(figures.get("state") == state.value))
     yield states
-    yield GaugeMetricFamily("haptic_panel_outputs_on", "Whether the outputs are on.", float(figures.get("outputs") == "on"))
+    on = figures.get("outputs_on", figures.get("outputs") == "on")
+    yield GaugeMetricFamily("haptic_panel_outputs_on", "Whether there may be voltage at the actuators.", float(on))
     if "waiting" in figures:
         yield GaugeMetricFamily("haptic_panel_waiting_emissions", "Emissions that wait for the plate.", figures["waiting"])
     if figures.get("temperature_c") is not None:
@@ -122,6 +160,11 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
     causes = dict.fromkeys([*(fault.name or "" for fault in Fault), "LINK"], 0) | figures.get("outage_causes", {})
     yield _by_cause("haptic_panel_faults", "Outages by the fault that the FPGA named; LINK: it named none.", causes)
     yield _by_cause("haptic_panel_skipped", "Work and emissions that were left out.", figures.get("skipped", {}))
+    yield _by_cause(
+        "haptic_panel_link",
+        "What the FPGA said that was other than believed, and what was sent again.",
+        figures.get("link_counts", {}),
+    )
     told = dict(figures.get("application_socket", {}))
     if "clients_connected" in told:
         text = "Clients of the application socket that are connected."

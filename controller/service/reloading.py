@@ -18,9 +18,11 @@ import msgspec
 
 from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, ControllerError
+from controller.regular_file import read_regular
 
 NAME = "reload"
 LOOK_MS = 50
+BYTES_MAX = 65_536
 
 
 class Reloaded(msgspec.Struct, frozen=True):
@@ -127,6 +129,6 @@ def _folder(environment: Mapping[str, str]) -> Path | None:
 
 def _read(file: Path) -> Reloaded:
     try:
-        return msgspec.json.decode(file.read_bytes(), type=Reloaded)
+        return msgspec.json.decode(read_regular(file, BYTES_MAX), type=Reloaded)
     except (OSError, *NO_JSON) as error:
         raise ControllerError(f"{file}: {error}: does the service run?") from error

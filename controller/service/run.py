@@ -111,7 +111,12 @@ def serve(board: Board, scene: Scene, scene_name: str, bank: Bank, replay: Recor
         if commands is not None and commands.disarmed:
             assembly.loop.control.switch(on=False)
         assembly.selection.prepare()
-        status.watch(assembly.counters, assembly.waiting)
+        status.watch(
+            assembly.counters,
+            assembly.waiting,
+            source.counts,
+            lambda: (source.warnings, panel.description.remark if panel else ""),
+        )
         housekeeping.watch(assembly.loop, panel, (status.changed,) if commands is None else (status.changed, commands.changed))
         for warning in enter_realtime(board.realtime):
             log(warning, Event.NOT_REALTIME)

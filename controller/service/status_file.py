@@ -16,6 +16,7 @@ from controller.clocks import NEVER
 from controller.log import LOG, Priority, log
 from controller.loop.runtime import SpareTime
 from controller.metrics import Counters, LatencyHistogram
+from controller.touch.source import Counts
 from controller.update.layout import running_release
 
 PERIOD_S: Final = 1.0
@@ -52,6 +53,8 @@ class StatusFile(SpareTime):
         self._condition = Condition()
         self._counters = Counters()
         self._waiting: Callable[[], int] = int
+        self._touch: Callable[[], tuple[Mapping[str, int], str]] = _untouched
+        self._touches = Counts()
         self._encoder = msgspec.json.Encoder()
         self._bytes = bytearray(4096)
         self._folder = -1
@@ -67,10 +70,29 @@ class StatusFile(SpareTime):
         named = environment.get("RUNTIME_DIRECTORY", "").partition(":")[0]
         return cls(Path(named) if named else None, board)
 
-    def watch(self, counters: Counters, waiting: Callable[[], int]) -> None:
-        """Take the counters, and how many emissions are due now; the first status follows the first condition."""
+    def watch(
+        self,
+        counters: Counters,
+        waiting: Callable[[], int],
+        touches: Counts | None = None,
+        touch: Callable[[], tuple[Mapping[str, int], str]] | None = None,
+    ) -> None:
+        """Take what is told; the first status follows the first condition.
+
+        Parameters
+        ----------
+        counters : Counters
+        waiting : callable
+            How many emissions are due now.
+        touches : Counts, optional
+            What became of the positions that the touch panel reports.
+        touch : callable, optional
+            Anomalies of the touch panel by kind, and the remark of its device.
+        """
         self._counters = counters
         self._waiting = waiting
+        self._touch = touch or _untouched
+        self._touches = touches or self._touches
 
     def changed(self, condition: Condition) -> None:
         """Take the panel's new condition, which is written soon."""
@@ -117,7 +139,8 @@ class StatusFile(SpareTime):
             log(f"the status file cannot be written to {FOLDER} ({error.strerror}); the panel plays on", Priority.WARNING)
 
     def _status(self, now_s: float, ended: bool) -> PanelStatus:
-        condition, counters = self._condition, self._counters
+        condition, counters, touches = self._condition, self._counters, self._touches
+        warnings, remark = self._touch()
         return PanelStatus(
             release=self._release,
             board=self._board,
@@ -139,15 +162,24 @@ class StatusFile(SpareTime):
             late=counters.late,
             idled=counters.idled,
             host_silent=counters.host_silent,
+            stall_pauses=counters.stall_pauses,
             outages=counters.outages,
             outage_causes=counters.outage_causes,
+            touch_warnings={kind: count for kind, count in warnings.items() if count},
+            touch_remark=remark,
             skipped=counters.skipped.emissions,
             waiting=self._waiting(),
+            touch_points=touches.points,
+            touch_points_refused=touches.points - touches.believed - touches.confirmed,
             log_lines_lost=LOG.lost,
             statuses_lost=self._lost,
             upload=_latency(counters.upload_latency.host),
             resident=_latency(counters.resident_latency.host),
         )
+
+
+def _untouched() -> tuple[Mapping[str, int], str]:
+    return {}, ""
 
 
 def _latency(histogram: LatencyHistogram) -> LatencyStatus:

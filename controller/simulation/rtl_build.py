@@ -23,6 +23,7 @@ from controller.board.lookup import data_folder
 from controller.board.paths import state_folder
 from controller.errors import LinkError
 from controller.programs import ProgramError, run_program
+from controller.regular_file import open_private
 from controller.service.installation import install_line
 
 VERILATE = ["--cc", "-O3", "-fno-table", "-fno-dfg", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
@@ -114,8 +115,8 @@ def build_library(parameters: dict[str, int], compiling: Callable[[], None] = la
 
 @contextlib.contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Lock the folder: another process may be building the same library."""
-    descriptor = os.open(folder, os.O_RDONLY)
+    """Lock a file beside the folder: another process of this user may be building the same library."""
+    descriptor = open_private(folder.with_name(f".{folder.name}.lock"))
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield

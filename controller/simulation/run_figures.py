@@ -60,6 +60,7 @@ def report(run: Run, foci: list[Focus]) -> dict[str, Any]:
         "prefetch_wasted": counters.prefetch_wasted,
         "near": counters.near,
         "outages": counters.outages,
+        "link_counts": asdict(counters.link),
         "skipped": asdict(counters.skipped),
         "touch": run.touch,
         "response_section_mapped": run.response_mapped,

@@ -112,7 +112,7 @@ def play(
     played: list[Played] = []
     start_s = session.earliest_trigger_s() + board.limits.arming_s + (REAL_SETTLE_S if real_time else SETTLE_S)
     axes = recording.axes(board)
-    tracks = recording.tracks(axes)
+    tracks = recording.tracks(axes, start_s)
     if not tracks:  # without any touch nothing is played, spots included
         scene = Scene(())
     source = RecordingSource(recording, axes, start_s)

@@ -9,11 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Final
 
 from controller.touch.axes import Axes
 
+# Values of Contact.identity besides the tracking ids of the device, which are never negative
+NO_CONTACT: Final = -1
+UNKNOWN: Final = -2  # no event of this slot yet: a finger may have been down before the stream began
+IMPLIED: Final = -3  # a position of an unknown slot: a finger is down
+
 FIRST_SERIAL = 1 << 32  # identities assigned here, above every tracking id (32 bits signed)
-MAX_STEP_M = 0.03  # between two reports, 3 m/s at 100 Hz; farther away it is another finger
+MAX_SPEED = 3.0  # m/s from one report to the next; farther away it is another finger
+MIN_STEP_M = 0.03  # so far at least, however soon the next report comes
 MIN_INTERVAL_S, MAX_INTERVAL_S = 2e-3, 50e-3  # no panel reports faster; after a longer pause the velocity is unknown
 VELOCITY_GAIN = 0.7  # weight of the last step in the velocity
 
@@ -24,13 +31,15 @@ class Contact:
     Attributes
     ----------
     identity : int
-        Tracking id, serial number from `FIRST_SERIAL` on, or a negative value of `decoder.py`.
+        Tracking id, serial number from `FIRST_SERIAL` on, or `NO_CONTACT`, `UNKNOWN`, `IMPLIED`.
     x, y : int or None
         Raw position; None before the first one.
     moved : bool
         Whether the position has changed since the last sample.
-    hovers, palm : bool
+    hovers, tool_palm : bool
         As the device reports it.
+    palm : bool
+        Whether it has been a palm since it began.
     counted : bool
         Whether it is among the contacts counted.
     refused : bool
@@ -45,6 +54,16 @@ class Contact:
         Without a tracking id: position of its last report.
     vx, vy : float
         Without a tracking id: velocity in m/s.
+    held : int
+        Number of the report whose position waits for the next one; 0: none does.
+    held_x_m, held_y_m, held_s : float
+        That position, NaN if it is no place of a finger, and the time of the last report before.
+    stepped : int
+        Number of the report of its last sample.
+    step_vx, step_vy : float
+        Velocity in m/s of the last step between two samples; NaN before the first.
+    silent : bool
+        Whether its panel has fallen silent: it is no finger until the panel reports it again.
     """
 
     __slots__ = (
@@ -52,13 +71,22 @@ class Contact:
         "at_y_m",
         "counted",
         "finger",
+        "held",
+        "held_s",
+        "held_x_m",
+        "held_y_m",
         "hovers",
         "identity",
         "moved",
         "palm",
         "refused",
+        "silent",
         "size",
         "size_m",
+        "step_vx",
+        "step_vy",
+        "stepped",
+        "tool_palm",
         "vx",
         "vy",
         "x",
@@ -73,13 +101,16 @@ class Contact:
         self.identity = identity
         self.x: int | None = None
         self.y: int | None = None
-        self.moved = self.hovers = self.palm = self.counted = self.refused = False
+        self.moved = self.hovers = self.tool_palm = self.palm = self.counted = self.refused = self.silent = False
         self.finger = finger
         self.x_m = x_m
         self.y_m = y_m
         self.size = 0
         self.size_m = size_m
         self.at_x_m = self.at_y_m = self.vx = self.vy = 0.0
+        self.held = self.stepped = 0
+        self.held_x_m = self.held_y_m = self.held_s = 0.0
+        self.step_vx = self.step_vy = math.nan
 
 
 def associate(old: dict[int, Contact], new: list[Contact], axes: Axes, serials: Iterator[int], step_s: float) -> dict[int, Contact]:
@@ -186,11 +217,14 @@ def _partners(old: Sequence[Contact], new: Sequence[Contact], step_s: float) -> 
     if not old or not new:
         return partners
     ahead_s = step_s if 0.0 < step_s <= MAX_INTERVAL_S else 0.0
-    farthest = MAX_STEP_M * MAX_STEP_M
+    farthest = max(MIN_STEP_M, MAX_SPEED * min(step_s, MAX_INTERVAL_S)) ** 2
     released = [farthest] * len(old)
     costs = []
     for contact in old:
-        x_m, y_m = contact.at_x_m + contact.vx * ahead_s, contact.at_y_m + contact.vy * ahead_s
+        if contact.held:  # its last report may have been an error
+            x_m, y_m = contact.x_m, contact.y_m
+        else:
+            x_m, y_m = contact.at_x_m + contact.vx * ahead_s, contact.at_y_m + contact.vy * ahead_s
         squares = [(x_m - other.at_x_m) ** 2 + (y_m - other.at_y_m) ** 2 for other in new]
         costs.append([square if square <= farthest else math.inf for square in squares] + released)
     for contact, column in zip(old, assignment(costs), strict=True):
@@ -201,7 +235,7 @@ def _partners(old: Sequence[Contact], new: Sequence[Contact], step_s: float) -> 
 
 def _update_velocity(old: Contact, new: Contact, step_s: float) -> None:
     """Update the velocity of a contact with its last step."""
-    if step_s > MAX_INTERVAL_S:
+    if step_s > MAX_INTERVAL_S or old.held:
         old.vx = old.vy = 0.0
     elif step_s > 0.0:
         gain_hz = VELOCITY_GAIN / max(step_s, MIN_INTERVAL_S)
@@ -214,5 +248,5 @@ def _carried_over(old: Contact | None, new: Contact) -> Contact:
     if old is None:
         return new
     old.moved = (old.x, old.y) != (new.x, new.y)
-    old.x, old.y, old.palm, old.size = new.x, new.y, new.palm, new.size
+    old.x, old.y, old.tool_palm, old.size = new.x, new.y, new.tool_palm, new.size
     return old

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from controller.board.board import Board
+from controller.board.touch_panels import TouchPanel
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,20 +33,30 @@ class Axes:
 
     Attributes
     ----------
+    from_axes : tuple of 6 float
+        The map: metres along x per raw unit of x, of y, at raw (0, 0); the same along y.
+    plate_m : (float, float)
+        Length and width of the plate.
+    settings : TouchPanel
+        The board's [touch].
+    unit_m : (float, float)
+        Metres on the plate per raw unit of x, and of y; 0 of an axis without extent.
     size_m_per_unit : float
         Metres per raw unit of a contact's size, the mean of both axes.
     """
 
-    __slots__ = ("_from_axes", "_plate_m", "size_m_per_unit", "x", "y")
+    __slots__ = ("from_axes", "plate_m", "settings", "size_m_per_unit", "unit_m", "x", "y")
 
     def __init__(self, board: Board, x: AxisRange, y: AxisRange) -> None:
         self.x = x
         self.y = y
-        self._plate_m = (board.plate.length_m, board.plate.width_m)
-        self._from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
-        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self._from_axes
+        self.settings: TouchPanel = board.touch
+        self.plate_m = (board.plate.length_m, board.plate.width_m)
+        self.from_axes = (*_per_raw(board.touch.x_mm_from_axes, x, y), *_per_raw(board.touch.y_mm_from_axes, x, y))
+        x_by_x, x_by_y, _, y_by_x, y_by_y, _ = self.from_axes
         # The kernel gives a contact's size in units of its position, which may differ between the axes
-        self.size_m_per_unit = (math.hypot(x_by_x, y_by_x) + math.hypot(x_by_y, y_by_y)) / 2
+        self.unit_m = (math.hypot(x_by_x, y_by_x), math.hypot(x_by_y, y_by_y))
+        self.size_m_per_unit = sum(self.unit_m) / 2
 
     def clamp(self, x: int, y: int) -> tuple[int, int]:
         """Raw position (`x`, `y`) clamped to both ranges."""
@@ -64,8 +75,8 @@ class Axes:
         (x_m, y_m)
             Clamped to the plate.
         """
-        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self._from_axes
-        length_m, width_m = self._plate_m
+        x_by_x, x_by_y, x_at_0, y_by_x, y_by_y, y_at_0 = self.from_axes
+        length_m, width_m = self.plate_m
         x_m = x_by_x * x + x_by_y * y + x_at_0
         y_m = y_by_x * x + y_by_y * y + y_at_0
         return (

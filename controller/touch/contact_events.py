@@ -23,7 +23,7 @@ class Contact(NamedTuple):
     size: int = 0
 
 
-def describe(name: str, version: int, width: int, height: int, *, sized: bool) -> DeviceDescription:
+def describe(name: str, version: int, width: int, height: int, *, sized: bool, remark: str = "") -> DeviceDescription:
     """Description of a panel on I2C with `MAX_CONTACTS` contacts, as a kernel driver would give it.
 
     Parameters
@@ -34,6 +34,8 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
         Largest raw x and y; the smallest are 0.
     sized : bool
         Whether the panel reports sizes of contacts.
+    remark : str
+        See `DeviceDescription`.
     """
     extents = (width, height)
     axes = {ev.ABS_MT_SLOT: AxisInfo(0, MAX_CONTACTS - 1), ev.ABS_MT_TRACKING_ID: AxisInfo(0, MAX_TRACKING_ID)}
@@ -45,7 +47,7 @@ def describe(name: str, version: int, width: int, height: int, *, sized: bool) -
         ev.EV_KEY: (ev.BTN_TOUCH,),
         ev.EV_ABS: tuple(sorted(axes)),
     }
-    return DeviceDescription(name, ev.BUS_I2C, 0, 0, version, (ev.INPUT_PROP_DIRECT,), codes, dict(sorted(axes.items())))
+    return DeviceDescription(name, ev.BUS_I2C, 0, 0, version, (ev.INPUT_PROP_DIRECT,), codes, dict(sorted(axes.items())), remark)
 
 
 class ContactEvents:

@@ -1,8 +1,7 @@
 """Decoder of the kernel's touch event streams: protocol A, protocol B and single-touch.
 
-Kernel documentation: input/multi-touch-protocol.rst, input/event-codes.rst. Events change contacts; each SYN_REPORT gives
-touch samples of the changes. The three protocols share hover, finger numbers, the limit of ten, counts and losses;
-`associate.py` gives the contacts of protocol A their identities.
+Kernel documentation: input/multi-touch-protocol.rst, input/event-codes.rst. Events change contacts; at each SYN_REPORT
+`plausibility.py` makes touch samples of those that are fingers. `associate.py` gives the contacts of protocol A their identities.
 
 The kernel sends an axis of a slot only when it differs from the slot's last value, even if that value is from an earlier
 contact: a slot keeps its position from one contact to the next.
@@ -13,9 +12,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from itertools import count
+from math import inf
 from typing import Final
 
-from controller.touch.associate import FIRST_SERIAL, Contact, associate
+from controller.touch.associate import FIRST_SERIAL, IMPLIED, NO_CONTACT, UNKNOWN, Contact, associate
 from controller.touch.axes import Axes
 from controller.touch.event_codes import (
     ABS_MT_DISTANCE,
@@ -38,24 +38,20 @@ from controller.touch.event_codes import (
     Protocol,
 )
 from controller.touch.event_reader import Event
-from controller.touch.source import Counts, TouchSample, touch_sample
+from controller.touch.plausibility import Plausibility
+from controller.touch.source import Counts, TouchSample
 
 MAX_PLAYED: Final = 10
 MAX_SLOTS: Final = 256
 MAX_UNNAMED: Final = 32  # contacts of a report that have no tracking id
-
-# Values of Contact.identity besides the tracking ids of the device, which are never negative
-NO_CONTACT: Final = -1
-UNKNOWN: Final = -2  # no event of this slot yet: a finger may have been down before the stream began
-IMPLIED: Final = -3  # a position of an unknown slot: a finger is down
 
 
 class Decoder:
     """Turns events into touch samples at each SYN_REPORT.
 
     A hovering finger is no contact: BTN_TOUCH 0, ABS_MT_DISTANCE above 0 or, in protocol A, ABS_MT_TOUCH_MAJOR 0.
-    A palm (ABS_MT_TOOL_TYPE) is counted but not played. While ten fingers are played, a further finger is refused until it is
-    lifted: a finger that began in the middle of its touch would feel like a press.
+    A palm is counted but not played. While ten fingers are played, a further finger is refused until it is lifted: a finger that
+    began in the middle of its touch would feel like a press.
 
     `feed_report` is on the hot path from touch to emission: it allocates only the samples.
 
@@ -77,17 +73,18 @@ class Decoder:
     warnings : Counter of str
         Anomalies so far, by kind.
     touched : bool
-        Whether the events fed last ended a report with at least one contact down.
+        Whether the events fed last ended a report with at least one contact down, and without a position held back.
+    due_s : float
+        When to call `overdue` unless events are fed before; inf: never.
     """
 
     def __init__(
         self, axes: Axes, protocol: Protocol, *, slot: int = 0, last_slot: int | None = None, after: Decoder | None = None
     ) -> None:
         self.counts: Counts = after.counts if after else Counts()
+        self.counts.devices += 1
         self.warnings: Counter[str] = after.warnings if after else Counter()
         self._axes = axes
-        self._limits = (axes.x.minimum, axes.x.maximum, axes.y.minimum, axes.y.maximum)
-        self._size_m = axes.size_m_per_unit
         self._last_slot = MAX_SLOTS if last_slot is None else last_slot
         self._is_a = protocol is Protocol.A
         self._is_b = protocol is Protocol.B
@@ -101,8 +98,15 @@ class Decoder:
         self._touching: bool | None = None  # BTN_TOUCH, None before its first event
         self._dropping = False
         self.touched = False
-        self._played = 0
-        self._next_finger: int = after._next_finger if after else 0
+        self.due_s = inf
+        self._plausibility: Plausibility = Plausibility(
+            axes,
+            MAX_PLAYED,
+            tells_all=self._is_a,
+            counts=self.counts,
+            warnings=self.warnings,
+            after=after._plausibility if after else None,
+        )
         self._serials = count(FIRST_SERIAL)
         self._slot = slot
         self._current: Contact = self._contact_of(slot)
@@ -175,7 +179,24 @@ class Decoder:
         self._packets.clear()
         self._touching = None
         self._select(self._slot)
-        return tuple([self._released(contact, time_s) for contact in fingers])
+        released = tuple([self._plausibility.released(contact, time_s) for contact in fingers])
+        self._plausibility.forget()
+        self.due_s = inf
+        return released
+
+    def overdue(self, time_s: float) -> tuple[TouchSample, ...]:
+        """Samples of fingers because there was no report by `due_s`; see `Plausibility.overdue`.
+
+        Parameters
+        ----------
+        time_s : float
+            Time of the samples.
+        """
+        samples = self._plausibility.overdue(self._slots.values(), time_s)
+        if samples and self._is_a and self._plausibility.due_s == inf:  # what is reported next begins anew
+            self._slots = {key: contact for key, contact in self._slots.items() if contact.finger is not None}
+        self.due_s = self._plausibility.due_s
+        return samples
 
     def fingers(self) -> list[tuple[int, float, float]]:
         """Fingers that are down, as (finger, x_m, y_m)."""
@@ -205,7 +226,7 @@ class Decoder:
         elif code == ABS_MT_DISTANCE:
             current.hovers = value > 0
         elif code == ABS_MT_TOOL_TYPE:
-            current.palm = value == MT_TOOL_PALM
+            current.tool_palm = value == MT_TOOL_PALM
 
     def _button(self, touching: bool) -> None:
         if self._is_single:
@@ -238,12 +259,13 @@ class Decoder:
         if contact.identity >= 0 and not contact.counted and self._down(contact):
             self.counts.contacts += 1  # began and ended within one report
         if contact.finger is not None:
-            self._replaced.append(
-                Contact(NO_CONTACT, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m)
-            )
+            gone = Contact(NO_CONTACT, finger=contact.finger, x_m=contact.x_m, y_m=contact.y_m, size_m=contact.size_m)
+            gone.held, gone.held_x_m = contact.held, contact.held_x_m
+            self._replaced.append(gone)
             contact.finger = None
+            contact.held = 0
         contact.identity = identity
-        contact.counted = contact.refused = False
+        contact.counted = contact.refused = contact.palm = contact.silent = False
 
     def _end_packet(self) -> None:
         """Protocol A: SYN_MT_REPORT ends one contact; an empty packet means that there is no contact."""
@@ -259,6 +281,9 @@ class Decoder:
         if self._dropping:  # all before is void; a live panel's driver gives its state as the next report
             self._dropping = False
             return self.release(time_s)
+        before: tuple[TouchSample, ...] = ()
+        if time_s > self.due_s:
+            before = self.overdue(time_s)
         if self._is_a:
             if self._current.x is not None:
                 self._end_packet()
@@ -270,75 +295,10 @@ class Decoder:
                 self._packets.clear()
             self._packet_seen = False
             self._current = Contact(NO_CONTACT)
-        return self._samples(time_s)
-
-    def _samples(self, time_s: float) -> tuple[TouchSample, ...]:
-        """Samples of a report: fingers released, moved and begun."""
-        samples = []
-        changed = []
-        if self._replaced:
-            for contact in self._replaced:
-                samples.append(self._released(contact, time_s))
-            self._replaced.clear()
-        hovering = self._touching is False
-        down = 0
-        for contact in self._slots.values():
-            identity = contact.identity
-            if (identity < 0 and identity != IMPLIED) or hovering or contact.hovers:
-                if contact.finger is not None:
-                    samples.append(self._released(contact, time_s))
-                contact.refused = False
-                continue
-            down += 1
-            if not contact.counted and identity >= 0:
-                contact.counted = True
-                self.counts.contacts += 1
-            if contact.palm:
-                if contact.finger is not None:
-                    samples.append(self._released(contact, time_s))
-                contact.refused = False
-            elif contact.moved or contact.finger is None:
-                changed.append(contact)
-        if down:
-            self.touched = True
-            counts = self.counts
-            counts.reports += 1
-            counts.max_fingers = max(counts.max_fingers, down)
-        for contact in changed:  # after all releases, which make room for new fingers
-            self._place(contact, time_s, samples)
-        return tuple(samples)
-
-    def _place(self, contact: Contact, time_s: float, samples: list[TouchSample]) -> None:
-        """Append the sample of a contact that has moved or begun, if it is played."""
-        x, y = contact.x, contact.y
-        if x is None or y is None or contact.refused:
-            return
-        finger = contact.finger
-        if finger is None:
-            if self._played == MAX_PLAYED:
-                self.warnings["more_than_played"] += 1
-                contact.refused = True
-                return
-            finger = contact.finger = self._next_finger
-            self._next_finger += 1
-            self._played += 1
-        x_low, x_high, y_low, y_high = self._limits
-        if not (x_low <= x <= x_high and y_low <= y <= y_high):
-            self.warnings["outside_axes"] += 1
-            x, y = self._axes.clamp(x, y)
-        x_m, y_m = self._axes.position_m(x, y)
-        contact.x_m = x_m
-        contact.y_m = y_m
-        contact.size_m = size_m = contact.size * self._size_m if contact.size > 0 else 0.0
-        contact.moved = False
-        samples.append(touch_sample((finger, x_m, y_m, time_s, True, size_m)))
+        samples = self._plausibility.report(self._slots.values(), self._replaced, time_s, hovering=self._touching is False)
+        self.touched = self._plausibility.touched
+        self.due_s = self._plausibility.due_s
+        return before + samples if before else samples
 
     def _down(self, contact: Contact) -> bool:
         return (contact.identity >= 0 or contact.identity == IMPLIED) and not contact.hovers and self._touching is not False
-
-    def _released(self, contact: Contact, time_s: float) -> TouchSample:
-        finger = contact.finger
-        assert finger is not None
-        contact.finger = None
-        self._played -= 1
-        return TouchSample(finger, contact.x_m, contact.y_m, time_s, False, contact.size_m)

@@ -8,17 +8,29 @@ from typing import Final
 
 EV_SYN: Final = 0x00
 EV_KEY: Final = 0x01
+EV_REL: Final = 0x02
 EV_ABS: Final = 0x03
+EV_MSC: Final = 0x04
 
 BUS_RS232, BUS_I2C = 0x13, 0x18
 
-INPUT_PROP_DIRECT: Final = 0x01
+INPUT_PROP_POINTER, INPUT_PROP_DIRECT = 0x00, 0x01
 
 SYN_REPORT: Final = 0
+SYN_CONFIG: Final = 1
 SYN_MT_REPORT: Final = 2
 SYN_DROPPED: Final = 3
 
+BUTTONS_OF_MICE: Final = range(0x110, 0x118)
+BUTTONS_OF_JOYSTICKS: Final = (
+    *range(0x120, 0x13F),
+    *range(0x220, 0x224),
+    *range(0x2C0, 0x2E8),
+)  # joysticks, gamepads, more of both
+BTN_TOOL_PEN: Final = 0x140
+BTN_TOOL_FINGER: Final = 0x145
 BTN_TOUCH: Final = 0x14A
+BTN_STYLUS: Final = 0x14B
 
 ABS_X: Final = 0x00
 ABS_Y: Final = 0x01

@@ -40,6 +40,8 @@ class DeviceDescription:
         Codes that it can send, by event type; under EV_SYN: the types.
     axes : mapping of int to AxisInfo
         By code of EV_ABS.
+    remark : str
+        What the device lacks and works without, found at this opening; empty: nothing.
     """
 
     name: str
@@ -50,6 +52,7 @@ class DeviceDescription:
     properties: tuple[int, ...] = ()
     codes: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
     axes: Mapping[int, AxisInfo] = field(default_factory=dict)
+    remark: str = field(default="", compare=False)
 
 
 class EventReader(Protocol):

@@ -18,7 +18,7 @@ from controller.board.touch_panels import Ft5x06Touch
 from controller.errors import TouchError
 from controller.touch.contact_events import MAX_CONTACTS, Contact, describe
 from controller.touch.event_reader import DeviceDescription
-from controller.touch.i2c_bus import I2cBus, Transfer
+from controller.touch.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer
 from controller.touch.i2c_reader import I2cReader
 from controller.touch.panel_lines import PanelLines
 
@@ -46,9 +46,10 @@ PUT_DOWN, LIFTED, RESERVED = 0, 1, 3  # event flag in bits 7:6 of a point; 2 con
 
 RESET_S: Final = 0.005
 BOOT_S: Final = 0.3  # T_rsi, from the end of the reset to the first report
+SCAN_S: Final = 0.01
 
 
-def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] | None:
+def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[Contact] | None:
     """Decode a report.
 
     Parameters
@@ -57,11 +58,13 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
         Registers from 0 on, as far as read.
     warnings : Counter of str
         Counts `ghost_points`.
+    in_part : bool
+        Decode what was read of a report with more contacts.
 
     Returns
     -------
     list of Contact, or None
-        None if the report has more contacts than were read.
+        None if the report has more contacts than were read, unless `in_part`.
 
     Raises
     ------
@@ -72,7 +75,9 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
     if count > MAX_CONTACTS:
         raise ValueError(f"{count} contacts")
     if len(report) < FIRST_POINT + count * POINT_BYTES:
-        return None
+        if not in_part:
+            return None
+        count = (len(report) - FIRST_POINT) // POINT_BYTES
     starts = range(FIRST_POINT, FIRST_POINT + count * POINT_BYTES, POINT_BYTES)
     return _contacts(report, starts, (LIFTED, RESERVED), warnings)
 
@@ -138,19 +143,22 @@ def edt_model(answer: bytes) -> tuple[str, bool]:
 class Ft5x06:
     """FT5x06 or FT6x36, or an EDT module; a `Chip`. Its firmware is identified at each start.
 
-    The first reports after a start may be from before it: reports are skipped until they change or are empty.
+    The first reports after a start may be from before it: reports are skipped until they change or are empty. A chip has to answer
+    the registers of its report; there are boards that imitate one and refuse all others.
 
     Parameters
     ----------
     settings : Ft5x06Touch
         Address and extents.
     warnings : Counter of str
-        Counts `ghost_points` and `stale_reports`.
+        Counts `ghost_points`, `stale_reports` and `points_refused`.
     """
 
     def __init__(self, settings: Ft5x06Touch, warnings: Counter[str]) -> None:
         self.name = "FT5x06 touch panel"
         self.edge = Edge.FALLING
+        self.scan_s = SCAN_S
+        self.marks_reports = False
         self._settings = settings
         self._warnings = warnings
         self._use(m06=False)
@@ -169,15 +177,21 @@ class Ft5x06:
             yield RESET_S
             lines.drive_reset(high=True)
             yield BOOT_S
-        model, m06 = edt_model(bus.read(address, EDT_NAME, EDT_NAME_BYTES))
+        model, m06 = edt_model(bus.ask(address, EDT_NAME, EDT_NAME_BYTES) or b"")
         self._use(m06=m06)
-        chip = firmware = 0
+        bus.fetch(self._short)  # refused by no chip that works
+        name, firmware, remark = f"EDT {model}", 0, ""
         if not m06:
-            chip, firmware = self._identity(bus)
-            bus.write(address, DEVICE_MODE + b"\x00")
-            bus.write(address, bytes((INTERRUPT_MODE, 1)))
-        name = f"EDT {model}" if model else f"FT5x06 chip {chip:02x}"
-        self._description = describe(name, firmware, self._settings.width, self._settings.height, sized=False)
+            identity, firmware, refused = self._identity(bus)
+            name = name if model else f"FT5x06 chip {identity}"
+            if not bus.offer(address, DEVICE_MODE + b"\x00"):
+                refused.append(DEVICE_MODE[0])
+            if not bus.offer(address, bytes((INTERRUPT_MODE, 1))):
+                refused.append(INTERRUPT_MODE)
+            if refused:
+                registers = ", ".join(f"0x{register:02X}" for register in refused)
+                remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
+        self._description = describe(name, firmware, self._settings.width, self._settings.height, sized=False, remark=remark)
         bus.fetch(self._short)
         self._stale = bytes(self._short.data) if self._holds_contacts() else None
 
@@ -190,32 +204,50 @@ class Ft5x06:
                 return None
             self._stale = None
         contacts = self._contacts_of(self._short.data, self._warnings)
-        if contacts is None:
-            bus.fetch(self._long)
-            contacts = self._contacts_of(self._long.data, self._warnings)
-        return contacts
+        return self._rest(bus) if contacts is None else contacts
+
+    def _rest(self, bus: I2cBus) -> list[Contact] | None:
+        """All contacts of a report with more than `SHORT_POINTS`; those read already, if the chip refuses the others."""
+        longer = self._longer[(self._short.data[STATUS] & 0x0F) - SHORT_POINTS - 1]
+        try:
+            bus.fetch(longer)
+        except OSError as error:
+            if error.errno not in REFUSED_ERRNOS:
+                raise
+            self._warnings["points_refused"] += 1
+            return contacts_of(self._short.data, self._warnings, in_part=True)
+        return contacts_of(longer.data, self._warnings, in_part=True)  # in part: a contact may have come in between
 
     def _use(self, *, m06: bool) -> None:
         """Choose the transfers and the report format of the firmware."""
         address = self._settings.address
         self._contacts_of: Callable[[Sequence[int], Counter[str]], list[Contact] | None]
         if m06:
-            self._short = self._long = Transfer(address, M06_REPORT, M06_BYTES)
+            self._short = Transfer(address, M06_REPORT, M06_BYTES)
             self._contacts_of = contacts_of_m06
         else:
-            self._short = Transfer(address, DEVICE_MODE, FIRST_POINT + SHORT_POINTS * POINT_BYTES)
-            self._long = Transfer(address, DEVICE_MODE, FIRST_POINT + MAX_CONTACTS * POINT_BYTES)
+            counts = range(SHORT_POINTS, MAX_CONTACTS + 1)
+            self._short, *self._longer = [Transfer(address, DEVICE_MODE, FIRST_POINT + count * POINT_BYTES) for count in counts]
             self._contacts_of = contacts_of
 
-    def _identity(self, bus: I2cBus) -> tuple[int, int]:
-        """Number of the chip and of its firmware; refuses a stuck bus, a chip without firmware and a device without registers."""
-        chip, firmware, vendor = (bus.read(self._settings.address, register, 1)[0] for register in (CHIP_ID, FIRMWARE, VENDOR))
-        if chip == firmware == vendor:
+    def _identity(self, bus: I2cBus) -> tuple[str, int, list[int]]:
+        """Number of the chip and of its firmware, and the registers of both that it refuses.
+
+        Refuses a stuck bus, a chip without firmware and a device without registers; each of them answers any register.
+        """
+        asked = {register[0]: bus.ask(self._settings.address, register, 1) for register in (CHIP_ID, FIRMWARE, VENDOR)}
+        refused = [register for register, answer in asked.items() if answer is None]
+        answers = [answer[0] for answer in asked.values() if answer is not None]
+        device = f"the device at 0x{self._settings.address:02X} on {self._settings.bus} is no FocalTech chip with firmware"
+        if not refused and len(set(answers)) == 1:
             raise TouchError(
-                f"the device at 0x{self._settings.address:02X} on {self._settings.bus} is no FocalTech chip with "
-                f"firmware: chip, firmware and vendor are all 0x{chip:02X}; is it powered, is the bus free, is the address right?"
+                f"{device}: chip, firmware and vendor are all 0x{answers[0]:02X}; "
+                "is it powered, is the bus free, is the address right?"
             )
-        return chip, firmware
+        if refused and self._short.data[STATUS] & 0x0F > MAX_CONTACTS:
+            raise TouchError(f"{device}: it reports {self._short.data[STATUS] & 0x0F} contacts; is the address another chip's?")
+        chip, firmware = asked[CHIP_ID[0]], asked[FIRMWARE[0]]
+        return f"{chip[0]:02x}" if chip else "unknown", firmware[0] if firmware else 0, refused
 
     def _holds_contacts(self) -> bool:
         try:

@@ -16,13 +16,14 @@ from controller.board.touch_panels import Gt911Touch
 from controller.errors import TouchError
 from controller.touch.contact_events import MAX_CONTACTS, Contact, describe
 from controller.touch.event_reader import DeviceDescription
-from controller.touch.i2c_bus import I2cBus, Transfer
+from controller.touch.i2c_bus import REFUSED_ERRNOS, I2cBus, Transfer
 from controller.touch.i2c_reader import I2cReader
 from controller.touch.panel_lines import PanelLines
 
 # Registers have 16-bit addresses, high byte first; values low byte first.
-CONFIG: Final = b"\x80\x47"  # version, largest x, largest y (2 bytes each), contacts, module switch 1
-CONFIG_BYTES: Final = 7
+CONFIG: Final = b"\x80\x47"  # version, largest x, largest y (2 bytes each), contacts, module switch 1; refresh rate last
+CONFIG_BYTES: Final = 16
+SHORTEST_SCAN_MS: Final = 5  # to which bits 3:0 of the refresh rate are added
 PRODUCT_ID: Final = b"\x81\x40"  # 4 ASCII characters, zeros behind them; then the firmware's version, 2 bytes
 PRODUCT_BYTES: Final = 6
 PRODUCTS: Final = ("911", "9110", "9111", "912", "9147", "927", "9271", "928", "967")
@@ -41,7 +42,7 @@ SYNC_S: Final = 0.05  # T5: the interrupt line held low
 BOOT_S: Final = 0.05
 
 
-def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] | None:
+def contacts_of(report: Sequence[int], warnings: Counter[str], *, in_part: bool = False) -> list[Contact] | None:
     """Decode a report.
 
     Parameters
@@ -50,11 +51,13 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
         Registers from `STATUS` on, as far as read.
     warnings : Counter of str
         Counts `ghost_points`.
+    in_part : bool
+        Decode what was read of a report with more contacts.
 
     Returns
     -------
     list of Contact, or None
-        None if the report has more contacts than were read.
+        None if the report has more contacts than were read, unless `in_part`.
 
     Raises
     ------
@@ -65,7 +68,9 @@ def contacts_of(report: Sequence[int], warnings: Counter[str]) -> list[Contact] 
     if count > MAX_CONTACTS:
         raise ValueError(f"{count} contacts")
     if len(report) < 1 + count * POINT_BYTES:
-        return None
+        if not in_part:
+            return None
+        count = (len(report) - 1) // POINT_BYTES
     contacts = []
     for start in range(1, 1 + count * POINT_BYTES, POINT_BYTES):
         number = report[start] & 0x0F
@@ -113,16 +118,21 @@ def product_of(identity: bytes, bus: str) -> str:
 class Gt911:
     """GT911 or compatible; a `Chip`.
 
+    It has to answer the registers of its report; the others are used where it has them.
+
     Parameters
     ----------
     settings : Gt911Touch
         Address, and extents if they overrule the chip's.
     warnings : Counter of str
-        Counts `ghost_points`.
+        Counts `ghost_points` and `points_refused`.
     """
 
     def __init__(self, settings: Gt911Touch, warnings: Counter[str]) -> None:
         self.name = "Goodix touch panel"
+        self.edge = Edge.FALLING
+        self.scan_s = SHORTEST_SCAN_MS * 1e-3
+        self.marks_reports = True
         self._settings = settings
         self._warnings = warnings
         self._use(settings.address)
@@ -135,25 +145,19 @@ class Gt911:
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
         """Reset the chip to its address if `lines` has a reset line, identify it on `bus`; see `Chip.start`."""
         if lines.has_reset:
-            self._use(self._settings.address)
-            lines.drive_reset(high=False)
-            lines.drive_interrupt(high=False)
-            yield RESET_S
-            lines.drive_interrupt(high=self._address == HIGH_ADDRESS)
-            yield ADDRESS_S
-            lines.drive_reset(high=True)
-            yield SELECTED_S
-            lines.drive_interrupt(high=False)
-            yield SYNC_S
-            lines.release_interrupt()
-            yield BOOT_S
-            product = bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
-        else:
-            product = self._find(bus)
-        name = f"GT{product_of(product, self._settings.bus)}"
-        config = bus.read(self._address, CONFIG, CONFIG_BYTES)
-        self._description = self._described(name, config, int.from_bytes(product[4:6], "little"))
-        self.edge = Edge.RISING if config[6] & 0x03 in RISING_INTERRUPT else Edge.FALLING
+            yield from self._reset(lines)
+        product = self._find(bus, (self._address,) if lines.has_reset and lines.has_interrupt else (self._address, self._other))
+        config = bus.ask(self._address, CONFIG, CONFIG_BYTES)
+        refused = [register.hex().upper() for register, answer in ((PRODUCT_ID, product), (CONFIG, config)) if answer is None]
+        remark = ""
+        if refused:
+            registers = ", ".join(f"0x{register}" for register in refused)
+            remark = f"the touch panel on {self._settings.bus} refuses registers {registers}: it is used without them"
+        name = f"GT{product_of(product, self._settings.bus)}" if product else "Goodix of unknown product"
+        self._description = self._described(name, config, int.from_bytes(product[4:6], "little") if product else 0, remark)
+        if config:
+            self.edge = Edge.RISING if config[6] & 0x03 in RISING_INTERRUPT else Edge.FALLING
+            self.scan_s = (SHORTEST_SCAN_MS + (config[15] & 0x0F)) * 1e-3
         bus.send(self._clear)
 
     def fetch(self, bus: I2cBus) -> Sequence[Contact] | None:
@@ -164,34 +168,94 @@ class Gt911:
         try:
             contacts = contacts_of(self._short.data, self._warnings)
             if contacts is None:
-                bus.fetch(self._long)
-                contacts = contacts_of(self._long.data, self._warnings)
+                contacts = self._rest(bus)
         finally:
             bus.send(self._clear)
         return contacts
 
+    def _rest(self, bus: I2cBus) -> list[Contact] | None:
+        """All contacts of a report with more than `SHORT_POINTS`; those read already, if the chip refuses the others."""
+        longer = self._longer[(self._short.data[0] & 0x0F) - SHORT_POINTS - 1]
+        try:
+            bus.fetch(longer)
+        except OSError as error:
+            if error.errno not in REFUSED_ERRNOS:
+                raise
+            self._warnings["points_refused"] += 1
+            return contacts_of(self._short.data, self._warnings, in_part=True)
+        return contacts_of(longer.data, self._warnings, in_part=True)
+
+    @property
+    def _other(self) -> int:
+        return LOW_ADDRESS if self._address == HIGH_ADDRESS else HIGH_ADDRESS
+
+    def _reset(self, lines: PanelLines) -> Iterator[float]:
+        """Reset the chip; the level of its interrupt line, if there is one, selects its address."""
+        self._use(self._settings.address)
+        lines.drive_reset(high=False)
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=False)
+        yield RESET_S
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=self._address == HIGH_ADDRESS)
+        yield ADDRESS_S
+        lines.drive_reset(high=True)
+        yield SELECTED_S
+        if lines.has_interrupt:
+            lines.drive_interrupt(high=False)
+        yield SYNC_S
+        lines.release_interrupt()
+        yield BOOT_S
+
     def _use(self, address: int) -> None:
         self._address = address
-        self._short = Transfer(address, STATUS, 1 + SHORT_POINTS * POINT_BYTES)
-        self._long = Transfer(address, STATUS, 1 + MAX_CONTACTS * POINT_BYTES)
+        counts = range(SHORT_POINTS, MAX_CONTACTS + 1)
+        self._short, *self._longer = [Transfer(address, STATUS, 1 + count * POINT_BYTES) for count in counts]
         self._clear = smbus2.i2c_msg.write(address, STATUS + b"\x00")
 
-    def _find(self, bus: I2cBus) -> bytes:
-        """Identify the chip at either address: without a reset line the level at power-up has selected it."""
-        try:
-            return bus.read(self._address, PRODUCT_ID, PRODUCT_BYTES)
-        except OSError:
-            other = LOW_ADDRESS if self._address == HIGH_ADDRESS else HIGH_ADDRESS
-            product = bus.read(other, PRODUCT_ID, PRODUCT_BYTES)
-            self._use(other)
-            return product
+    def _find(self, bus: I2cBus, addresses: Sequence[int]) -> bytes | None:
+        """Product of the chip, at the first of `addresses` that has one; None if there is a chip that refuses to tell it.
 
-    def _described(self, name: str, config: bytes, firmware: int) -> DeviceDescription:
-        width = self._settings.width or int.from_bytes(config[1:3], "little")
-        height = self._settings.height or int.from_bytes(config[3:5], "little")
+        Without an interrupt line to select it, the address is the one of the level at power-up.
+
+        Raises
+        ------
+        OSError
+            If no chip answers.
+        TouchError
+            If what answers is no report.
+        """
+        for address in addresses:
+            product = bus.ask(address, PRODUCT_ID, PRODUCT_BYTES)
+            if product is not None:
+                self._use(address)
+                return product
+        silent: OSError | None = None
+        for address in addresses:
+            try:
+                contacts = bus.read(address, STATUS, 1)[0] & 0x0F
+            except OSError as error:
+                if error.errno not in REFUSED_ERRNOS:
+                    raise
+                silent = error
+                continue
+            if contacts > MAX_CONTACTS:
+                raise TouchError(
+                    f"the device that answers as touch panel on {self._settings.bus} is no Goodix chip: it reports "
+                    f"{contacts} contacts; is the address another chip's?"
+                )
+            self._use(address)
+            return None
+        assert silent is not None
+        raise silent
+
+    def _described(self, name: str, config: bytes | None, firmware: int, remark: str) -> DeviceDescription:
+        width = self._settings.width or (int.from_bytes(config[1:3], "little") if config else 0)
+        height = self._settings.height or (int.from_bytes(config[3:5], "little") if config else 0)
         if not width or not height:
-            raise TouchError(f"the {name} on {self._settings.bus} has no configuration: give width and height in board.toml")
-        return describe(name, firmware, width, height, sized=True)
+            lack = "has no configuration" if config else f"refuses the registers of its configuration, from 0x{CONFIG.hex()} on"
+            raise TouchError(f"the {name} on {self._settings.bus} {lack}: give width and height in board.toml")
+        return describe(name, firmware, width, height, sized=True, remark=remark)
 
 
 def open_panel(settings: Gt911Touch) -> I2cReader:

@@ -17,6 +17,8 @@ MAX_ATTEMPTS: Final = 3
 # Errors of adapters without an acknowledge: ENXIO, EREMOTEIO (Pi), ENODEV; of a disturbed transfer: EIO, EAGAIN.
 # ETIMEDOUT, a bus that hangs, is not retried: each attempt would delay touches once more.
 RETRIED_ERRNOS: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO, errno.EAGAIN)
+# What adapters answer where a device does not acknowledge: a register that it refuses, or no device at all
+REFUSED_ERRNOS: Final = (errno.ENXIO, errno.EREMOTEIO, errno.ENODEV, errno.EIO)
 I2C_TIMEOUT: Final = 0x0702  # linux/i2c-dev.h, in units of 10 ms
 TIMEOUT_10MS: Final = 3  # of the adapter, instead of a second; not every adapter keeps to it
 
@@ -100,6 +102,47 @@ class I2cBus:
         transfer = Transfer(address, register, size_bytes)
         self.fetch(transfer)
         return bytes(transfer.data)
+
+    def ask(self, address: int, register: bytes, size_bytes: int) -> bytes | None:
+        """Read registers that the device may lack; None if it does not acknowledge them.
+
+        Parameters
+        ----------
+        address, register, size_bytes
+            As of `Transfer`.
+
+        Raises
+        ------
+        OSError
+            If the bus fails in another way.
+        """
+        try:
+            return self.read(address, register, size_bytes)
+        except OSError as error:
+            if error.errno not in REFUSED_ERRNOS:
+                raise
+            return None
+
+    def offer(self, address: int, data: bytes) -> bool:
+        """Write registers that the device may lack; False if it does not acknowledge them.
+
+        Parameters
+        ----------
+        address, data
+            As of `write`.
+
+        Raises
+        ------
+        OSError
+            If the bus fails in another way.
+        """
+        try:
+            self.write(address, data)
+        except OSError as error:
+            if error.errno not in REFUSED_ERRNOS:
+                raise
+            return False
+        return True
 
     def send(self, message: Any) -> None:
         """Send a `message` made with `smbus2.i2c_msg.write`.

@@ -1,7 +1,8 @@
 """Driver of touch controllers on an I2C bus: when to read them, and how to recover when they do not answer.
 
 The chip signals a report by an edge of its interrupt line. An edge may be missed, so a panel that is touched is also polled
-every `TOUCHED_POLL_S`, and an idle one every `IDLE_POLL_S`, which detects that it is lost.
+every `TOUCHED_POLL_S`, and an idle one every `IDLE_POLL_S`, which detects that it is lost. Until the line has proved that it
+announces reports, and where it does not or is not there, the chip is polled at the rate of its scans (`interrupt_watch.py`).
 """
 
 from __future__ import annotations
@@ -19,10 +20,11 @@ from controller.touch import event_codes as ev
 from controller.touch.contact_events import Contact, ContactEvents
 from controller.touch.event_reader import DeviceDescription, Event
 from controller.touch.i2c_bus import I2cBus
+from controller.touch.interrupt_watch import InterruptWatch
 from controller.touch.panel_lines import PanelLines
 
 TOUCHED_POLL_S: Final = 0.03
-IDLE_POLL_S: Final = 1.0
+IDLE_POLL_S: Final = 0.1  # no longer than most taps: a line that breaks is noticed by the next one or two
 NOT_READY_DELAYS_S: Final = (0.002, 0.004, 0.008, 0.01)  # before reading again after an edge without a report
 STUCK_TIMEOUT_S: Final = 0.5  # without a report of a touched chip: then it is started again
 RETRY_S: Final = 0.5  # between attempts to start a lost chip
@@ -35,9 +37,15 @@ class Chip(Protocol):
     ----------
     name : str
         In messages.
+    scan_s : float
+        Time between its scans for contacts, as far as known; another one perhaps after each start.
+    marks_reports : bool
+        `fetch` gives a report once, and None as long as there is no other; else it gives the state, again and again.
     """
 
     name: str
+    scan_s: float
+    marks_reports: bool
 
     def start(self, bus: I2cBus, lines: PanelLines) -> Iterator[float]:
         """Reset and identify the chip.
@@ -81,7 +89,7 @@ class Chip(Protocol):
         Returns
         -------
         sequence of Contact, or None
-            All contacts that are down; None if there is no new report.
+            All contacts that are down; None if there is no new report, or none that can be believed.
 
         Raises
         ------
@@ -122,6 +130,8 @@ class I2cReader:
         self._edge_s: float | None = None  # of an edge without a report so far
         self._not_ready = 0
         self._report_s = 0.0
+        self._watch = InterruptWatch(warnings, wired=self._lines.has_interrupt)
+        self._rest_seen = False
         try:
             for wait_s in self._start():
                 time.sleep(wait_s)  # in the panel's own process
@@ -158,13 +168,17 @@ class I2cReader:
             if now_s >= self._next_s:
                 self._continue_start(now_s)
             return ()
+        meanwhile_s = None
         try:
-            edge_s = self._lines.read_edges()
+            edge_s = self._edge(now_s)
             if edge_s is not None:
                 self._edge_s, self._not_ready = edge_s, 0
             elif now_s < self._next_s:
                 return ()
             contacts = self._chip.fetch(self._bus)
+            meanwhile_s = self._edge(now_s) if self._edge_s is None and (contacts or self._contacts.down) else None
+            if not (self._rest_seen or contacts or self._contacts.down) and (contacts is not None or self._chip.marks_reports):
+                self._look_at_rest()
         except OSError:
             return self._lost(now_s, "panel_lost")
         except ValueError:
@@ -172,11 +186,13 @@ class I2cReader:
             contacts = None
         if contacts is None:
             return self._no_report(now_s)
-        time_s = now_s if self._edge_s is None else self._edge_s
+        announced_s, self._edge_s = self._edge_s, None
+        time_s = next((edge_s for edge_s in (announced_s, meanwhile_s) if edge_s is not None), now_s)
         events = self._contacts.report(contacts, time_s)
-        self._edge_s = None
+        if events or self._chip.marks_reports:
+            self._watch.report(announced=announced_s is not None, edge_meanwhile=meanwhile_s is not None)
         self._report_s = now_s
-        self._next_s = now_s + (TOUCHED_POLL_S if self._contacts.down else IDLE_POLL_S)
+        self._next_s = now_s + self._poll_s()
         return events
 
     def close(self) -> None:
@@ -193,8 +209,31 @@ class I2cReader:
             self._not_ready += 1
         else:
             self._edge_s = None
-            self._next_s = now_s + (TOUCHED_POLL_S if self._contacts.down else IDLE_POLL_S)
+            self._next_s = now_s + self._poll_s()
         return ()
+
+    def _poll_s(self) -> float:
+        """Time until the chip is read without an edge."""
+        if self._watch.polled:
+            return self._chip.scan_s
+        return TOUCHED_POLL_S if self._contacts.down else IDLE_POLL_S
+
+    def _edge(self, now_s: float) -> float | None:
+        """Time of the last edge since it was asked for, None if there was none; a line with edges without end is let go."""
+        before = self._lines.edges
+        edge_s = self._lines.read_edges()
+        if edge_s is not None:
+            self._watch.edges(self._lines.edges - before, now_s)
+            if self._watch.ignored:
+                self._lines.release_interrupt()
+        return edge_s
+
+    def _look_at_rest(self) -> None:
+        """Compare the interrupt line with the level that it rests at, once after each start, when nothing is touched."""
+        self._rest_seen = True
+        high = self._lines.interrupt_high()
+        if high is not None and high is (self._chip.edge is Edge.RISING):
+            self.warnings["interrupt_active"] += 1
 
     def _lost(self, now_s: float, kind: str) -> Sequence[Event]:
         """Lift every contact of a lost chip, which is started again after `RETRY_S`."""
@@ -209,6 +248,8 @@ class I2cReader:
         yield from self._chip.start(self._bus, self._lines)
         self._lines.listen(self._chip.edge)
         self._contacts = ContactEvents(sized=ev.ABS_MT_TOUCH_MAJOR in self._chip.description.axes)
+        self._watch.started()
+        self._rest_seen = False
         self._present = True
 
     def _continue_start(self, now_s: float) -> None:

@@ -13,6 +13,7 @@ from controller.touch import event_codes as ev
 from controller.touch.evdev_library import evdev
 from controller.touch.event_codes import Protocol, protocol_of_device
 from controller.touch.event_reader import AxisInfo, DeviceDescription
+from controller.touch.touch_nodes import what_is_lacking
 
 CLOCK_MONOTONIC: Final = 1
 EVIOCSCLOCKID: Final = 0x400445A0  # _IOW('E', 0xa0, int)
@@ -45,7 +46,7 @@ def open_touch_device(device: str, *, grab: bool) -> tuple[evdev.InputDevice[str
         use_monotonic_clock(opened.fd)
     except ValueError as error:
         opened.close()
-        raise TouchError(f"{path} ({opened.name}): {error}; choose a touch panel") from error
+        raise TouchError(f"{path} ({opened.name}): {error}; choose another device") from error
     except OSError as error:
         opened.close()
         raise TouchError(_open_error(path, error)) from error
@@ -66,16 +67,21 @@ def use_monotonic_clock(fd: int) -> None:
 def _path_of(name: str) -> str:
     """Event device of the panel with a name; other nodes of the panel (buttons, pen) may have the same name."""
     found = []
+    refused = []
     present = []
     for path in evdev.list_devices():
         with contextlib.suppress(OSError):
             device = evdev.InputDevice(path)
             present.append(device.name)
             if device.name == name:
-                axes = _axes(device)
-                if axes.keys() >= set(ev.POSITIONS) or axes.keys() >= set(ev.POSITIONS_SINGLE):
+                lacking = what_is_lacking(_described(device))
+                if lacking:
+                    refused.append(f"{path}: {lacking}")
+                else:
                     found.append(path)
             device.close()
+    if refused and not found:
+        raise TouchError(f"{name!r} is no touch panel: {'; '.join(sorted(refused))}; choose another device")
     if not found:
         listed = ", ".join(repr(other) for other in present) or "none that may be opened"
         raise TouchError(f"there is no touch panel named {name!r}: is it plugged in? Input devices: {listed}")
@@ -92,25 +98,30 @@ def _axes(device: evdev.InputDevice[str]) -> dict[int, AxisInfo]:
 
 
 def _describe(device: evdev.InputDevice[str]) -> DeviceDescription:
-    """Description that the device reports.
+    """Description that the device of a touch panel reports.
 
     Raises
     ------
     ValueError
-        If it has no position axes, or one without a range.
+        If it is no touch panel, or has an axis without a range.
     """
-    axes = _axes(device)
-    positions = ev.POSITIONS_SINGLE if protocol_of_device(axes) is Protocol.SINGLE else ev.POSITIONS
-    for code in positions:
-        if code not in axes:
-            raise ValueError("it has no position axes")
+    description = _described(device)
+    if lacking := what_is_lacking(description):
+        raise ValueError(f"it is no touch panel: {lacking}")
+    axes = description.axes
+    for code in ev.POSITIONS_SINGLE if protocol_of_device(axes) is Protocol.SINGLE else ev.POSITIONS:
         if axes[code].minimum >= axes[code].maximum:
             raise ValueError(f"its axis {code:#04x} reports a range from {axes[code].minimum} to {axes[code].maximum}")
+    return description
+
+
+def _described(device: evdev.InputDevice[str]) -> DeviceDescription:
+    """Description that a device of any kind reports."""
     listed: dict[int, list[int]] = device.capabilities(absinfo=False)
     codes = {int(kind): tuple(map(int, found)) for kind, found in listed.items()}
     info = device.info
     properties = tuple(int(number) for number in device.input_props())
-    return DeviceDescription(device.name, info.bustype, info.vendor, info.product, info.version, properties, codes, axes)
+    return DeviceDescription(device.name, info.bustype, info.vendor, info.product, info.version, properties, codes, _axes(device))
 
 
 def _open_error(path: str, error: Exception) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from math import inf
 
 from controller.board.board import Board
 from controller.touch import event_codes as ev
@@ -66,19 +67,22 @@ class LiveSource:
         return self._reader.fileno()
 
     def next_time_s(self) -> float | None:
-        """When the driver wants to be read; see `EventReader.next_time_s`."""
-        return self._reader.next_time_s()
+        """When the driver wants to be read (`EventReader.next_time_s`), or a decision is due without a report."""
+        due_s, decision_s = self._reader.next_time_s(), self._decoder.due_s
+        if decision_s == inf or (due_s is not None and due_s <= decision_s):
+            return due_s
+        return decision_s
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of at most one report by `now_s`; see `TouchSource.read`."""
         self.touched = False
         if self.silence.known:
             due_s = self._reader.next_time_s()
-            if due_s is None or due_s > now_s:
-                return ()  # without a system call
+            if due_s is None or due_s > now_s:  # without a system call
+                return self._decoder.overdue(now_s) if self._decoder.due_s <= now_s else ()
         events = self._reader.read(now_s)
         if not events:
-            return ()
+            return self._decoder.overdue(now_s) if self._decoder.due_s <= now_s else ()
         if self._reader.description is not self._description:
             self._decoder = self._renewed(self._decoder)
         time_s = self._clock.corrected_s(events[-1][3], now_s)

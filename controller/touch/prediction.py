@@ -16,7 +16,7 @@ REST_RADIUS_M: Final = 0.35e-3  # dead band: above the noise of the panels recor
 REST_REPORTS: Final = 8  # consecutive reports within the dead band of a finger at rest
 MOVING_PERIODS: Final = 1.5  # since the last report; many panels do not report a finger at rest
 SILENT_PERIODS: Final = 2.5
-MAX_INTERVAL_S: Final = 50e-3  # since the last report: then the velocity is unknown
+MAX_INTERVAL_S: Final = 50e-3  # since the last report, or `SILENT_PERIODS` of a slow panel: then the velocity is unknown
 MAX_HORIZON_S: Final = 40e-3  # beyond it the measured errors outweigh the benefit
 MAX_EXTRAPOLATION_M: Final = 20e-3
 MIN_INTERVAL_S: Final = 2e-3  # no panel reports faster; reports read late may appear to
@@ -38,6 +38,8 @@ class Motion:
         Velocity used for the prediction, in m/s.
     missed_m : float
         Distance of the last report from where it was predicted.
+    pause_s : float
+        After so long without a report the velocity is unknown.
     """
 
     __slots__ = (
@@ -49,6 +51,7 @@ class Motion:
         "_x_m",
         "_y_m",
         "missed_m",
+        "pause_s",
         "time_s",
         "vx",
         "vy",
@@ -63,12 +66,13 @@ class Motion:
         self.vx = self.vy = self.missed_m = 0.0
         self._vx = self._vy = 0.0  # m/s, of the filter
         self._rested = 0
+        self.pause_s = MAX_INTERVAL_S
 
     def report(self, x_m: float, y_m: float, time_s: float) -> None:
         """Update with a report of position (`x_m`, `y_m`) at `time_s`."""
         step_s = time_s - self.time_s
-        if step_s > MAX_INTERVAL_S:  # at rest, or reports were lost: when it moved is unknown
-            step_s = MAX_INTERVAL_S
+        if step_s > self.pause_s:  # at rest, or reports were lost: when it moved is unknown
+            step_s = self.pause_s
             self._vx = self._vy = 0.0
             self._x_m, self._y_m = self.x_m, self.y_m
         elif step_s < MIN_INTERVAL_S:

@@ -1,15 +1,13 @@
-"""Touch recordings in evemu's text format, versions 1.0 to 1.3, and the tracks of their fingers.
+"""Touch recordings, of evemu, libinput record, evtest or getevent (`recording_format.py`), and the tracks of their fingers.
 
 Recordings come from other people and tools: lines and values that are not valid are skipped or clamped, counted by kind
-(`reports.WARNINGS`) and never fatal. Only a file that cannot be opened, or without a single valid line, is an error.
+(`reports.WARNINGS`) and never fatal. A file that cannot be opened, one without a single event, and one of which it cannot be said
+where fingers are, is an error.
 """
 
 from __future__ import annotations
 
 import math
-import os
-import re
-import stat
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -20,27 +18,19 @@ from numpy.typing import NDArray
 
 from controller.board.board import Board
 from controller.errors import ConfigError, TouchError
+from controller.regular_file import read_regular
 from controller.touch import event_codes as ev
 from controller.touch.axes import Axes, AxisRange
 from controller.touch.decoder import Decoder
 from controller.touch.event_codes import Protocol, protocol_of
+from controller.touch.recorded_device import INT32_MAX, INT32_MIN, RecordedDevice
+from controller.touch.recording_format import WAY_ON, decoded, read_recording
 
 Event = tuple[int, int, int, float]  # type, code, value, time in s from the first event
 
-INT32_MIN, INT32_MAX = -(1 << 31), (1 << 31) - 1
-NEWEST_VERSION = (1, 3)
 MAX_BYTES = 256 << 20
-MAX_DIGITS = 20  # Python refuses to parse numbers of thousands of digits
 MAX_GAP_S = 60.0
 CLOCK_SET_EVENTS = 50  # if so many events later the times are still off, the clock was set while recording
-
-VERSION = re.compile(r"#\s*EVEMU\s+(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
-EVENT = re.compile(r"E:\s*(\S+)\s+(?:0x)?([0-9a-f]{1,4})\s+(?:0x)?([0-9a-f]{1,4})\s+([-+]?\d+)\s*(?:#.*)?", re.ASCII | re.I)
-AXIS = re.compile(r"A:\s*(?:0x)?([0-9a-f]{1,2})\s+([-+]?\d+)\s+([-+]?\d+)(?:\s+[-+]?\d+){0,4}\s*(?:#.*)?", re.ASCII | re.I)
-OTHER = re.compile(r"N:.*|[IPBLS]:[\s0-9a-f]*(?:#.*)?", re.ASCII | re.I)
-TIME = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?|nan|[-+]?inf", re.ASCII | re.I)
-# Version 1.3 gives the state at the start in comments; the current slot stands nowhere else.
-FIRST_SLOT = re.compile(r"^#\s+Event code 47 [^\n]*\n#\s+Value\s+(\d{1,3})\s*$", re.ASCII | re.M)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +81,8 @@ class Recording:
         Content of the file.
     name : str
         Name in messages.
+    path : str
+        Of the file, in errors; left out: the name.
 
     Attributes
     ----------
@@ -103,20 +95,29 @@ class Recording:
     warnings : Counter of str
         Anomalies in the text, by kind.
     valid : bool
-        Whether at least one line is evemu text.
+        Whether at least one line is of a recording.
+
+    Raises
+    ------
+    ConfigError
+        See `read_recording`.
     """
 
-    def __init__(self, text: str, name: str = "recording") -> None:
+    def __init__(self, text: str, name: str = "recording", path: str = "") -> None:
         self.name = name
         self.warnings: Counter[str] = Counter()
-        self.valid = False
-        self._declared: dict[int, AxisRange] = {}
-        self.events = self._parse(text)
+        device = read_recording(text, self.warnings, path or name)
+        self.valid = device is not None
+        device = device or RecordedDevice()
+        self._declared = device.axes
+        self._first_slot = device.slot
+        times = rebased([event[3] for event in device.events], self.warnings)
+        self.events: tuple[Event, ...] = tuple(
+            [(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(device.events, times, strict=True)]
+        )
         self.protocol = protocol_of(self._declared, {(kind, code) for kind, code, _, _ in self.events})
         codes = ev.POSITIONS_SINGLE if self.protocol is Protocol.SINGLE else ev.POSITIONS
         self.x, self.y = (self._range(code, single) for code, single in zip(codes, ev.POSITIONS_SINGLE, strict=True))
-        first_slot = FIRST_SLOT.search(text)
-        self._first_slot = int(first_slot[1]) if first_slot else 0
 
     @classmethod
     def open(cls, path: Path) -> Recording:
@@ -127,29 +128,24 @@ class Recording:
         TouchError
             If the file cannot be read.
         ConfigError
-            If no line of it is evemu text.
+            If it is no recording, holds no event, or see `read_recording`.
         """
         try:
-            fd = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # do not block on a pipe without a writer
-            with os.fdopen(fd, "rb") as file:
-                if not stat.S_ISREG(os.fstat(fd).st_mode):
-                    raise TouchError(f"{path}: the recording cannot be read (not a regular file)")
-                data = file.read(MAX_BYTES + 1)
-            if len(data) > MAX_BYTES:
-                raise TouchError(f"{path}: the recording cannot be read (more than {MAX_BYTES >> 20} MiB)")
+            data = read_regular(path, MAX_BYTES, links=True)
         except OSError as error:
             raise TouchError(f"{path}: the recording cannot be read ({error.strerror})") from error
         except ValueError as error:  # a NUL in the name
             raise TouchError(f"{str(path)!r}: the recording cannot be read ({error})") from error
-        damaged = 0
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("utf-8", errors="replace")
-            damaged = sum("\ufffd" in line for line in text.split("\n"))
-        recording = cls(text, path.name)
+        text, damaged = decoded(data, str(path))
+        recording = cls(text, path.name, str(path))
         if not recording.valid:
-            raise ConfigError(f"{path}: is no touch recording: no line of it is evemu text (haptic-panel record makes recordings)")
+            raise ConfigError(
+                f"{path}: is no touch recording: no line of it is of evemu, libinput record, evtest or getevent; {WAY_ON}"
+            )
+        if not recording.events:
+            raise ConfigError(
+                f"{path}: holds no event: was the device touched, and was no other program keeping its events? {WAY_ON}"
+            )
         if damaged:
             recording.warnings["not_utf8"] = damaged
         return recording
@@ -168,53 +164,27 @@ class Recording:
         slots = self._declared.get(ev.ABS_MT_SLOT)
         return Decoder(axes, self.protocol, slot=self._first_slot, last_slot=slots.maximum if slots else None)
 
-    def tracks(self, axes: Axes) -> dict[int, Track]:
+    def tracks(self, axes: Axes, start_s: float = 0.0) -> dict[int, Track]:
         """Track of each finger by its number in a replay, with a position at every report while it is down.
 
         Parameters
         ----------
         axes : Axes
             From `self.axes`.
+        start_s : float
+            Start of the replay: a decision at the very time of a report falls as in that replay.
         """
         decoder = self.decoder(axes)
         points: dict[int, list[tuple[float, float, float]]] = {}
         for kind, code, value, time_s in self.events:
-            if decoder.feed(kind, code, value, time_s) is None:
+            if (kind, code) == (ev.EV_SYN, ev.SYN_REPORT):
+                while decoder.due_s < start_s + time_s:
+                    decoder.overdue(decoder.due_s)
+            if decoder.feed(kind, code, value, start_s + time_s) is None:
                 continue
             for finger, x_m, y_m in decoder.fingers():
                 points.setdefault(finger, []).append((time_s, x_m, y_m))
         return {finger: Track.of(finger, seen) for finger, seen in points.items()}
-
-    def _parse(self, text: str) -> tuple[Event, ...]:
-        found = []
-        for raw_line in text.split("\n"):
-            line = raw_line.strip()
-            event = EVENT.fullmatch(line)
-            if event and TIME.fullmatch(event[1]):
-                self.valid = True
-                found.append((int(event[2], 16), int(event[3], 16), self._int32(event[4]), float(event[1])))
-            elif axis := AXIS.fullmatch(line):
-                self.valid = True
-                declared = AxisRange(self._int32(axis[2]), self._int32(axis[3]))
-                if declared.minimum < declared.maximum:
-                    self._declared[int(axis[1], 16)] = declared
-            elif version := VERSION.fullmatch(line):
-                self.valid = True
-                if (int(version[1]), int(version[2])) > NEWEST_VERSION:
-                    self.warnings["unknown_version"] += 1
-            elif OTHER.fullmatch(line):
-                self.valid = True
-            elif line and not line.startswith("#"):
-                self.warnings["garbage_lines"] += 1
-        times = rebased([event[3] for event in found], self.warnings)
-        return tuple([(kind, code, value, time_s) for (kind, code, value, _), time_s in zip(found, times, strict=True)])
-
-    def _int32(self, digits: str) -> int:
-        value = int(digits[:MAX_DIGITS])
-        if INT32_MIN <= value <= INT32_MAX:
-            return value
-        self.warnings["value_absurd"] += 1
-        return INT32_MIN if value < 0 else INT32_MAX
 
     def _range(self, code: int, single: int) -> AxisRange:
         declared = self._declared.get(code) or self._declared.get(single)

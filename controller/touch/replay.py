@@ -55,18 +55,18 @@ class RecordingSource:
         return
 
     def next_time_s(self) -> float | None:
-        """When the next report is due; None after the last."""
-        if self._ended:
-            return None
-        if self._report < len(self._report_ends):
-            return self._start_s + self._events[self._report_ends[self._report]][3]
-        return self._start_s + self._events[-1][3]
+        """When the next report is due, or a decision without one; None after the last."""
+        return None if self._ended else min(self._report_s(), self._decoder.due_s)
 
     def read(self, now_s: float) -> tuple[TouchSample, ...]:
         """Samples of the next report if it is due by `now_s`; see `TouchSource.read`."""
         self.touched = False
-        due_s = self.next_time_s()
-        if due_s is None or due_s > now_s:
+        if self._ended:
+            return ()
+        due_s, decision_s = self._report_s(), self._decoder.due_s
+        if decision_s < due_s:
+            return self._decoder.overdue(decision_s) if decision_s <= now_s else ()
+        if due_s > now_s:
             return ()
         if self._report == len(self._report_ends):
             self._ended = True
@@ -83,3 +83,8 @@ class RecordingSource:
     def close(self) -> None:
         """End the replay."""
         self._ended = True
+
+    def _report_s(self) -> float:
+        """Time of the next report; after the last, of the last event."""
+        last = self._report_ends[self._report] if self._report < len(self._report_ends) else -1
+        return self._start_s + self._events[last][3]

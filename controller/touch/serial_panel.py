@@ -32,6 +32,7 @@ MAX_COORDINATE: Final = 4095
 RETRY_S: Final = 0.5  # between attempts to open a lost port
 STUCK_TIMEOUT_S: Final = 0.5  # without a packet of the stream: the packet of the release must have been lost
 READ_BYTES: Final = 64  # with one call
+STRANGE_BYTES: Final = 100  # without a packet among them: another baud rate, or another protocol
 
 
 class SmartSetParser:
@@ -96,6 +97,7 @@ class SerialPanel:
         self._port: serial.Serial | None = None
         self._touched = False
         self._packet_s = 0.0
+        self._strange = 0  # bytes since the last packet that belong to none
         self._next_s = 0.0
         try:
             self._open()
@@ -136,7 +138,9 @@ class SerialPanel:
             return self._lost(now_s)
         packet = packet or self._parser.next_packet()
         if self._parser.skipped_bytes != skipped:
-            self.warnings["bytes_skipped"] += self._parser.skipped_bytes - skipped
+            self._count_skipped(self._parser.skipped_bytes - skipped)
+        if packet is not None:
+            self._strange = 0
         self._more = packet is not None
         if packet is not None and packet[1] == TOUCH:
             self._packet_s = now_s
@@ -160,11 +164,19 @@ class SerialPanel:
         self._poll.register(self._port.fileno(), select.POLLIN)
         self._parser.reset()
         self._more = False
+        self._strange = 0
         codes = {ev.EV_SYN: (ev.EV_SYN, ev.EV_KEY, ev.EV_ABS), ev.EV_KEY: (ev.BTN_TOUCH,), ev.EV_ABS: ev.POSITIONS_SINGLE}
         axes = dict.fromkeys(ev.POSITIONS_SINGLE, AxisInfo(0, MAX_COORDINATE))
         self._description = DeviceDescription(
             "Elo SmartSet", ev.BUS_RS232, properties=(ev.INPUT_PROP_DIRECT,), codes=codes, axes=axes
         )
+
+    def _count_skipped(self, number: int) -> None:
+        """Count bytes that belong to no packet, and once each time that nothing else comes."""
+        self.warnings["bytes_skipped"] += number
+        before, self._strange = self._strange, self._strange + number
+        if before < STRANGE_BYTES <= self._strange:
+            self.warnings["no_packets"] += 1
 
     def _fill(self) -> bool:
         """Read the bytes that have arrived; False if the port is lost."""

@@ -31,7 +31,7 @@ class TouchSample(NamedTuple):
     contact : bool
         False: released.
     size_m : float
-        Major axis of the contact; 0 if the panel reports none.
+        Major axis of the contact; 0 if the panel reports none, inf if it is released because it has become a palm.
     """
 
     finger: int
@@ -58,11 +58,27 @@ class Counts:
         Contacts that began.
     max_fingers : int
         Most contacts down in one report.
+    points : int
+        Positions of contacts that are no palms; what became of them says `plausibility.figures`.
+    believed : int
+        Of these, those that became touch samples at once.
+    held, confirmed : int
+        Of these, those that no hand reaches so soon, and of them those that were right all the same.
+    palms : int
+        Contacts that were palms, by tool or by size.
+    devices : int
+        Devices opened: one more after each reconnection.
     """
 
     reports: int = 0
     contacts: int = 0
     max_fingers: int = 0
+    points: int = 0
+    believed: int = 0
+    held: int = 0
+    confirmed: int = 0
+    palms: int = 0
+    devices: int = 0
 
 
 @dataclass(slots=True)
@@ -87,7 +103,10 @@ class TouchSource(Protocol):
 
     @property
     def touched(self) -> bool:
-        """Whether the last `read` took a report with at least one contact down, be it that none has moved."""
+        """Whether the last `read` took a report with at least one contact down, be it that none has moved.
+
+        False also for a report with a position that is held back (`plausibility.py`): where that finger is, is not known.
+        """
 
     @property
     def warnings(self) -> Counter[str]:

@@ -4,9 +4,11 @@ States of a contact:
 
 - It waits until its `confirm_reports`-th report, or until the time in which that many reports would have shown its release; a
   suspect (`ghost_guard.py`) waits until it is cleared. Then it is a finger; its first sample has the time of this decision.
-- If it is wider than `max_size_mm` it is a palm until it is lifted; a finger that becomes a palm is released at once.
 - A lost finger is kept for `BRIDGE_PERIODS`; a contact that begins near its predicted position meanwhile is the same finger.
-  A release therefore reaches the loop that much later, with the time at which the panel reported it.
+  A release therefore reaches the loop that much later, with the time at which the panel reported it. One that has become a palm
+  does not wait.
+- The period is the panel's own. Until it is measured, a finger that is lost soon after a report is taken to have been lost by the
+  next, as late as it may be on a panel of `SLOW_PERIOD_S`; one that was released and is back sooner than any hand shows the period.
 """
 
 from __future__ import annotations
@@ -18,13 +20,18 @@ from math import hypot, inf
 from typing import Any, Final
 
 from controller.board.touch_panels import TouchPanel
+from controller.touch import plausibility
 from controller.touch.ghost_guard import GhostGuard, QuietBudget
-from controller.touch.prediction import Motion
-from controller.touch.reports import ReportRate
+from controller.touch.prediction import MAX_INTERVAL_S, SILENT_PERIODS, Motion
+from controller.touch.reports import MAX_PERIOD_S, ReportRate
 from controller.touch.source import Counts, TouchSample, TouchSource
 
-BRIDGE_RADIUS_M: Final = 5e-3
-BRIDGE_PERIODS: Final = 1.5
+BRIDGE_RADIUS_M: Final = 5e-3  # from its predicted position, at least
+BRIDGE_SPEED: Final = 0.25  # m/s: by so much its velocity may have been unknown; on a slow panel that is farther
+BRIDGE_SHARE: Final = 0.5  # of the way from its last report: the same of a fast finger
+BRIDGE_PERIODS: Final = 1.5  # the panel finds it one period after it has reported the loss
+SLOW_PERIOD_S: Final = 30e-3  # it takes 45 ms at most to come back: nobody taps again in less than 50
+UNKNOWN_LOSSES: Final = 3  # after so many, a panel without a measured period reports taps that do not move, and loses none
 MISSED_REPORT_PERIODS: Final = 1.5  # without a release in this time, a contact counts as reported once more, unmoved
 CONFIRMING_REPORTS: Final = 2
 
@@ -41,8 +48,6 @@ class TrackerCounts:
         Suspects released before they were cleared.
     flickers : int
         Contacts released before `confirm_reports` reports.
-    palms : int
-        Contacts wider than `max_size_mm`.
     bridged : int
         Fingers lost and found again.
     listened_s : float
@@ -56,7 +61,6 @@ class TrackerCounts:
     held_back: int = 0
     ghosts: int = 0
     flickers: int = 0
-    palms: int = 0
     bridged: int = 0
     listened_s: float = 0.0
     longest_hold_s: float = 0.0
@@ -64,9 +68,9 @@ class TrackerCounts:
 
 
 class _Contact:
-    """One contact of the source: waiting, played or refused (a palm)."""
+    """One contact of the source: waiting or played."""
 
-    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "refused", "reports", "size_m", "suspect")
+    __slots__ = ("finger", "first_s", "lost_s", "motion", "played", "reports", "size_m", "suspect")
 
     def __init__(self, finger: int, motion: Motion, *, suspect: bool) -> None:
         self.finger = finger  # number in the loop's samples: the source's number of its first contact
@@ -76,12 +80,11 @@ class _Contact:
         self.size_m = 0.0
         self.suspect = suspect
         self.played = False
-        self.refused = False
         self.lost_s = inf  # time of its release by the panel
 
 
 class Tracker:
-    """Debounce, palm rejection, ghost rejection and prediction behind a source; a `TrackedTouch`.
+    """Debounce, ghost rejection, bridging of short losses and prediction behind a source; a `TrackedTouch`.
 
     Parameters
     ----------
@@ -103,7 +106,7 @@ class Tracker:
     touched : bool
         Of the source: see `TouchSource.touched`.
     tracking : TrackerCounts
-        Contacts held back, bridged and refused.
+        Contacts held back and bridged.
     rate : ReportRate
         Measured report period and jitter of the panel.
     """
@@ -125,15 +128,18 @@ class Tracker:
         self._bridged = bridged
         self._motion = motion
         self._lag_s = settings.lag_s
-        self._max_size_m = settings.max_size_m
         self._confirm_reports = settings.confirm_reports
         self._length_m, self._width_m = length_m, width_m
+        self._ghostly = settings.ghost_s > 0
         self._guard = GhostGuard(settings.ghost_s)
         self._quiet = QuietBudget(settings.ghost_s)
         self._contacts: dict[int, _Contact] = {}  # by the source's number
         self._fingers: dict[int, _Contact] = {}  # played, by number in the loop's samples
         self._released: dict[int, _Contact] = {}  # by the last read: their release effects are decided after it
         self._lost: list[_Contact] = []
+        self._losses = 0  # while the period is not measured
+        self._gone: _Contact | None = None  # the finger that was released last
+        self._devices = source.counts.devices
         self._known_s = -inf  # time up to which all reports have been taken
         self._due_s = inf  # when a decision is due without a report
 
@@ -143,10 +149,12 @@ class Tracker:
         return self._source.warnings
 
     def figures(self) -> dict[str, Any]:
-        """`TrackerCounts` with report period and jitter in ms (None before the second report), for JSON."""
+        """`TrackerCounts`, report period and jitter in ms (None before the second report), `plausibility.figures`; for JSON."""
         median_s, jitter_s = self.rate.median_s, self.rate.jitter_s
         self.tracking.listened_s = round(self._quiet.total_s, 6)
         return asdict(self.tracking) | {
+            "palms": self.counts.palms,
+            "plausibility": plausibility.figures(self.counts, self._source.warnings),
             "report_period_ms": None if median_s is None else round(median_s * 1e3, 3),
             "report_jitter_ms": None if jitter_s is None else round(jitter_s * 1e3, 3),
         }
@@ -176,11 +184,16 @@ class Tracker:
         self.touched = touched = self._source.touched
         if not samples and not touched and now_s < self._due_s:
             return ()
+        if self._devices != self.counts.devices:  # it may be another panel
+            self._devices = self.counts.devices
+            self._losses = 0
+            self.rate.restart()
+        if touched:
+            self.rate.report(known_s)
         out: list[TouchSample] = []
         for sample in samples:
             self._take(sample, out)
         if touched:
-            self.rate.report(known_s)
             self._found_still(known_s)
         self._decide(known_s, out)
         if not self._contacts:
@@ -228,14 +241,14 @@ class Tracker:
         """Announce an emission from `start_s` to `end_s`, repeated every `period_s` if above 0; see `TrackedTouch.emitted`."""
         self._guard.emitted(start_s, end_s, period_s)
         for contact in self._contacts.values():  # the end of a repetition clears suspects earlier
-            if contact.suspect and not contact.played and not contact.refused:
+            if contact.suspect and not contact.played:
                 self._due_s = min(self._due_s, self._played_from_s(contact))
 
     def quiet_until_s(self, now_s: float, next_s: float) -> float:
         """Time until which no emission may begin, asked at `now_s` for one at `next_s`; see `TrackedTouch.quiet_until_s`."""
         cleared_s = -inf
         for contact in self._contacts.values():
-            if contact.suspect and not contact.played and not contact.refused:
+            if contact.suspect and not contact.played:
                 cleared_s = max(cleared_s, self._guard.cleared_if_quiet_s(contact.first_s, now_s))
         if cleared_s <= next_s:
             if self._quiet.asked:
@@ -250,17 +263,16 @@ class Tracker:
         if not down:
             if contact is not None:
                 del self._contacts[number]
-                self._lift(contact, time_s)
+                if size_m != inf:
+                    self._lift(contact, time_s)
+                elif contact.played:
+                    contact.lost_s = time_s
+                    self._release(contact, time_s, out)
             return
         if contact is None:
             contact = self._begin(sample)
             if not contact.played:
                 return
-        if contact.refused:
-            return
-        if size_m > self._max_size_m:
-            self._refuse(contact, time_s, out)
-            return
         contact.motion.report(x_m, y_m, time_s)
         contact.reports += 1
         contact.size_m = size_m
@@ -270,64 +282,64 @@ class Tracker:
     def _begin(self, sample: TouchSample) -> _Contact:
         """Contact for a new number of the source: a lost finger found again, or a contact that waits."""
         finger, x_m, y_m, time_s, _, size_m = sample
-        palm = size_m > self._max_size_m
-        found = None if palm or not self._lost else self._found_again(x_m, y_m, time_s)
+        found = self._found_again(x_m, y_m, time_s) if self._lost else None
         if found is not None:
             self._lost.remove(found)
+            self.rate.interval(time_s - found.lost_s)
             found.lost_s = inf
             self._contacts[finger] = found
             self.tracking.bridged += 1
             if self._bridged is not None:
                 self._bridged(found.finger, finger)
             return found
-        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._guard.suspects(time_s))
+        if not self.rate.measured and self._gone is not None:
+            self._learn(self._gone, x_m, y_m, time_s)
+        contact = _Contact(finger, self._motion(x_m, y_m, time_s), suspect=self._ghostly and self._guard.suspects(time_s))
+        contact.motion.pause_s = max(MAX_INTERVAL_S, SILENT_PERIODS * self.rate.period_s)
         contact.size_m = size_m
-        contact.refused = palm
-        self.tracking.palms += palm
-        self.tracking.held_back += contact.suspect and not palm
+        self.tracking.held_back += contact.suspect
         self._contacts[finger] = contact
         return contact
 
     def _found_again(self, x_m: float, y_m: float, time_s: float) -> _Contact | None:
-        """The lost finger whose predicted position is nearest to a new contact, within `BRIDGE_RADIUS_M`."""
-        found, nearest_m = None, BRIDGE_RADIUS_M
+        """The lost finger to whose predicted position a new contact is nearest, for how far it may be off it."""
+        found, nearest = None, 1.0
         for lost in self._lost:
-            at_x_m, at_y_m = lost.motion.predict(time_s, lost.motion.time_s, 0.0, self.rate.period_s)
-            off_m = hypot(x_m - at_x_m, y_m - at_y_m)
-            if off_m <= nearest_m and time_s <= self._bridged_until_s(lost):
-                found, nearest_m = lost, off_m
+            motion = lost.motion
+            since_s = min(time_s - motion.time_s, motion.pause_s)
+            way_x_m, way_y_m = motion.vx * since_s, motion.vy * since_s
+            off_m = hypot(x_m - motion.x_m - way_x_m, y_m - motion.y_m - way_y_m)
+            share = off_m / max(BRIDGE_RADIUS_M, BRIDGE_SPEED * since_s, BRIDGE_SHARE * hypot(way_x_m, way_y_m))
+            if share <= nearest and time_s <= self._bridged_until_s(lost):
+                found, nearest = lost, share
         return found
 
+    def _learn(self, gone: _Contact, x_m: float, y_m: float, time_s: float) -> None:
+        """Learn the period from a finger that comes back sooner than any hand."""
+        back_s = time_s - gone.lost_s
+        if back_s <= BRIDGE_PERIODS * SLOW_PERIOD_S and hypot(x_m - gone.motion.x_m, y_m - gone.motion.y_m) <= BRIDGE_RADIUS_M:
+            self.rate.interval(back_s)
+
     def _lift(self, contact: _Contact, time_s: float) -> None:
-        if contact.refused:
-            return
         if contact.played:
             contact.lost_s = time_s
             self._lost.append(contact)
+            self._losses += not self.rate.measured
         elif contact.suspect:
             self.tracking.ghosts += 1
             self.tracking.longest_ghost_s = max(self.tracking.longest_ghost_s, time_s - contact.first_s)
         else:
             self.tracking.flickers += 1
 
-    def _refuse(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
-        """Refuse a contact that has become a palm."""
-        contact.refused = True
-        self.tracking.palms += 1
-        if contact.played:
-            contact.played = False
-            contact.lost_s = time_s
-            self._release(contact, time_s, out)
-
     def _release(self, contact: _Contact, time_s: float, out: list[TouchSample]) -> None:
-        self._released[contact.finger] = self._fingers.pop(contact.finger)
+        self._released[contact.finger] = self._gone = self._fingers.pop(contact.finger)
         out.append(TouchSample(contact.finger, contact.motion.x_m, contact.motion.y_m, time_s, False))
 
     def _found_still(self, time_s: float) -> None:
         """Count a report for contacts that it did not mention: they have not moved."""
         for contact in self._contacts.values():
             motion = contact.motion
-            if motion.time_s < time_s and not contact.refused:
+            if motion.time_s < time_s:
                 motion.report(motion.x_m, motion.y_m, time_s)
                 contact.reports += 1
 
@@ -342,7 +354,7 @@ class Tracker:
             else:
                 self._due_s = min(self._due_s, until_s)
         for contact in self._contacts.values():
-            if contact.played or contact.refused:
+            if contact.played:
                 continue
             due_s = self._played_from_s(contact)
             if due_s > known_s:
@@ -365,4 +377,9 @@ class Tracker:
         return due_s
 
     def _bridged_until_s(self, lost: _Contact) -> float:
-        return lost.lost_s + BRIDGE_PERIODS * self.rate.period_s
+        period_s = self.rate.period_s
+        if not self.rate.measured and self._losses <= UNKNOWN_LOSSES:
+            since_s = lost.lost_s - lost.motion.time_s
+            if since_s <= MAX_PERIOD_S:
+                period_s = max(period_s, min(since_s, SLOW_PERIOD_S))
+        return lost.lost_s + BRIDGE_PERIODS * period_s

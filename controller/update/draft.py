@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import datetime, timedelta
 from pathlib import Path
+from typing import Final
 
 from tuf.api.metadata import Root, TargetFile
 
 from controller.errors import UpdateError
+from controller.update.clock import TIMESTAMP_LIFE, as_text, issued
 from controller.update.keys import owner
 from controller.update.layout import MANIFEST
 from controller.update.publisher import ROLES, Repository
 from controller.update.release_folder import banks, digest_of, read_release
+
+CLOCKS_APART: Final = timedelta(hours=1)  # of two computers of the owner
 
 
 def describe(repository: Repository) -> list[str]:
@@ -29,8 +34,27 @@ def describe(repository: Repository) -> list[str]:
         lines.append(f"{len(new)} new files, {sum(target.length for target in new.values()):,} bytes; {old} as before")
     for role in ROLES:
         if found := repository.drafted(role):
-            lines.append(f"{role} version {found.signed.version}, until {found.signed.expires:%Y-%m-%d}")
+            made = issued(found.signed)
+            of = f" of {made:%Y-%m-%d}" if made else ""
+            lines.append(f"{role} version {found.signed.version}{of}, until {found.signed.expires:%Y-%m-%d}")
     return lines
+
+
+def must_be_of_today(repository: Repository, now: datetime) -> None:
+    """Check the dates of a draft by the clock of another computer than that it was made on: its signer's.
+
+    Raises
+    ------
+    UpdateError
+        If it was made later than now, or its timestamp has no life left.
+    """
+    for role in ROLES:
+        made = issued(found.signed) if (found := repository.drafted(role)) else None
+        if made and not made - CLOCKS_APART <= now <= made + TIMESTAMP_LIFE:
+            raise UpdateError(
+                f"{repository.draft / role}.json: was made at {as_text(made)}, and it is {as_text(now)} here: one of both clocks "
+                "is wrong, or the draft has lain for too long: make it again"
+            )
 
 
 def must_be(repository: Repository, folders: Sequence[Path]) -> None:

@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Final
 
 from controller.errors import UpdateError
+from controller.regular_file import read_regular
 from controller.update.durable import write_durably
 from controller.update.installed import manifest_of
 from controller.update.layout import COMPLETE, MANIFEST, Layout, running_release
 from controller.update.lock import alone
-from controller.update.manifest import FALL_BACK_INTERFACE, Manifest, ReleaseFile, this_platform
+from controller.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Manifest, ReleaseFile, this_platform
 
 WHEELS: Final = "wheels/"
 STEPS: Final = 5  # that `install` tells of
@@ -49,7 +50,7 @@ def install(layout: Layout, manifest: Manifest, progress: Progress = lambda _don
         raise UpdateError(f"{name} needs a newer Debian package haptic-panel (fall-back {manifest.fall_back}): install that first")
     with alone(layout.download / "install.lock"):
         if layout.is_complete(manifest.version):
-            if (folder / MANIFEST).read_bytes() != manifest.to_json():
+            if read_regular(folder / MANIFEST, MANIFEST_BYTES_MAX) != manifest.to_json():
                 raise UpdateError(f"{folder}: another {name} is installed: what differs needs another version")
             return
         remove(folder)

@@ -8,8 +8,9 @@ from typing import Any
 import msgspec
 
 from controller.errors import UpdateError
-from controller.update.layout import COMPLETE, MANIFEST, RELEASE_NAME, Layout
-from controller.update.manifest import Manifest, read_manifest
+from controller.regular_file import read_regular
+from controller.update.layout import COMPLETE, MANIFEST, RELEASE_NAME, WORDS_BYTES_MAX, Layout
+from controller.update.manifest import MANIFEST_BYTES_MAX, Manifest, read_manifest
 
 
 class InstalledRelease(msgspec.Struct, frozen=True, kw_only=True):
@@ -105,7 +106,7 @@ def update_state(layout: Layout) -> UpdateState:
 def manifest_of(folder: Path) -> Manifest | None:
     """Manifest of an installed release; None if it has none that can be read."""
     try:
-        return read_manifest((folder / MANIFEST).read_bytes(), str(folder / MANIFEST))
+        return read_manifest(read_regular(folder / MANIFEST, MANIFEST_BYTES_MAX), str(folder / MANIFEST))
     except (OSError, UpdateError):
         return None
 
@@ -121,7 +122,7 @@ def _release(layout: Layout, version: str, failed: bool, problems: list[str]) ->
 
 def _text(file: Path, problems: list[str]) -> str:
     try:
-        return file.read_bytes()[:65536].decode("ascii", "replace")
+        return read_regular(file, WORDS_BYTES_MAX).decode("ascii", "replace")
     except FileNotFoundError:
         return ""
     except OSError as error:

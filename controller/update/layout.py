@@ -13,12 +13,14 @@ from typing import Final
 
 from controller.board.lookup import MANIFEST as MANIFEST  # noqa: PLC0414 - part of the layout, which boards need too
 from controller.board.lookup import running_release as running_release  # noqa: PLC0414
+from controller.regular_file import read_regular
 
 ROOT = Path("/opt/haptic-panel")
 TRUSTED_ROOT = Path("/usr/share/haptic-panel/root.json")
 SETTINGS = Path("/etc/haptic-panel/update.toml")
 RELEASE_NAME: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._+-]{0,63}")  # also what the fall-back script believes
 COMPLETE = ".complete"
+WORDS_BYTES_MAX: Final = 65_536  # of a file of the state; `failed` has 50 lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +86,7 @@ class Layout:
     def word(self, name: str) -> str:
         """A word of `state`; empty if there is none, or it is no name of a release."""
         try:
-            word = (self.state / name).read_text(encoding="ascii").strip()
+            word = read_regular(self.state / name, WORDS_BYTES_MAX).decode("ascii").strip()
         except (OSError, ValueError):
             return ""
         return word if RELEASE_NAME.fullmatch(word) else ""

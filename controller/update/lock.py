@@ -3,25 +3,39 @@
 from __future__ import annotations
 
 import fcntl
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from controller.errors import UpdateError
+from controller.regular_file import open_private
 
 
 @contextmanager
-def alone(lock: Path) -> Iterator[None]:
-    """Hold a lock for the time of the block; it ends with its process, however that ends.
+def alone(lock: Path, held: str = "another update is at work: try again when it is done") -> Iterator[None]:
+    """Hold a lock for the time of the block; it ends with its process, however that ends. No other user can take it.
+
+    Parameters
+    ----------
+    lock : Path
+        File that is made for it.
+    held : str
+        What is said if another process holds it.
 
     Raises
     ------
     UpdateError
         If another process holds it.
+    OSError
+        If its file cannot be made.
     """
-    with lock.open("ab") as file:
+    fd = open_private(lock)
+    try:
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise UpdateError(f"{lock}: another update is at work: try again when it is done") from error
+            raise UpdateError(f"{lock}: {held}") from error
         yield
+    finally:
+        os.close(fd)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import platform
 import re
 import sys
@@ -15,6 +16,7 @@ from msgspec import Meta
 from controller.board.records import Record, as_record
 from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
+from controller.regular_file import open_regular
 from controller.update.layout import RELEASE_NAME
 
 FORMAT: Final = 1
@@ -50,9 +52,9 @@ class ReleaseFile(Record, frozen=True):
         OSError
             If it is absent, or cannot be read.
         """
-        if path.stat().st_size != self.size_bytes:
-            return False
-        with path.open("rb") as file:
+        with os.fdopen(open_regular(path), "rb") as file:
+            if os.fstat(file.fileno()).st_size != self.size_bytes:
+                return False
             return hashlib.file_digest(file, "sha256").hexdigest() == self.sha256
 
     @property

@@ -10,8 +10,9 @@ import msgspec
 from controller.board.records import as_record
 from controller.board.validation import NO_JSON
 from controller.errors import ConfigError, UpdateError
+from controller.regular_file import read_regular
 from controller.update.installed import manifest_of
-from controller.update.layout import Layout
+from controller.update.layout import WORDS_BYTES_MAX, Layout
 from controller.update.manifest import FALL_BACK_INTERFACE, MANIFEST_BYTES_MAX, Channel, Manifest, read_manifest, this_platform
 from controller.update.trust import DeviceUpdater
 
@@ -108,7 +109,7 @@ def failed_releases(layout: Layout) -> frozenset[str]:
     """
     file = layout.state / "failed"
     try:
-        lines = file.read_text(encoding="ascii", errors="replace").splitlines()
+        lines = read_regular(file, WORDS_BYTES_MAX).decode("ascii", "replace").splitlines()
     except FileNotFoundError:
         return frozenset()
     except OSError as error:
@@ -119,7 +120,7 @@ def failed_releases(layout: Layout) -> frozenset[str]:
 def largest_counter(layout: Layout, installed: Manifest | None) -> int:
     """Counter of the newest release that this device has had, whatever became of metadata and releases."""
     try:
-        text = (layout.download / COUNTER).read_text(encoding="ascii").strip()
+        text = read_regular(layout.download / COUNTER, WORDS_BYTES_MAX).decode("ascii").strip()
     except (OSError, UnicodeDecodeError):
         text = ""
     return max(int(text) if text.isdecimal() and len(text) <= 16 else 0, installed.counter if installed else 0)

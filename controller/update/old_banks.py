@@ -10,6 +10,7 @@ from tuf.api.exceptions import DownloadHTTPError, DownloadLengthMismatchError, L
 from tuf.api.metadata import TargetFile
 
 from controller.errors import UpdateError
+from controller.regular_file import read_regular
 from controller.update.bank_index import INDEX_BYTES_MAX, BankIndex, read_index
 from controller.update.durable import write_durably
 from controller.update.installed import manifest_of
@@ -96,7 +97,7 @@ class OldBanks:
         """Index of a bank: the one that was kept, else that of the repository; None if there is none that can be read."""
         kept = self._indexes / file.sha256
         with suppress(OSError, UpdateError):
-            return read_index(kept.read_bytes(), str(kept))
+            return read_index(read_regular(kept, INDEX_BYTES_MAX), str(kept))
         with suppress(UpdateError, RepositoryError, DownloadHTTPError, DownloadLengthMismatchError):
             data = self._repository.read(file.index_target, INDEX_BYTES_MAX)
             index = read_index(data, file.index_target)

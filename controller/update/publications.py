@@ -15,13 +15,13 @@ from controller.errors import UpdateError
 from controller.update.keys import owner
 from controller.update.layout import MANIFEST
 from controller.update.manifest import Channel, Manifest, read_manifest
-from controller.update.publisher import LIFE, ROLES, Repository, issue
+from controller.update.publisher import LIFE, LOCK, ROLES, Repository, issue
 from controller.update.release_folder import banks, digest_of, read_release
 from controller.update.repository_files import content_of, put
 
 THRESHOLD_ROLES: Final = ("root", "targets")  # a threshold of several people; the others say only what is the newest
 CHANNEL: Final = re.compile("[0-9a-z-]{1,32}")  # as in the settings of devices
-LEFT_OVERS: Final = frozenset({"targets", ".draft.new"})  # of an `init` that was interrupted
+LEFT_OVERS: Final = frozenset({"targets", ".draft.new", LOCK})  # of an `init` that was interrupted
 
 
 def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], threshold: int, now: datetime) -> None:
@@ -49,14 +49,14 @@ def draft_first(repository: Repository, keys: Mapping[str, Sequence[Key]], thres
         for key in keys[role]:
             root.add_key(key, role)
     check_thresholds(root)
-    timestamp = Timestamp(version=1, expires=now + LIFE["timestamp"])
-    issue(timestamp, now)
     first = {
         "root": root,
         "targets": Targets(version=1, expires=now + LIFE["targets"]),
         "snapshot": Snapshot(version=1, expires=now + LIFE["snapshot"]),
-        "timestamp": timestamp,
+        "timestamp": Timestamp(version=1, expires=now + LIFE["timestamp"]),
     }
+    for signed in first.values():
+        issue(signed, now)
     repository.targets.mkdir(exist_ok=True)
     repository.begin({role: Metadata(signed) for role, signed in first.items()})
 

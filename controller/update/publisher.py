@@ -11,11 +11,10 @@ makes devices see it, comes last. Private keys are never in this folder, and are
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any, Final
@@ -26,15 +25,17 @@ from tuf.api.metadata import Key, Metadata, Root, Signed, Targets
 from tuf.api.serialization.json import JSONSerializer
 
 from controller.errors import UpdateError
-from controller.update.clock import ISSUED, as_text
+from controller.update.clock import ISSUED, TIMESTAMP_LIFE, as_text, issued
 from controller.update.durable import sync_folder, tell_disk, write_durably
 from controller.update.keys import owner
+from controller.update.lock import alone
 
 ROLES: Final = ("root", "targets", "snapshot", "timestamp")
 ORDER: Final = ("targets", "snapshot", "root", "timestamp")  # of publication: nobody reads the first two before the last says so
-LIFE: Final = {role: timedelta(days=days) for role, days in zip(ROLES, (1825, 730, 730, 90), strict=True)}
+LIFE: Final = dict(zip(ROLES, [*(timedelta(days=days) for days in (1825, 730, 730)), TIMESTAMP_LIFE], strict=True))
 STICK_LIFE: Final = timedelta(days=365)  # of the timestamp on a stick
 DRAFT: Final = "draft"
+LOCK: Final = ".lock"  # a file of the owner's: the folder itself may be locked by everybody who may read it
 
 
 class Repository:
@@ -43,17 +44,21 @@ class Repository:
     Parameters
     ----------
     folder : Path
+    dated : str, optional
+        A date such as 2027-03-28 that people have looked up: a timestamp of that date is signed however long after the last
+        one, or before it.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, dated: str | None = None) -> None:
         self.folder = folder
+        self.dated = dated
         self.metadata = folder / "metadata"
         self.targets = folder / "targets"
         self.draft = folder / DRAFT
 
     @classmethod
     @contextmanager
-    def opened(cls, folder: Path, new: bool = False) -> Iterator[Repository]:
+    def opened(cls, folder: Path, new: bool = False, dated: str | None = None) -> Iterator[Repository]:
         """Lock a repository, or a new one.
 
         Raises
@@ -61,20 +66,20 @@ class Repository:
         UpdateError
             If it is none (or there is one), or another process works on it.
         """
-        repository = cls(folder)
+        repository = cls(folder, dated)
         if new:
             folder.mkdir(parents=True, exist_ok=True)
         elif not (repository.metadata.is_dir() or repository.draft.is_dir()):
             raise UpdateError(f"{folder}: is no repository: `haptic-panel update repository init` makes one")
-        fd = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        try:
+        with ExitStack() as stack:
             try:
-                fcntl.flock(fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError as error:
-                raise UpdateError(f"{folder}: another process works on this repository: repeat when it is done") from error
+                stack.enter_context(alone(folder / LOCK, "another process works on this repository: repeat when it is done"))
+            except OSError as error:
+                if os.access(folder, os.W_OK):  # else nothing of it can be changed by this user
+                    raise UpdateError(
+                        f"{folder / LOCK}: cannot be opened ({error.strerror}): let the user who owns it do this, or remove it"
+                    ) from error
             yield repository
-        finally:
-            os.close(fd)
 
     def published(self, role: str) -> Metadata[Any] | None:
         """What devices read of a role; None before the first publication."""
@@ -112,7 +117,7 @@ class Repository:
         Raises
         ------
         UpdateError
-            If nothing of it is published yet.
+            If nothing of it is published yet; for the timestamp, if now is no time that it can be made at.
         """
         found = self.published(role)
         if found is None:
@@ -121,7 +126,8 @@ class Repository:
         found.signed.version += 1
         found.signed.expires = now + LIFE[role]
         if role == "timestamp":
-            issue(found.signed, now)
+            self._check_issued(now)
+        issue(found.signed, now)
         edit(found.signed)
         return found
 
@@ -167,12 +173,14 @@ class Repository:
         Raises
         ------
         UpdateError
-            If there is no draft, or the key counts for nothing of it.
+            If there is no draft, the key counts for nothing of it, or it is dated as no timestamp may be that follows the last.
         """
         roles = [role for role in self._draft_roles() if signer.public_key.keyid in self.signers(role)]
         if not roles:
             who = sorted({owner(key) for role in self._draft_roles() for key in self.signers(role).values()})
             raise UpdateError(f"{self.draft}: this key counts for nothing of it; what counts are the keys of {', '.join(who)}")
+        if (timestamp := self.drafted("timestamp")) and (made := issued(timestamp.signed)):
+            self._check_issued(made)
         for role in roles:
             metadata = _read(self.draft / f"{role}.json")
             metadata.sign(signer, append=True)
@@ -267,6 +275,18 @@ class Repository:
             raise UpdateError(f"{self.folder}: nothing waits for signatures: `add`, `rotate` or `renew` make a draft")
         return roles
 
+    def _check_issued(self, now: datetime) -> None:
+        """Check that a timestamp made now may follow the one that is published: devices would believe a clock that is wrong."""
+        last = self.published("timestamp")
+        before = issued(last.signed) if last else None
+        if before is None or before <= now <= before + TIMESTAMP_LIFE or f"{now:%Y-%m-%d}" == self.dated:
+            return
+        how = "earlier than" if now < before else f"more than {TIMESTAMP_LIFE.days} days after"
+        raise UpdateError(
+            f"{self.folder}: a timestamp of {as_text(now)} is {how} the last one, of {as_text(before)}: set this computer's clock "
+            f"right, and give up a draft made by it; if it is right, add --date {now:%Y-%m-%d}"
+        )
+
     def _check_signatures(self, file: Path, role: str, metadata: Metadata[Any]) -> None:
         for key_id, key in self.signers(role).items():
             if key_id in metadata.signatures:
@@ -298,9 +318,9 @@ def now() -> datetime:
     return datetime.now(UTC).replace(microsecond=0)
 
 
-def issue(timestamp: Signed, now: datetime) -> None:
-    """Say in a timestamp when it was made: devices without a clock take it for the least that the time can be."""
-    timestamp.unrecognized_fields[ISSUED] = as_text(now)
+def issue(signed: Signed, now: datetime) -> None:
+    """Say in metadata when it was made: devices without a clock take it for the least that the time can be."""
+    signed.unrecognized_fields[ISSUED] = as_text(now)
 
 
 def _read(file: Path) -> Metadata[Any]:

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import BinaryIO, Final
 
+from controller.regular_file import open_regular
 from controller.update.bank_index import BankIndex, found_pieces, missing_ranges
 
 WORTH: Final = 0.5  # share of a bank above which the whole of it is fetched instead
@@ -46,7 +47,7 @@ def rebuild(
             wanted.digest: (file, wanted.offset) for wanted, there in found if wanted.digest == there.digest
         }
         for path, cut_as in olds:
-            old = stack.enter_context(path.open("rb"))
+            old = stack.enter_context(os.fdopen(open_regular(path), "rb"))
             for piece in found_pieces(old, cut_as):
                 places.setdefault(piece.digest, (old, piece.offset))
         ranges = missing_ranges(index, places)

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
-from controller.board.panel_status import FOLDER, NAME, PanelStatus, boot_id, read_status
+from controller.board.panel_status import FOLDER, NAME, PanelStatus, boot_id, read_status, status_bytes, status_in
 from controller.errors import ControllerError, UpdateError
 from controller.log import log
 from controller.update.durable import write_durably
@@ -33,12 +33,16 @@ def keep_before(layout: Layout, status_file: Path = STATUS) -> None:
         If it cannot be kept.
     """
     kept = layout.download / BEFORE
-    status = _read(status_file)
     try:
-        if status is None or status.why_old(time.monotonic(), boot_id()):
+        data = status_bytes(status_file)
+        status = status_in(data, status_file) if data is not None else None
+    except ControllerError:
+        data = status = None
+    try:
+        if data is None or status is None or status.why_old(time.monotonic(), boot_id()):
             kept.unlink(missing_ok=True)
         else:
-            write_durably(kept, status_file.read_bytes())
+            write_durably(kept, data)
     except OSError as error:
         raise UpdateError(f"{kept}: cannot be written ({error.strerror})") from error
 

@@ -34,11 +34,12 @@ from controller.update.durable import sync_folder
 from controller.update.layout import Layout
 from controller.update.lock import alone
 from controller.update.source import Source
+from controller.update.validity import ROOT_BYTES_MAX
 
 LIMITS: Final = UpdaterConfig(
     max_root_rotations=64,
     max_delegations=4,
-    root_max_length=64_000,
+    root_max_length=ROOT_BYTES_MAX,
     timestamp_max_length=16_384,
     snapshot_max_length=64_000,
     targets_max_length=2_000_000,
@@ -59,6 +60,8 @@ class DeviceUpdater(Updater):
         Time that it is at least.
     now : datetime, optional
         What the clock says; for tests.
+    kept : clock.Kept, optional
+        Time that it is at least too, unless a newer root is taken.
     """
 
     def __init__(
@@ -69,6 +72,7 @@ class DeviceUpdater(Updater):
         earliest: datetime,
         now: datetime | None = None,
         config: UpdaterConfig = LIMITS,
+        kept: clock.Kept | None = None,
     ) -> None:
         address = source.address
         super().__init__(str(metadata), f"{address}/metadata", None, f"{address}/targets", source, config, bootstrap=root)
@@ -77,10 +81,18 @@ class DeviceUpdater(Updater):
         if not isinstance(told, datetime):
             raise TypeError("python-tuf keeps its time elsewhere: trust.py must follow")
         self._trusted_set.reference_time = self.now = max(now or told, earliest)
+        self._kept = kept
 
-    def keep_time(self, kept: Path) -> None:
+    def _load_root(self) -> None:
+        """The newest root, and what time it is at least under it: no date counts before (private, as above)."""
+        super()._load_root()
+        if self._kept and self._kept.counts_under(self._trusted_set.root):
+            self._trusted_set.reference_time = self.now = max(self.now, self._kept.moment)
+
+    def keep_time(self, file: Path) -> None:
         """Keep the time of the verified timestamp."""
-        clock.keep(kept, self._trusted_set.timestamp, self._trusted_set.root, self.now)
+        verified = self._trusted_set
+        clock.keep(file, verified.root, verified.targets, verified.timestamp, self.now)
 
     def target(self, path: str) -> TargetFile:
         """What is signed about a file of the repository.
@@ -155,9 +167,9 @@ def trusted(layout: Layout, source: Source, built_s: int, now: datetime | None =
         with alone(layout.download / "lock"):
             for left in metadata.glob("tmp*"):  # python-tuf writes beside and renames; one that was killed leaves its file
                 left.unlink()
-            earliest = clock.earliest(layout.download / "clock", built_s)
+            kept = clock.Kept.read(layout.download / "clock")
             try:
-                updater = DeviceUpdater(metadata, source, root, earliest, now)
+                updater = DeviceUpdater(metadata, source, root, clock.built(built_s), now, kept=kept)
             except RepositoryError as error:
                 raise UpdateError(f"{layout.trusted_root}: is no root.json of a repository: install it again") from error
             updater.refresh()

@@ -7,10 +7,12 @@ from datetime import UTC, datetime
 from typing import Final
 
 from controller.errors import UpdateError
+from controller.regular_file import read_regular
 from controller.update.installed import manifest_of
 from controller.update.layout import Layout
 
 SOON_DAYS: Final = 90
+ROOT_BYTES_MAX: Final = 64_000
 
 
 def root_expiry(layout: Layout) -> tuple[str, bool]:
@@ -30,9 +32,15 @@ def root_expiry(layout: Layout) -> tuple[str, bool]:
     if not layout.trusted_root.exists():
         return f"there is no {layout.trusted_root}: this device takes no updates", True
     newest = layout.download / "metadata" / "root.json"
+    if newest.is_symlink():  # python-tuf's, to the newest of root_history
+        newest = newest.parent / "root_history" / newest.readlink().name
     file = newest if newest.exists() else layout.trusted_root
     try:
-        expires = datetime.fromisoformat(json.loads(file.read_bytes())["signed"]["expires"])
+        data = read_regular(file, ROOT_BYTES_MAX, links=file == layout.trusted_root)
+    except OSError as error:
+        raise UpdateError(f"{file}: cannot be read ({error.strerror})") from error
+    try:
+        expires = datetime.fromisoformat(json.loads(data)["signed"]["expires"])
         left_days = (expires - datetime.now(UTC)).days
     except (ValueError, KeyError, TypeError) as error:
         raise UpdateError(f"{file}: is no root.json of a repository: install the package again") from error

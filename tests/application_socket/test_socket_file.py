@@ -4,6 +4,7 @@ import fcntl
 import grp
 import os
 import pwd
+import resource
 import socket
 import stat
 import subprocess
@@ -198,3 +199,18 @@ def test_closing_removes_the_file_unless_it_is_anothers_by_now(settings):
     first.close()
     assert connects(settings.path)
     second.close()
+
+
+def test_what_the_system_lacks_at_the_moment_is_no_wrong_setting(settings):
+    """Exit code 78 would keep the service from being started again."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    free = os.dup(0)
+    os.close(free)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (free + 1, hard))  # one more: for the socket, and none for its lock
+    try:
+        with pytest.raises(ControllerError, match="cannot be made") as caught:
+            SocketFile(settings)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+    assert caught.value.exit_code == 1
+    SocketFile(settings).close()

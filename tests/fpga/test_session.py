@@ -388,7 +388,7 @@ def test_a_lost_frame_is_detected_by_its_number(clock, link, armed):
     link.noise = {link.frames: ("lost, an old NOP instead", 0)}
     armed.play(0, 1, 0.0, stop=False)
     assert State.PENDING in armed.heartbeat().state, "sent again: it is there after all"
-    link.noise = {link.frames: ("lost, an old NOP instead", 0)}
+    link.noise = {link.frames + 2 * attempt: ("lost, an old NOP instead", 0) for attempt in range(3)}
     with pytest.raises(LinkError, match="a frame was lost"):
         armed.exchange.control(Control.CLEAR, raise_faults=False)
 

@@ -1,12 +1,14 @@
 """Runs in the container, as root, under a systemd of its own: the unit as it is installed, with the simulated board."""
 
 import contextlib
+import grp
 import itertools
 import json
 import os
 import re
 import signal
 import subprocess
+import urllib.request
 from pathlib import Path
 
 import panel_board
@@ -187,6 +189,44 @@ def test_of_two_groups_one_may_play_and_the_other_switch_the_panel_off_for_good(
         wait_for("the outputs", lambda: figure("outputs") == "on")
     finally:
         panel_board.BOARD.write_text(good)
+
+
+def scraped():
+    """Figures as Prometheus gets them, by name; none yet where nobody listens."""
+    try:
+        with urllib.request.urlopen("http://127.0.0.1:9750/metrics") as answer:
+            lines = answer.read().decode().splitlines()
+    except OSError:
+        return {}
+    return dict(line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
+
+
+def test_prometheus_is_answered_by_a_user_who_may_only_look_by_one_connection():
+    fresh_start()
+    lines = figure("application_socket")["clients"]
+    run("systemctl", "start", "haptic-panel-metrics")
+    try:
+        wait_for("an answer", lambda: scraped().get("haptic_panel_up") == "1.0")
+        (pid,) = run("systemctl", "show", "--value", "-p", "MainPID", "haptic-panel-metrics").split()
+        groups = {grp.getgrgid(int(number)).gr_name for number in status_of(pid, "Groups").split()}
+        assert Path(f"/proc/{pid}").owner() == "haptic-metrics"
+        assert groups - {"haptic-metrics"} == {"haptic-look", "haptic-play", UNIT}
+        seen = [scraped() for _ in range(200)]
+        assert all(answer["haptic_panel_up"] == "1.0" for answer in seen)
+        assert figure("application_socket")["clients"] - lines <= 3, "its own connection, and those of this test"
+        become = [
+            "setpriv",
+            "--reuid=haptic-metrics",
+            "--regid=haptic-metrics",
+            "--groups=haptic-look,haptic-play,haptic-panel",
+            "--",
+        ]
+        client = ["/opt/haptic-panel/current/venv/bin/python", "-m", "controller.application_socket.client"]
+        for command, code in ((("hello",), 0), (("play", "click", "--at", "100", "70"), 1), (("disarm",), 1)):
+            done = subprocess.run([*become, *client, *command], cwd="/", check=False, capture_output=True, text=True)
+            assert (done.returncode, "does not have the right to" in done.stdout + done.stderr) == (code, bool(code)), done
+    finally:
+        run("systemctl", "stop", "haptic-panel-metrics")
 
 
 def test_a_panel_that_is_pulled_out_before_the_start_is_waited_for():

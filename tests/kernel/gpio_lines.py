@@ -6,12 +6,12 @@ CONFIG = Path("/sys/kernel/config/gpio-sim")
 
 
 class GpioLines:
-    """A live chip `label` with the lines named, from offset 0 on.
+    """A live chip `label` with lines from offset 0 on, which here have these names; `named` False: there they have none.
 
     gpio-sim merges edges closer than about 20 ms: it shows levels and slow edges, not pulses.
     """
 
-    def __init__(self, label, names):
+    def __init__(self, label, names, named=True):
         self._folder = CONFIG / label
         bank = self._folder / "bank0"
         self._offsets = {name: offset for offset, name in enumerate(names)}
@@ -20,7 +20,8 @@ class GpioLines:
         (bank / "label").write_text(label)
         for name, offset in self._offsets.items():
             (bank / f"line{offset}").mkdir()
-            (bank / f"line{offset}" / "name").write_text(name)
+            if named:
+                (bank / f"line{offset}" / "name").write_text(name)
         (self._folder / "live").write_text("1")
         self.chip = (bank / "chip_name").read_text().strip()
         self._device = Path("/sys/devices/platform", (self._folder / "dev_name").read_text().strip(), self.chip)

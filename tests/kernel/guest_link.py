@@ -1,6 +1,7 @@
 """Runs in the guest: the device's link on the kernel's own spidev and GPIO lines, with the gateware's model at the far end."""
 
 import contextlib
+import fcntl
 import os
 import struct
 import threading
@@ -21,6 +22,7 @@ from controller.errors import ControllerError, FaultError, LinkError
 from controller.fpga.build_hash import build_hash
 from controller.fpga.clock_estimate import ClockEstimate
 from controller.fpga.exchange import FpgaReset
+from controller.fpga.gpio_lines import SET_VALUES
 from controller.fpga.registers import Register
 from controller.fpga.session import Session
 from controller.fpga.spi_link import SpiLink, read_bufsiz
@@ -238,6 +240,32 @@ def test_chips_and_lines_that_are_not_there_are_named_with_those_that_are():
     assert "no line named 'TRIGER'; names like it: TRIGGER" in refusal(
         lambda: SpiLink(with_settings(trigger_line="TRIGER"), time.monotonic)
     )
+
+
+def test_lines_without_names_are_driven_by_their_numbers_and_refused_by_name_with_what_there_is():
+    expander = GpioLines("expander", ["PERMIT", "CONFIGURED", "TRIGGER"], named=False)
+    expander.pull("CONFIGURED", 1)
+    named = with_settings(gpio_chip="expander")
+    numbered = with_settings(gpio_chip="expander", trigger_line="2", configured_line="1", permit_line="0")
+    try:
+        assert 'its lines have no names; a line without a name is given by its number, "0" to "2"' in refusal(
+            lambda: SpiLink(named, CLOCK.now_s)
+        )
+        twice = with_settings(gpio_chip="expander", trigger_line="0", configured_line="1", permit_line="0")
+        assert "have to be lines of their own; given are '0', '1', '0'" in refusal(lambda: SpiLink(twice, CLOCK.now_s))
+        with opened(numbered) as link:
+            link.lines.permit(True)
+            assert link.lines.configured()
+            assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (0, 1)
+            fcntl.ioctl(link.lines._fd, SET_VALUES, link.lines._high)  # the first half of a pulse
+            assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (1, 1)
+            link.lines.pulse()
+            link.lines.permit(False)
+            assert (expander.value("TRIGGER"), expander.value("PERMIT")) == (0, 0)
+            expander.pull("CONFIGURED", 0)
+            assert not link.lines.configured()
+    finally:
+        expander.close()
 
 
 def test_a_line_that_somebody_holds_is_told_with_its_holder():

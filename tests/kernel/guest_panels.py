@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -53,6 +54,8 @@ PANEL_B = {
         (e.ABS_MT_TRACKING_ID, AbsInfo(0, 0, 65535, 0, 0, 0)),
     ],
 }
+
+MOUSE = {e.EV_KEY: [e.BTN_LEFT], e.EV_REL: [e.REL_X, e.REL_Y]}
 
 
 def raised(action):
@@ -208,14 +211,34 @@ def test_two_panels_of_one_name_are_listed():
     assert "no touch panel named 'twin'" in raised(lambda: LinuxInput("twin"))
 
 
-def test_what_is_no_touch_panel_is_refused_by_name_and_reason():
+def test_what_is_no_touch_panel_is_refused_by_what_it_lacks_whether_it_is_given_by_path_or_by_name():
     flat = {e.EV_KEY: [e.BTN_TOUCH], e.EV_ABS: [(e.ABS_X, AbsInfo(0, 0, 0, 0, 0, 0)), (e.ABS_Y, AbsInfo(0, 0, 9, 0, 0, 0))]}
-    for capabilities, words in (({e.EV_KEY: [e.KEY_A]}, "no position axes"), (flat, "range from 0 to 0")):
-        device = uinput(capabilities, "odd")
-        refusal = raised(lambda path=device.device.path: LinuxInput(path))
-        assert words in refusal
-        assert device.device.path in refusal
+    stick = [(code, AbsInfo(0, 0, 255, 0, 0, 0)) for code in (e.ABS_X, e.ABS_Y)]
+    others = (
+        ({e.EV_KEY: [e.KEY_A]}, [], "no position axes: a keyboard"),
+        (MOUSE, [], "only steps: a mouse?"),
+        ({e.EV_KEY: [e.BTN_SOUTH, e.BTN_EAST], e.EV_ABS: stick}, [], "a gamepad or joystick?"),
+        (
+            {e.EV_KEY: [e.BTN_LEFT, e.BTN_TOOL_FINGER, e.BTN_TOUCH], e.EV_ABS: PANEL_B[e.EV_ABS]},
+            [e.INPUT_PROP_POINTER],
+            "a touchpad?",
+        ),
+        ({e.EV_KEY: [e.BTN_TOOL_PEN, e.BTN_TOUCH], e.EV_ABS: stick}, [e.INPUT_PROP_DIRECT], "a pen or a tablet?"),
+    )
+    for capabilities, properties, words in others:
+        device = UInput(capabilities, name="odd", input_props=properties)
+        for given in (device.device.path, "odd"):
+            refusal = raised(lambda given=given: LinuxInput(given))
+            assert words in refusal, refusal
+            assert device.device.path in refusal
+            assert "\n" not in refusal
+        panel = uinput(PANEL_B, "odd")  # another node with the same name
+        LinuxInput("odd").close()
+        panel.close()
         device.close()
+    device = uinput(flat, "flat")
+    assert "range from 0 to 0" in raised(lambda: LinuxInput("flat"))
+    device.close()
     assert "no input device" in raised(lambda: LinuxInput("/dev/input/event99"))
     assert "is no input device" in raised(lambda: LinuxInput("/dev/zero"))
 
@@ -346,9 +369,6 @@ def test_a_recording_of_a_panel_gives_the_samples_that_the_panel_gave():
     panel.close()
 
 
-MOUSE = {e.EV_KEY: [e.BTN_LEFT], e.EV_REL: [e.REL_X, e.REL_Y]}
-
-
 def test_a_mouse_tells_its_steps_with_times_of_the_monotonic_clock():
     device = UInput(MOUSE, name="mouse")
     mouse = Mouse(device.device.path)
@@ -414,9 +434,9 @@ def test_a_lag_is_measured_from_both_devices_at_once_and_strokes_that_tell_nothi
 
 
 @contextlib.contextmanager
-def bench(chip):
-    """A chip at the far end of the bus, its interrupt and reset pins on GPIO lines."""
-    lines = GpioLines("panel", ["TOUCH_INT", "TOUCH_RST"])
+def bench(chip, names=True):
+    """A chip at the far end of the bus, its interrupt and reset pins on GPIO lines, with names or without."""
+    lines = GpioLines("panel", ["TOUCH_INT", "TOUCH_RST"], named=names)
     lines.pull("TOUCH_INT", 1)
     lines.pull("TOUCH_RST", 1)
     far_end = FarEnd(chip, lines)
@@ -486,7 +506,7 @@ def test_a_gt911_without_reset_line_is_found_at_its_other_address_and_every_repo
 def test_a_report_that_is_not_ready_at_its_edge_is_waited_for():
     chip = Gt911Chip(width=2100, height=1480)
     with bench(chip) as far_end, opened(gt911()) as source:
-        until(source, condition=lambda: source.next_time_s() > time.monotonic() + 0.5)
+        until(source, condition=lambda: chip.transfers > 6)  # what it had at its start was read
         with far_end.lock:
             chip.late = 3
         before_s = time.monotonic()
@@ -496,15 +516,33 @@ def test_a_report_that_is_not_ready_at_its_edge_is_waited_for():
         assert before_s <= sample.time_s
 
 
-def test_a_missed_edge_does_not_silence_a_panel():
+def test_missed_edges_do_not_silence_a_panel_and_are_said():
     chip = Gt911Chip(width=2100, height=1480)
     with bench(chip) as far_end, opened(gt911()) as source:
-        far_end.touch({0: (100, 200)}, pulse=False)  # found by the seldom look at an idle panel
+        far_end.touch({0: (100, 200)}, pulse=False)  # found by polling
         assert places(until(source, 1)) == [(0, 10, 20, True)]
         far_end.touch({0: (110, 200)}, pulse=False)
         assert places(until(source, 1)) == [(0, 11, 20, True)]
         far_end.touch({}, pulse=False)
         assert places(until(source, 1)) == [(0, 11, 20, False)]
+        assert source.warnings == {"interrupt_silent": 1}
+
+
+def test_lines_without_names_are_given_by_their_numbers_and_a_panel_without_lines_is_polled():
+    chip = Ft5x06Chip()
+    with bench(chip, names=False) as far_end:
+        assert 'its lines have no names; a line without a name is given by its number, "0" to "1"' in raised(ft5x06)
+        with opened(ft5x06(interrupt_line="0", reset_line="1")) as source:
+            before_s = time.monotonic()
+            far_end.touch({0: (100, 200)})
+            (sample,) = until(source, 1)
+            assert places([sample]) == [(0, 10, 20, True)]
+            assert sample.time_s >= before_s
+        with opened(ft5x06(interrupt_chip="", interrupt_line="")) as source:
+            assert source.fileno() is None
+            far_end.touch({0: (110, 200)})
+            assert places(until(source, 1)) == [(0, 11, 20, True)]
+            assert not source.warnings - Counter(stale_reports=10**6)
 
 
 def test_a_gt911_that_goes_silent_about_a_finger_is_started_again():
@@ -623,7 +661,7 @@ def test_an_ft5x06_that_loses_its_power_is_set_to_work_again():
 def test_lines_and_buses_that_are_not_there_are_named():
     assert "no GPIO chip has the label 'panel'" in raised(gt911)
     with bench(Gt911Chip()) as far_end:
-        assert "has no line 'NO_SUCH'" in raised(lambda: gt911(interrupt_line="NO_SUCH"))
+        assert "has no line named 'NO_SUCH'" in raised(lambda: gt911(interrupt_line="NO_SUCH"))
         assert "no I2C bus /dev/i2c-99" in raised(lambda: gt911(bus="/dev/i2c-99"))
         with far_end.lock:
             far_end.chip.silent = True

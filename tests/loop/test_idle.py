@@ -16,6 +16,7 @@ from controller.board.panel_state import PanelState
 from controller.clocks import VirtualClock
 from controller.errors import ControllerError
 from controller.fpga.clock_estimate import ClockEstimate
+from controller.fpga.registers import State
 from controller.gateware_model.model import GatewareModel
 from controller.loop.outputs import IDLE_TURN_S, Outputs
 from controller.loop.wiring import assemble
@@ -95,7 +96,7 @@ def test_not_a_byte_is_sent_while_the_panel_is_idle(run, board):
     assert done.counters.idled == 1
     assert done.counters.host_silent == done.counters.outages == 0, "the silence of a host is no fault of outputs that are off"
     states = [state for _, state in done.states]
-    assert states[-3:] == [PanelState.ARMED, PanelState.IDLE, PanelState.ARMED]
+    assert states[-5:] == [PanelState.ARMED, PanelState.RAMPING, PanelState.IDLE, PanelState.RAMPING, PanelState.ARMED]
 
 
 def test_outputs_are_at_0_v_while_idle_and_ramp_both_ways(run, board):
@@ -184,7 +185,7 @@ class IdleMachine(RuleBasedStateMachine):
     def turn(self):
         """As the loop: failures begin the recovery."""
         try:
-            if self.outputs.on and not self.outputs.wanted:
+            if self.outputs.unwanted:
                 self.outputs.disarm()
             self.outputs.advance(self.clock.now_s())
         except ControllerError as error:
@@ -224,7 +225,7 @@ class IdleMachine(RuleBasedStateMachine):
     def nothing_is_sent_while_idle(self):
         if not self.outputs.idle:
             self.quiet_from_s = None
-        elif self.clock.now_s() > self.session.ramp_end_s:
+        elif not self.outputs.ramping_down:
             if self.quiet_from_s is None:
                 self.quiet_from_s = self.link.bytes_sent
             assert self.link.bytes_sent == self.quiet_from_s
@@ -237,8 +238,16 @@ class IdleMachine(RuleBasedStateMachine):
     def outputs_that_are_on_are_not_idle(self):
         assert not (self.outputs.on and self.outputs.idle)
         if self.outputs.idle:
-            assert self.outputs.state is PanelState.IDLE
+            assert self.outputs.state is (PanelState.RAMPING if self.outputs.ramping_down else PanelState.IDLE)
             assert self.outputs.cause
+
+    @invariant()
+    def off_is_said_only_of_outputs_that_are_off(self):
+        self.link.gateware.advance(self.link.tick(self.clock.now_s()))
+        if not self.outputs.may_be_on:
+            assert State.HV_ENABLE not in self.link.gateware.status().state
+        elif not self.outputs.on:
+            assert self.outputs.state is PanelState.RAMPING, "there are no failures here"
 
 
 TestIdleMachine = IdleMachine.TestCase

@@ -447,7 +447,8 @@ def test_a_disarmed_panel_stays_off_whoever_comes_and_whatever_happens_until_it_
         assert "is disarmed" in client.play("click", at_mm=(50, 50)).reason
         states = client.states()
         client.arm()
-        next(state for state in states if state.outputs_on)
+        assert next(state for state in states if state.outputs_on).state in {"ramping", "armed"}
+        next(state for state in states if state.state == "armed")
         states.close()
         assert client.play("click", at_mm=(50, 50)).outcome == "played"
     figures, code = service.end()
@@ -608,7 +609,7 @@ def test_an_fpga_that_is_absent_at_the_start_is_waited_for_lost_and_taken_again(
             assert playing.upload.count + playing.resident.count == playing.emissions
         with service.client() as client:
             until_state(client, "waiting for FPGA")
-        lost = written(lambda status: status.state is PanelState.WAITING_FOR_FPGA)
+        lost = written(lambda status: status.state is PanelState.WAITING_FOR_FPGA and not status.outputs_on)
         assert (lost.outages, lost.outage_causes, lost.outputs_on) == (number, {"LINK": number}, False)
     figures, code = service.end()
     assert (code, figures["state"]) == (0, "waiting for FPGA")

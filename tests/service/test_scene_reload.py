@@ -150,8 +150,7 @@ def children(pid):
 
 
 def test_a_scene_that_takes_too_much_memory_is_refused(changer, folder):
-    with (folder / "huge.toml").open("wb") as file:
-        file.truncate(1 << 30)  # of nothing, on no disk
+    (folder / "huge.toml").write_text(f"a = '''\U0001f600{'x' * 32_000_000}'''\r\n", encoding="utf-8")  # 4 bytes for each character
     changer.begin("huge", 8)
     assert prepared(changer).reason == "preparing the scene takes more memory than 256 MB beside the bank"
     works(changer)

@@ -10,6 +10,7 @@ from peers.elo_panel import INITIAL, STREAM, UNTOUCH, packet, touch
 from controller.board.touch_panels import SerialTouch
 from controller.errors import TouchError
 from controller.touch.live_source import LiveSource
+from controller.touch.reports import FAULTS
 from controller.touch.serial_panel import MAX_COORDINATE, RETRY_S, STUCK_TIMEOUT_S, SerialPanel, SmartSetParser
 
 
@@ -61,10 +62,10 @@ def samples(source, now_s):
 def test_a_finger_comes_moves_and_goes(port, source):
     assert source.fileno() is not None
     assert samples(source, 1.0) == []
-    port.send(touch(0, MAX_COORDINATE, INITIAL) + touch(MAX_COORDINATE, 0, STREAM))
-    assert samples(source, 1.1) == [(0, 0, 148, True), (0, 210, 0, True)]
-    port.send(touch(MAX_COORDINATE, 0, UNTOUCH))
-    assert samples(source, 1.2) == [(0, 210, 0, False)]
+    port.send(touch(0, MAX_COORDINATE, INITIAL) + touch(39, MAX_COORDINATE, STREAM))
+    assert samples(source, 1.1) == [(0, 0, 148, True), (0, 2, 148, True)]
+    port.send(touch(39, MAX_COORDINATE, UNTOUCH) + touch(MAX_COORDINATE, 0, INITIAL) + touch(MAX_COORDINATE, 0, UNTOUCH))
+    assert samples(source, 1.2) == [(0, 2, 148, False), (1, 210, 0, True), (1, 210, 0, False)]
     assert source.next_time_s() is None
     assert not source.warnings
 
@@ -174,3 +175,17 @@ def test_a_wrong_checksum_is_noticed():
     good = touch(100, 200)
     parser.feed(good[:-1] + bytes([good[-1] ^ 0x10]))
     assert parser.next_packet() is None
+
+
+def test_a_port_with_another_baud_rate_or_protocol_is_said_once_until_a_packet_comes(port, source):
+    for k in range(30):
+        port.send(b"\x80\x7f\x00\xff\x81" * 2)
+        assert samples(source, 1.0 + k) == []
+    assert source.warnings == {"bytes_skipped": 300, "no_packets": 1}
+    port.send(touch(1, 1, INITIAL))
+    assert len(samples(source, 40.0)) == 1
+    for k in range(15):
+        port.send(b"\x80\x7f\x00\xff\x81" * 2)
+        samples(source, 41.0 + k)
+    assert source.warnings["no_packets"] == 2
+    assert "no_packets" in FAULTS

@@ -1,4 +1,5 @@
 import gc
+import math
 import sys
 import tracemalloc
 from functools import partial
@@ -163,20 +164,21 @@ def test_each_report_of_another_finger_counts_once():
     assert [len(t.read(1 + k * PERIOD_S)) for k in range(4)] == [0, 0, 0, 2]
 
 
-def test_a_palm_is_never_given_and_a_finger_that_becomes_one_is_released_for_good():
-    t = tracker(
-        (1.0, [touch(0, 100, size_mm=30.1), touch(1, 50, size_mm=30.0)]),
-        (1.01, [touch(0, 101, size_mm=5.0), touch(1, 51, size_mm=30.1)]),
-        (1.02, [touch(0, 102, size_mm=5.0), touch(1, 52, size_mm=5.0)]),
-        (1.03, []),
-        (1.04, [touch(2, 52, size_mm=5.0)]),
-    )
-    assert in_short(played(t)) == [(1, 50, 1.0, True), (1, 50, 1.01, False), (2, 52, 1.04, True)]
-    assert (t.tracking.palms, t.tracking.flickers, t.tracking.ghosts) == (2, 0, 0)
+def test_a_finger_that_becomes_a_palm_is_released_at_once_and_a_suspect_is_no_ghost_then():
+    palm = touch(0, 100)._replace(size_m=math.inf)  # what the stage before says of it
 
+    class Source(ScriptedSource):
+        def read(self, now_s):
+            samples = super().read(now_s)
+            return tuple([s if s.contact else s._replace(size_m=palm.size_m) for s in samples])
 
-def test_a_contact_of_unknown_size_is_a_finger():
-    assert in_short(played(tracker(*reports(100), max_size_mm=0.1))) == [(0, 100, 1.0, True)]
+    t = Tracker(Source((1.0, [touch(0, 100)]), (1.01, [])), TOUCH, 0.210, 0.148)
+    t.read(1.0)
+    assert in_short(t.read(1.01)) == [(0, 100, 1.01, False)]
+    t = Tracker(Source((1.0, [touch(0, 100)]), (1.01, [])), TOUCH, 0.210, 0.148)
+    t.emitted(0.999, 1.001)
+    assert played(t) == []
+    assert (t.tracking.held_back, t.tracking.ghosts, t.tracking.flickers) == (1, 0, 0)
 
 
 def test_the_place_of_a_lost_finger_is_the_last_one_and_that_of_a_released_one_is_unknown():
@@ -244,6 +246,20 @@ def test_rate_and_jitter_are_those_of_the_panel():
     assert t.rate.period_s == pytest.approx(8e-3, rel=0.05)
 
 
+def test_a_slow_panel_that_reports_changes_only_shows_its_period_by_the_first_finger_that_comes_back():
+    """A finger that rests, found at 0, 0.6, … s, lost for 30 ms each time."""
+    t = tracker(*[report for k in range(9) for report in ((1 + 0.63 * k, [touch(k, 100)]), (1.6 + 0.63 * k, []))])
+    assert len({sample.finger for sample in played(t)}) == 2
+    assert t.rate.period_s == pytest.approx(0.03)
+    assert t.tracking.bridged == 7
+
+
+def test_taps_50_ms_apart_are_taps_whatever_is_known_of_the_panel():
+    t = tracker(*[report for k in range(9) for report in ((1 + 0.1 * k, [touch(k, 100)]), (1.05 + 0.1 * k, []))])
+    assert len({sample.finger for sample in played(t)}) == 9
+    assert t.rate.measured == t.tracking.bridged == 0
+
+
 def test_pauses_between_touches_are_not_in_the_rate():
     t = tracker(*[report for k in range(9) for report in reports(50, 51, None, start_s=1 + 0.05 * k)])
     played(t)
@@ -299,7 +315,7 @@ def test_a_recording_passes_through_but_for_what_is_bridged(board, name):
     bare = played(RecordingSource(recording, axes, 0.0))
     t = Tracker(RecordingSource(recording, axes, 0.0), board.touch, board.plate.length_m, board.plate.width_m)
     found = played(t)
-    assert t.tracking.bridged == t.tracking.ghosts == t.tracking.palms == 0
+    assert t.tracking.bridged == t.tracking.ghosts == t.figures()["palms"] == 0
     assert sorted(found) == sorted(bare)
     assert [s for s in found if s.contact] == [s for s in bare if s.contact]
     assert t.counts.contacts == len({s.finger for s in bare})

@@ -221,7 +221,7 @@ def test_a_rollback_that_is_read_once_more_is_not_one_step_more(device):
 
 def test_two_of_it_run_one_after_the_other(device):
     device.ask("trial", "2.0")
-    state = os.open(device.layout.state, os.O_RDONLY)
+    state = os.open(device.layout.root / ".lock", os.O_RDONLY)
     try:
         fcntl.flock(state, fcntl.LOCK_EX)
         with subprocess.Popen([SCRIPT, "boot"], env=device.environment(), stderr=subprocess.PIPE) as started:
@@ -233,6 +233,68 @@ def test_two_of_it_run_one_after_the_other(device):
     finally:
         os.close(state)
     assert device.current == "2.0"
+
+
+def test_what_others_may_open_and_lock_holds_nothing_up(device):
+    """Any user of the device can open these folders, and hold a lock on them."""
+    device.ask("trial", "2.0")
+    folders = [device.layout.root, device.layout.state, device.layout.requests, device.layout.releases]
+    held = [os.open(folder, os.O_RDONLY) for folder in folders]
+    try:
+        for folder in held:
+            fcntl.flock(folder, fcntl.LOCK_EX)
+        done = device.run("boot", path=f"{refusing_to_wait(device)}:")
+    finally:
+        for folder in held:
+            os.close(folder)
+    assert "release 2.0 is on trial, start 1 of 3" in done.stderr
+    assert device.current == "2.0"
+    assert (device.layout.root / ".lock").stat().st_mode & 0o777 == 0o600
+
+
+def refusing_to_wait(device):
+    """A folder of a flock that takes a lock at once or not at all."""
+    folder = device.tools / "at_once"
+    folder.mkdir()
+    (folder / "flock").write_text("#!/bin/sh\nexec /usr/bin/flock -n 9\n")
+    (folder / "flock").chmod(0o755)
+    return folder
+
+
+@pytest.mark.parametrize("command", ["boot", "requests", "failed", "late", "adopt"])
+def test_without_the_lock_nothing_is_changed_and_a_start_has_its_release(device, command):
+    """Another of these scripts hangs, as a disk does not answer."""
+    device.ask("trial", "2.0")
+    (device.layout.requests / "stands").write_text("2.0\n")
+    device.asked()
+    before = everything(device)
+    with (device.layout.root / ".lock").open("ab") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        done = device.run(command, *(["2.0"] if command == "adopt" else []), path=f"{refusing_to_wait(device)}:")
+    (line,) = done.stderr.splitlines()
+    if command == "boot":
+        assert (done.returncode, device.current) == (0, "1.0")
+        assert "release 1.0 is used, and nothing is changed: " in line
+    else:
+        assert done.returncode == 1
+        assert f"{command}: not done: " in line
+    assert ".lock was not had in 20 s: another of these is at work" in line
+    assert (everything(device), device.asked()) == (before, [])
+    device.run("boot")
+    assert device.current == "2.0", "what was asked for is done later"
+
+
+def test_without_the_lock_and_without_a_release_a_start_fails(device):
+    device.layout.current.unlink()
+    with (device.layout.root / ".lock").open("ab") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        assert device.run("boot", path=f"{refusing_to_wait(device)}:").returncode == 1
+
+
+def everything(device):
+    """Files of the state and requests, and what `current` leads to."""
+    files = {file.name: file.read_text() for folder in (device.layout.state, device.layout.requests) for file in folder.iterdir()}
+    return device.current, files
 
 
 def waiting_for_a_lock(parent):
@@ -307,6 +369,23 @@ def test_requests_that_mean_nothing_are_dropped(device):
     device.run("requests")
     assert not list(device.layout.requests.iterdir())
     assert device.current == "1.0"
+
+
+def test_a_start_does_not_wait_for_what_the_updater_puts_among_its_requests(device):
+    """Files without number, trees, pipes: another user's; they are removed after the start, and a start takes what it knows."""
+    for number in range(300):
+        (device.layout.requests / f"z{number}").write_text("2.0\n")
+    (device.layout.requests / "bad" / "deep").mkdir(parents=True)
+    os.mkfifo(device.layout.requests / "good")
+    (device.layout.requests / "trial").write_text("2.0\n")
+    done = device.run("boot")
+    assert done.stderr.splitlines() == ["haptic-panel: release 2.0 is on trial, start 1 of 3"]
+    assert device.current == "2.0"
+    assert len(list(device.layout.requests.iterdir())) == 302
+    device.asked()
+    device.run("requests")
+    assert not list(device.layout.requests.iterdir())
+    assert not device.asked()
 
 
 @pytest.mark.parametrize("name", ["current", "previous", "trial", "tries", "failed"])

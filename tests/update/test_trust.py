@@ -307,7 +307,7 @@ def test_a_device_without_a_clock_refuses_what_has_expired(case):
     """It begins at 1970: what it knows for sure counts."""
     wrong = datetime(1970, 1, 1, tzinfo=UTC)
     assert case.fetch(now=wrong) == case.two
-    assert (case.device.layout.download / "clock").read_text() == "2026-11-22T12:00:00Z\n"
+    assert (case.device.layout.download / "clock").read_text() == "2026-11-22T12:00:00Z 1 2\n"
     publisher = case.publisher
     publisher.now = NOW + timedelta(days=200)
     publisher.publish()
@@ -334,25 +334,26 @@ def test_a_free_running_clock_is_never_kept_and_a_synchronised_one_is(case, tmp_
     later = NOW + timedelta(days=60)
     case.fetch(now=later)
     file = case.device.layout.download / "clock"
-    assert file.read_text() == "2026-11-22T12:00:00Z\n"
+    assert file.read_text() == "2026-11-22T12:00:00Z 1 2\n"
     set_from_network = tmp_path / "synchronized"
     set_from_network.touch()
     metadata = case.publisher.folder / "metadata"
     timestamp = Metadata[Timestamp].from_file(str(metadata / "timestamp.json")).signed
+    targets = Metadata[Targets].from_file(str(metadata / "2.targets.json")).signed
     root = Metadata[Root].from_file(str(metadata / "1.root.json")).signed
-    clock.keep(file, timestamp, root, later, set_from_network)
-    assert file.read_text() == "2027-01-21T12:00:00Z\n"
-    clock.keep(file, timestamp, root, datetime(2099, 1, 1, tzinfo=UTC), set_from_network)
-    assert file.read_text() == clock.as_text(timestamp.expires) + "\n"
-    clock.keep(file, timestamp, root, NOW, set_from_network)  # never back
-    assert file.read_text() == clock.as_text(timestamp.expires) + "\n"
+    clock.keep(file, root, targets, timestamp, later, set_from_network)
+    assert file.read_text() == "2027-01-21T12:00:00Z 1 2\n"
+    clock.keep(file, root, targets, timestamp, datetime(2099, 1, 1, tzinfo=UTC), set_from_network)
+    assert file.read_text() == clock.as_text(timestamp.expires) + " 1 2\n"
+    clock.keep(file, root, targets, timestamp, NOW, set_from_network)  # never back
+    assert file.read_text() == clock.as_text(timestamp.expires) + " 1 2\n"
 
 
 def test_a_stolen_timestamp_key_cannot_move_the_time_beyond_what_is_valid(case):
     case.publisher.issued = datetime(2099, 1, 1, tzinfo=UTC)
     case.publisher.stamp()
     case.fetch()
-    assert (case.device.layout.download / "clock").read_text() == "2027-02-20T12:00:00Z\n"
+    assert (case.device.layout.download / "clock").read_text() == "2027-02-20T12:00:00Z 1 3\n"
     assert "its owner has to sign it again" in case.refused("is expired", now=NOW + timedelta(days=91))
 
 

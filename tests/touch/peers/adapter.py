@@ -14,6 +14,7 @@ from peers.i2c_chip import READ, BusHangs, NotAcknowledged
 
 I2C_TIMEOUT, I2C_FUNCS, I2C_RDWR = 0x0702, 0x0705, 0x0707
 PLAIN = int(smbus2.I2cFunc.I2C)
+NAMES = ("INT", "RST", "", "NC", "NC")  # of the lines of the GPIO chip, by their numbers
 
 
 class Adapter:
@@ -57,7 +58,8 @@ class Adapter:
 class Lines:
     """INT and RST of a chip; `request_lines`, `Chip` and `LineSettings` as `gpiod` has them.
 
-    A line that nobody drives is pulled up. `driven`: name to level; `listening`: the edge that is waited for.
+    A line that nobody drives is pulled up, but an interrupt line whose chip signals by rising edges down. `driven`: name to level;
+    `listening`: the edge that is waited for. `cut`: no edge comes; `held`: the level that the interrupt line has for ever.
     """
 
     LineSettings = SimpleNamespace
@@ -68,19 +70,22 @@ class Lines:
         self.driven = {}
         self.listening = None
         self.edges = []
+        self.cut = False
+        self.held = None
         self.history = []  # (time, name, level) that the host drove
 
-    def pulse(self):
+    def pulse(self, edges=1):
         """The chip pulls its interrupt pin away from rest and back: one edge of either kind, if the host listens."""
-        if self.listening is not None:
-            self.edges.append(self.now_s())
+        if self.listening is not None and not self.cut:
+            self.edges += [self.now_s()] * edges
 
     def level(self, name):
         return self.driven.get(name, True)
 
     def request_lines(self, path, consumer, config):
         assert (path, consumer) == ("/dev/gpiochip0", "haptic-panel touch")
-        ((name, settings),) = config.items()
+        ((number, settings),) = config.items()
+        name = NAMES[number]
         if settings.direction is Direction.OUTPUT:
             return _Output(self, name, settings.output_value)
         assert name == "INT"
@@ -109,10 +114,11 @@ class _Chip:
     def __exit__(self, *error):
         pass
 
-    def line_offset_from_id(self, name):
-        if name not in ("INT", "RST"):
-            raise OSError(errno.ENOENT, "no such line")
-        return 0
+    def get_info(self):
+        return SimpleNamespace(num_lines=len(NAMES))
+
+    def get_line_info(self, number):
+        return SimpleNamespace(name=NAMES[number])
 
 
 class _Output:
@@ -121,8 +127,8 @@ class _Output:
         self._lines, self._name = lines, name
         lines.drive(name, value is Value.ACTIVE)
 
-    def set_value(self, name, value):
-        self._lines.drive(name, value is Value.ACTIVE)
+    def set_value(self, number, value):
+        self._lines.drive(NAMES[number], value is Value.ACTIVE)
 
     def release(self):
         self._lines.drive(self._name, None)
@@ -135,6 +141,11 @@ class _Input:
         self._lines = lines
         self.fd = 1000
         lines.listening, lines.edges = edge, []
+
+    def get_value(self, number):
+        assert NAMES[number] == "INT"
+        rests_high = self._lines.listening is Edge.FALLING
+        return Value.ACTIVE if (rests_high if self._lines.held is None else self._lines.held) else Value.INACTIVE
 
     def wait_edge_events(self, _timeout):
         return bool(self._lines.edges)
