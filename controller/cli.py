@@ -14,8 +14,8 @@ from functools import partial
 from importlib import import_module
 
 from controller import __version__
-from controller.errors import ConfigError, ControllerError
-from controller.log import Priority, line
+from controller.console import program
+from controller.errors import ConfigError
 
 COMMANDS = {  # in the order of --help, which prints these texts; each is a module of `commands`
     "run": "run a panel; without devices: replay a touch recording on the simulated panel",
@@ -37,37 +37,24 @@ COMMANDS = {  # in the order of --help, which prints these texts; each is a modu
 }
 
 
+@program
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code (0, or 2 usage, 78 configuration, 69 device missing, 1 otherwise)."""
     arguments = sys.argv[1:] if arguments is None else arguments
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # outside the event loop it ends a command as Ctrl-C does
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as a shell starts what runs behind it
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         options = parser(arguments).parse_args(arguments)
         command: Callable[[argparse.Namespace], int] = options.command
         return command(options)
-    except ControllerError as error:
-        print(line(str(error), Priority.ERROR), file=sys.stderr)
-        return error.exit_code
     except ModuleNotFoundError as error:
         from controller.service.installation import missing_package
 
         missing = missing_package(error.name)
         if missing is None:
             raise
-        print(line(missing, Priority.ERROR), file=sys.stderr)
-        return ConfigError.exit_code
-    except BrokenPipeError:
-        sys.stderr.close()
-        return 1
-    except OSError as error:
-        print(line(str(error), Priority.ERROR), file=sys.stderr)
-        return 1
-    except MemoryError:
-        print(line("not enough memory for what was asked", Priority.ERROR), file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print(line("interrupted", Priority.ERROR), file=sys.stderr)
-        return 130
+        raise ConfigError(missing) from error
 
 
 def parser(named: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:

@@ -90,7 +90,7 @@ module haptic_core #(
     wire [63:0] now;
     wire        command, trigger, trigger_level, run_permit, temperature_ok;
     wire        arm, disarm, clear, stop;
-    wire        off, settling, armed, ramp_up, ramp_down, stopping, alive, shut;
+    wire        off, settling, armed, ramp_up, ramp_down, stopping, alive, shut, faulted;
     wire        quiet, settled;
     assign      inputs = {trigger_level, temperature_ok, run_permit};
 
@@ -239,7 +239,7 @@ module haptic_core #(
     wire [7:0]             chunks;
     wire [2:0]             read_chunk;
     wire [6:0]             read_within;
-    wire                   faulted, missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
+    wire                   missing, underrun, play_read, play_live, head, head_live, head_polarity, head_delayed, head_delayed_one, pop;
     wire                   queue_full, queue_uses_landing, player_uses_landing, player_live;
     wire [15:0]            head_count;
     wire                   head_triggered, head_scheduled, head_immediate;

@@ -164,6 +164,7 @@ module register_file #(
 
     wire [31:0] bit_ticks     = {16'd0, bit_period_q[31:16]};
     wire        hold;
+    reg  [31:0] high;              // the other half of a time
     wire [31:0] own;               // of this link
     reg  [1:0]  which_q;
     wire [31:0] frame_errors = own, sequence_gaps = own, held = own;
@@ -174,7 +175,6 @@ module register_file #(
     );
 
     reg [31:0] value;              // of the register
-    reg [31:0] high;               // the other half of a time
     reg        low;                // whose LOW the register is
     reg        setting;            // it is a setting, which takes words from least to most without a bit of barred
     reg [31:0] least, most, barred;
@@ -309,6 +309,7 @@ module register_file #(
             apart = (word0 & barred) != 32'd0 || (register == `REGISTER_BIT_PERIOD && word0[31:16] < pulse_ticks_q);
         end
     end
+    reg known_q;                   // there is such a register
     assign hold = read_i && known_q && low;
 
     always @(posedge clk_i) begin
@@ -316,7 +317,7 @@ module register_file #(
     end
 
     // Address and words rest long before their frame ends: what they mean is found out a clock early, whether a word fits two
-    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, below_q, above_q, apart_q, takes_q, known_q, idle_q;
+    reg arm_q, disarm_q, clear_q, stop_q, unlock_q, trigger_q, key_good_q, control_q, setting_q, below_q, above_q, apart_q, takes_q, idle_q;
 
     wire in_range = !below_q && !above_q && !apart_q;
     wire command = address_i == `REGISTER_CONTROL;

@@ -26,6 +26,8 @@ def tracked():
     [["ruff", "check", "--no-cache"], ["ruff", "format", "--check", "--no-cache"], ["mypy"], ["lint-imports", "--no-cache"]],
 )
 def test_style_types_and_layers(command):
+    if command == ["mypy"] and sys.version_info[:2] != (3, 11):
+        pytest.skip("types are those of the packages that Python 3.11 gets: the oldest, and Debian 12's")
     done = subprocess.run([TOOLS / command[0], *command[1:]], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import Any
 
 import msgspec
 
 from controller.application_socket.client import DEFAULT_PATH, PanelClient
-from controller.errors import ControllerError
+from controller.console import ReaderGone, flush, program, say
 
 
+@program
 def main(arguments: list[str] | None = None) -> int:
     """Command line of the client; messages of the panel go to stdout, one JSON object a line."""
     options = _parser().parse_args(arguments)
     try:
         with PanelClient(options.socket) as panel:
             return _run(panel, options)
-    except ControllerError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return error.exit_code
-    except (KeyboardInterrupt, BrokenPipeError):
+    except (KeyboardInterrupt, ReaderGone):  # how `touches` and `state --follow` end
         return 0
 
 
@@ -54,8 +51,8 @@ def _run(panel: PanelClient, options: argparse.Namespace) -> int:
 
 
 def _show(what: Any) -> None:
-    sys.stdout.write(msgspec.json.encode(what).decode() + "\n")
-    sys.stdout.flush()
+    say(msgspec.json.encode(what).decode())
+    flush()
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -79,6 +79,11 @@ class Clients:
         """Every connected client."""
         return (client for client in self.places if client.open)
 
+    @property
+    def connected(self) -> int:
+        """How many clients are connected."""
+        return sum(client.open for client in self.places)
+
     def fileno(self) -> int:
         """File that is readable when `receive` has something to do."""
         return self._epoll.fileno()
@@ -189,8 +194,8 @@ class Clients:
             self._counters.turned_away += 1
             _send_away(accepted, reason)
             return
-        self._counters.clients += 1
-        place.begin(accepted, self._counters.clients, now_s, peer, rights)
+        self._counters.clients_accepted += 1
+        place.begin(accepted, self._counters.clients_accepted, now_s, peer, rights)
         self._watch(place, select.EPOLLIN)
         self._count_users()
 

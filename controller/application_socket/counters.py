@@ -14,7 +14,7 @@ class SocketCounters:
     Each of `lines` is counted in exactly one of `played`, `merged`, `skipped`, `refused` and `done`, or still waits.
     """
 
-    clients: int = 0  # accepted
+    clients_accepted: int = 0  # so far
     turned_away: int = 0  # no place left, for all clients or for those of one user
     without_right: int = 0  # clients that may not even play: they are told so and disconnected
     gave_way: int = 0  # silent clients disconnected because their place was needed

@@ -221,7 +221,7 @@ class Requests:
             "state": condition.state.value,
             "cause": condition.cause,
             "temperature_c": condition.temperature_c,
-            "application_socket": asdict(self._counters),
+            "application_socket": {"clients_connected": self._clients.connected} | asdict(self._counters),
         }
 
     def _greeting(self, client: Connection, number: Id, control: PanelControl) -> messages.Greeting:

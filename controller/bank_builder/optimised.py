@@ -27,6 +27,7 @@ from tqdm import tqdm
 
 from controller.bank.file_format import creator
 from controller.bank.packing import WORD
+from controller.bank_builder.dask_client import dask_errors, open_client, results_of
 from controller.board.board import Board
 from controller.errors import BankError, UsageError
 from controller.physics.impulse_response import ResponseModel
@@ -38,8 +39,6 @@ Words = NDArray[np.uint32]
 METHOD_CODE = ("exact.py", "field_form.py", "audible_form.py", "descent.py")
 TASKS_PER_WORKER = 4  # at least, so that all end at about the same time
 CELLS_OF_A_STRANGER = 8  # some seconds of work
-FOUND_WITHIN_S = 30.0  # a scheduler on another machine
-LOST_WORKERS = 10  # that one group of cells may have had; more, and it is taken to be the cause
 ONE_AT_A_TIME = threading.Lock()  # in a process: the response model has one workspace, and a dask worker may have several threads
 RECORD = struct.Struct("<I")  # cell; then its words; then the CRC-32 of both
 
@@ -195,33 +194,18 @@ def _computed(tasks: list[Task], workers: Workers) -> Generator[tuple[int, Words
     if workers.address is None and workers.processes == 1:
         yield from enumerate(map(compute, tasks))
         return
-    import dask
-    from distributed import CancelledError, Client, KilledWorker, LocalCluster, as_completed
-
     with contextlib.ExitStack() as stack:
-        stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": LOST_WORKERS}))
-        try:
-            cluster: Any = workers.address or stack.enter_context(
-                LocalCluster(
-                    n_workers=workers.processes,
-                    threads_per_worker=1,
-                    memory_limit=0,
-                    dashboard_address=None,
-                    silence_logs="CRITICAL",
-                )
-            )
-            client = stack.enter_context(Client(cluster, timeout=FOUND_WITHIN_S))
-        except (OSError, ValueError) as error:
-            raise BankError(f"--dask {workers.address}: no dask scheduler answers there ({error})") from error
-        number_of = {future: number for number, future in enumerate(client.map(compute, tasks, pure=False))}
-        try:
-            for future in as_completed(list(number_of)):
-                yield number_of[future], future.result()
-                future.release()
-        except (KilledWorker, CancelledError, OSError) as error:
-            raise BankError(
-                f"the workers are lost ({error}); what they have done is kept: the same command goes on there"
-            ) from error
+        where = f"--dask {workers.address}" if workers.address else f"--workers {workers.processes}"
+        with dask_errors(where):
+            client = stack.enter_context(open_client(workers.address, workers.processes))
+            number_of = {future: number for number, future in enumerate(client.map(compute, tasks, pure=False))}
+            results = results_of(number_of)
+        while True:
+            with dask_errors(where):  # of dask, not of who takes the results
+                found = next(results, None)
+            if found is None:
+                return
+            yield found
 
 
 class _Kept:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import platform
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import scipy
 from threadpoolctl import threadpool_info
 
 from controller import __version__, kernel
+from controller.programs import ProgramError, run_program
 
 
 def environment() -> dict[str, Any]:
@@ -59,9 +59,9 @@ def _commit() -> str | None:
         return None
     try:
         told = [
-            subprocess.run(["git", "-C", root, *words], capture_output=True, text=True, check=True, timeout=10).stdout.strip()
+            run_program(["git", "-C", root, *words], 10.0).out.strip()
             for words in (["rev-parse", "--short=12", "HEAD"], ["status", "--porcelain", "--untracked-files=no"])
         ]
-    except (OSError, subprocess.SubprocessError):
+    except ProgramError:
         return None
     return told[0] + "+" * bool(told[1])

@@ -23,6 +23,7 @@ from controller.benchmark.focus_figures import emit, random_points
 from controller.benchmark.plot_optimised import plot_optimised
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
+from controller.console import program, say
 from controller.physics.audible import surface_energy
 from controller.physics.impulse_response import ResponseModel
 from controller.physics.plate import mode_cut_hz
@@ -147,7 +148,8 @@ def table(told: Figures) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
+@program
+def main() -> int:
     """Print the table, or the figures as JSON."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--board", default="simulated")
@@ -158,9 +160,10 @@ def main() -> None:
     options = parser.parse_args()
     if options.plot:
         picture(load_board(find_board(options.board)), options.plot)
-        return
+        return 0
     told = figures(load_board(find_board(options.board)), options.cells, options.seed)
-    print(json.dumps(told) if options.json else table(told))  # noqa: T201
+    say(json.dumps(told) if options.json else table(told))
+    return 0
 
 
 if __name__ == "__main__":

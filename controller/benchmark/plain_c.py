@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import os
 import shutil
-import subprocess
 from array import array
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,8 +15,10 @@ from controller.bank.packing import WORD
 from controller.bank.reader import Bank
 from controller.errors import ConfigError
 from controller.kernel import Point
+from controller.programs import ProgramError, run_program
 
 SOURCE = Path(__file__).with_name("compose_reference.c")
+COMPILE_S = 300.0  # that a compiler may take
 SAMPLES = 1000  # of a waveform: fixed in the source
 
 
@@ -85,8 +86,9 @@ def _compiled(folder: Path) -> Path:
     if not shutil.which(compiler):
         raise ConfigError(f"no C compiler ({compiler}): what plain C takes is left out")
     library = folder / "compose_reference.so"
-    command = [compiler, "-O3", "-Wall", "-Wextra", "-Werror", "-fno-math-errno", "-shared", "-fPIC"]
-    done = subprocess.run([*command, "-o", library, SOURCE, "-lm"], capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise ConfigError(f"{compiler} cannot compile {SOURCE.name}: {done.stderr.strip().splitlines()[-1:]}")
+    command = [compiler, "-O3", "-fno-math-errno", "-shared", "-fPIC"]
+    try:
+        run_program([*command, "-o", library, SOURCE, "-lm"], COMPILE_S)
+    except ProgramError as error:
+        raise ConfigError(f"{SOURCE.name} is not compiled: {error}") from error
     return library

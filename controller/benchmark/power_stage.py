@@ -22,6 +22,7 @@ import numpy as np
 from controller.benchmark.power import worst_edge_j
 from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
+from controller.console import program, say, tell
 from controller.fpga.build_parameters import BuildParameters
 from controller.physics.driver import DriverResponse
 from controller.simulation.ngspice import Floats, Traces, transient
@@ -485,6 +486,7 @@ def table(figures: Sequence[Figure]) -> str:
     return "\n".join(["| figure, worst corner | measured | limit | because |", "|---|---|---|---|", *rows])
 
 
+@program
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table, or what finds the wrong parts; 1 if a figure is beyond its limit, or a wrong part is not found."""
     parser = argparse.ArgumentParser(
@@ -504,17 +506,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 f"{figure.name}: {figure.value:.3g} {figure.unit}" for figure in measure(board, parts, [bench]) if not figure.good
             ]
             missed += not bad
-            sys.stdout.write(f"{what}: {'; '.join(bad) or 'NOT FOUND'}\n")
+            say(f"{what}: {'; '.join(bad) or 'NOT FOUND'}")
         return int(missed > 0)
     figures = measure(board)
-    sys.stdout.write(table(figures) + "\n")
+    say(table(figures))
     if options.write:
         readme = data_folder("boards") / "stage" / "README.md"
         head, _, rest = readme.read_text().partition(BEGIN)
         readme.write_text(f"{head}{BEGIN} {digest()} -->\n{table(figures)}\n{END}{rest.partition(END)[2]}")
     beyond = [figure for figure in figures if not figure.good]
     for figure in beyond:
-        sys.stderr.write(f"beyond its limit: {figure.name}: {figure.value:.3g} {figure.unit}, {figure.limit:.3g} {figure.unit}\n")
+        tell(f"beyond its limit: {figure.name}: {figure.value:.3g} {figure.unit}, {figure.limit:.3g} {figure.unit}")
     return int(bool(beyond))
 
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from controller.benchmark.predictors import METHODS
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
-from controller.errors import ControllerError
+from controller.console import program, say
 from controller.physics.plot import check_picture
 from controller.service.drivers import tracked
 from controller.touch.prediction import Motion
@@ -152,6 +152,7 @@ def plot(path: Path, figures: dict[str, Any]) -> None:
     figure.savefig(path)
 
 
+@program
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line (`sys.argv` by default); the exit code."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.prediction_error", description="Errors of prediction.")
@@ -159,16 +160,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the errors (.png, .svg, .pdf)")
     options = parser.parse_args(arguments)
-    try:
-        if options.plot:
-            check_picture(options.plot)
-        figures = measure(Recording.open(path) for path in options.files)
-        if options.plot:
-            plot(options.plot, figures)
-    except ControllerError as error:
-        sys.stderr.write(f"prediction_error: {error}\n")
-        return error.exit_code
-    sys.stdout.write((json.dumps(figures, allow_nan=False) if options.json else table(figures)) + "\n")
+    if options.plot:
+        check_picture(options.plot)
+    figures = measure(Recording.open(path) for path in options.files)
+    if options.plot:
+        plot(options.plot, figures)
+    say(json.dumps(figures, allow_nan=False) if options.json else table(figures))
     return 0
 
 

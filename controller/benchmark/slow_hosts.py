@@ -29,6 +29,7 @@ from controller.benchmark.slow_host import (
 )
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
+from controller.console import program, say
 from controller.touch.prediction import Motion
 from controller.touch.recording import Recording
 
@@ -141,6 +142,7 @@ def table(rows: Sequence[dict[str, Any]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
+@program
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line (`sys.argv` by default); the exit code."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.slow_hosts", description="Beats of trains on slow hosts.")
@@ -158,8 +160,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 "rates": rates(board, bank, options.seconds / 10, seed=options.seed),
                 "aim_errors": aim_errors(seed=options.seed),
             }
-    shown = json.dumps(figures) if options.json else "\n\n".join(table(rows) for rows in figures.values())
-    sys.stdout.write(shown + "\n")
+    say(json.dumps(figures) if options.json else "\n\n".join(table(rows) for rows in figures.values()))
     return 0
 
 

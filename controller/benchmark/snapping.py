@@ -29,6 +29,7 @@ from controller.benchmark.focus_figures import random_points
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
+from controller.console import program, say
 from controller.fpga.exchange import COMMANDS
 from controller.fpga.frames import FRAME_BYTES, UPLOAD_BYTES, ReadyFrames
 from controller.fpga.play_messages import PlayMessages
@@ -147,7 +148,8 @@ def snapping_table(figures: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
+@program
+def main() -> int:
     """Measure, and print the table, or with --json the figures."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.snapping")
     parser.add_argument("--board", default="simulated")
@@ -160,11 +162,12 @@ def main() -> None:
     if options.cost_of is not None:
         with Bank.open(bank_path(board), board) as bank:
             places_m = np.array(random_points(board, options.seed, options.places))
-            sys.stdout.write(json.dumps(cost(board, bank, options.cost_of, places_m)) + "\n")
-        return
+            say(json.dumps(cost(board, bank, options.cost_of, places_m)))
+        return 0
     figures = snapping_figures(board, options.places, options.seed)
-    sys.stdout.write((json.dumps(figures, indent=1) if options.json else snapping_table(figures)) + "\n")
+    say(json.dumps(figures, indent=1) if options.json else snapping_table(figures))
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -22,7 +22,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path
 from controller.clocks import VirtualClock
-from controller.errors import ControllerError
+from controller.console import program, say, tell
 from controller.loop.wiring import assemble
 from controller.metrics import Counters, Stages
 from controller.scene.scene import Scene, load_scene
@@ -182,6 +182,7 @@ def _rss_bytes() -> int:
     return 0
 
 
+@program
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line (`sys.argv` by default); exit code 1 if memory has grown by more than 1 MB."""
     parser = argparse.ArgumentParser(prog="python -m controller.benchmark.soak", description=(__doc__ or "").splitlines()[0])
@@ -191,21 +192,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--hours", type=float, default=10.0, metavar="H", help="of recorded time (default: 10)")
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
     options = parser.parse_args(arguments)
-    try:
-        board = load_board(find_board(options.board))
-        scene_file = find_scene(board, options.scene)
-        scene = load_scene(scene_file, board)
-        recordings = [Recording.open(Path(name)) for name in options.recordings]
-        path = bank_path(board)
-        with Bank.open(path, board) as bank:
-            told = soak(board, scene, bank, recordings, options.hours, _tell)
-    except ControllerError as error:
-        sys.stderr.write(f"haptic-panel: {error}\n")
-        return error.exit_code
+    board = load_board(find_board(options.board))
+    scene_file = find_scene(board, options.scene)
+    scene = load_scene(scene_file, board)
+    recordings = [Recording.open(Path(name)) for name in options.recordings]
+    path = bank_path(board)
+    with Bank.open(path, board) as bank:
+        told = soak(board, scene, bank, recordings, options.hours, _tell)
     grown = _grown_bytes([hour.rss_bytes for hour in told])
     figures = {"hours": [asdict(hour) for hour in told], "grown_bytes": grown}
     sentence = f"memory grew by {grown} bytes from the first half to the second"
-    sys.stdout.write(f"{json.dumps(figures) if options.json else sentence}\n")
+    say(json.dumps(figures) if options.json else sentence)
     return 1 if grown > 1 << 20 else 0
 
 
@@ -216,11 +213,10 @@ def _grown_bytes(sizes: list[int]) -> int:
 
 
 def _tell(hour: Hour) -> None:
-    sys.stderr.write(
+    tell(
         f"{hour.emissions} emissions, host time of an upload p50 {hour.uploads_host_p50_us} us, p99 {hour.uploads_host_p99_us} us,"
-        f" resident p50 {hour.resident_host_p50_us} us, memory {hour.rss_bytes / 1e6:.1f} MB, {hour.wall_s} s\n"
+        f" resident p50 {hour.resident_host_p50_us} us, memory {hour.rss_bytes / 1e6:.1f} MB, {hour.wall_s} s"
     )
-    sys.stderr.flush()
 
 
 if __name__ == "__main__":

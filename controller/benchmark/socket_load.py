@@ -28,6 +28,7 @@ import msgspec
 
 from controller.application_socket import messages
 from controller.application_socket.client import PanelClient
+from controller.console import program, say
 from controller.errors import ControllerError, LinkError
 from controller.metrics import LatencyHistogram
 
@@ -262,6 +263,7 @@ def _wait_for(path: str, panel: subprocess.Popen[bytes]) -> None:
     raise ControllerError("the simulated panel did not start")
 
 
+@program
 def main(arguments: list[str] | None = None) -> int:
     """Run from the command line (`sys.argv` by default); exit code 1 unless every command was answered exactly once."""
     parser = argparse.ArgumentParser(
@@ -273,16 +275,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--places", type=int, default=24, metavar="N", help="different points (24); few of them stay resident")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options = parser.parse_args(arguments)
-    try:
-        figures = run(options)
-    except ControllerError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return error.exit_code
-    if options.json:
-        sys.stdout.write(json.dumps(figures) + "\n")
-    else:
-        for name, value in figures.items():
-            sys.stdout.write(f"{name:16} {value}\n")
+    figures = run(options)
+    say(json.dumps(figures) if options.json else "\n".join(f"{name:16} {value}" for name, value in figures.items()))
     return 0 if figures["answered_once"] and figures["sums_exact"] else 1
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Final
 
 from controller.board.board import Board
-from controller.errors import BankError
+from controller.errors import BankError, ConfigError
 
 SERVICE = "haptic-panel"  # name of the service's user and group
 SERVICE_STATE = Path("/var/lib/haptic-panel")  # StateDirectory= of the unit
@@ -25,15 +25,37 @@ def state_folder(board: Board | None = None) -> Path:
     """Folder for generated files: $STATE_DIRECTORY, else for a board in /etc that of the service, else the user's cache.
 
     It need not exist.
+
+    Raises
+    ------
+    ConfigError
+        If there is none of these.
     """
     state = os.environ.get("STATE_DIRECTORY")  # set by systemd's StateDirectory=
     if state:
         return Path(state.split(":")[0])
     if board is not None and board.is_the_systems:
         return SERVICE_STATE
+    return user_cache()
+
+
+def user_cache() -> Path:
+    """Folder of the user's cache for this program; it need not exist.
+
+    Raises
+    ------
+    ConfigError
+        If the user has none: a number without an entry of passwd, as containers have it, and no HOME.
+    """
     import platformdirs  # noqa: PLC0415 - what a service needs not
 
-    return platformdirs.user_cache_path("haptic-panel")
+    try:
+        folder = platformdirs.user_cache_path("haptic-panel")
+    except RuntimeError:  # since platformdirs 4.9; before, and without a passwd entry, it is the text ~/.cache
+        folder = Path("~")
+    if not folder.is_absolute():
+        raise ConfigError(f"user {os.geteuid()} has no home folder for what is kept: set HOME, XDG_CACHE_HOME or STATE_DIRECTORY")
+    return folder
 
 
 def bank_path(board: Board, pitch_m: float | None = None) -> Path:

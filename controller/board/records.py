@@ -14,6 +14,7 @@ from msgspec import Meta
 from controller.board.validation import dotted, explain
 from controller.errors import ConfigError
 from controller.regular_file import read_regular
+from controller.text_file import decoded
 
 T = TypeVar("T")
 
@@ -45,7 +46,7 @@ def load_toml(file: Path, kind: type[T]) -> T:
         If the file is absent, unreadable, not TOML, or invalid; the message names file, key and value.
     """
     try:
-        tables = tomllib.loads(read_regular(file, BYTES_MAX, links=True).decode())
+        tables = tomllib.loads(decoded(read_regular(file, BYTES_MAX, links=True)))
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read ({error.strerror})") from error
     except (ValueError, RecursionError) as error:

@@ -15,6 +15,7 @@ from controller.board.board import Board
 from controller.calibration.measurement_file import NAME, MeasurementFile
 from controller.calibration.record_formats import UFF, load_array, load_uff, unreadable
 from controller.errors import CalibrationError
+from controller.text_file import read_text
 
 POINT_NAME = re.compile(r"[A-Za-z0-9_+-][A-Za-z0-9_.+-]{0,63}")  # part of a file's name
 MOST_POINTS = 20_000
@@ -97,7 +98,7 @@ def _points_of_csv(file: Path) -> list[tuple[str, float, float]]:
     try:
         if file.stat().st_size > 100 * MOST_POINTS:
             raise CalibrationError(f"{file}: too large for a list of points")
-        rows = list(csv.reader(file.read_text(encoding="utf-8-sig").splitlines()))
+        rows = list(csv.reader(read_text(file, 100 * MOST_POINTS).splitlines()))
     except OSError as error:
         raise unreadable(file, error) from error
     except (ValueError, csv.Error) as error:

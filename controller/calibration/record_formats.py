@@ -19,6 +19,10 @@ UFF = (".uff", ".unv")
 UFF_QUANTITIES = {8: "m", 11: "m/s", 12: "m/s^2"}  # specific data type of the ordinate
 UFF_UNTOLD = (0, 1)  # unknown, general
 UFF_TIME_RESPONSE = 1
+UFF_UNEVEN = 0  # abscissa_spacing: each sample has its time
+UFF_LINE = 6  # values of a line, of single precision
+UFF_JITTER = 0.01  # of a step, by which a time may differ
+UFF_DIGITS = 1e-6  # of the largest time: times have six digits
 RATE_TOLERANCE = 1e-4  # the abscissa of a set has six digits
 
 Numbers = NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
@@ -114,9 +118,17 @@ def load_uff(file: Path, rate_hz: float, unit: str) -> UffSets:
     Raises
     ------
     CalibrationError
-        Naming file and node: absent, damaged, of another rate or quantity, or two records of one place.
+        Naming file and node: absent, damaged, of another rate or quantity, not evenly spaced, or two records of one place.
     """
-    sets = _uff_sets(file)
+    try:
+        return _records_of(_uff_sets(file), file, rate_hz, unit)
+    except CalibrationError:
+        raise
+    except Exception as error:  # what pyuff reads of a damaged set lacks keys, or has others' types
+        raise unreadable(file, error) from error
+
+
+def _records_of(sets: list[dict[str, Any]], file: Path, rate_hz: float, unit: str) -> UffSets:
     units = [found for found in sets if found.get("type") == 164]
     per_m = float(units[0]["length"]) if units else 1.0  # units of the file in a metre
     if not np.isfinite(per_m) or per_m <= 0:
@@ -138,15 +150,40 @@ def load_uff(file: Path, rate_hz: float, unit: str) -> UffSets:
             raise CalibrationError(f"{where}: a function of type {found['func_type']}, not a time response (1)")
         if (quantity is None and int(found["ordinate_spec_data_type"]) not in UFF_UNTOLD) or quantity not in (None, unit):
             raise CalibrationError(f"{where}: records of {quantity or 'another quantity'}, and records.unit = {unit!r}")
-        check_rate(file, 1 / float(found["abscissa_inc"]), rate_hz)
+        count = int(found["num_pts"])
+        check_rate(file, 1 / _step_s(found, count, where), rate_hz)
         key = point, max(int(found["ref_node"]) - 1, 0), max(int(found["ver_num"]) - 1, 0)
         if key in records:
             raise CalibrationError(f"{where}: two records of emission {key[1]}, repetition {key[2]}")
         samples = np.asarray(found["data"])
-        if samples.dtype.kind != "f" or not samples.size or samples.size != int(found["num_pts"]):
-            raise CalibrationError(f"{where}: {samples.size} real samples, not {found['num_pts']}: cut short or damaged")
+        beyond = samples[count:]  # the last line is filled up, by some analysers with more than zeros
+        if samples.dtype.kind != "f" or not 0 < count <= samples.size or (len(beyond) >= UFF_LINE and beyond.any()):
+            raise CalibrationError(f"{where}: {samples.size} real samples, not {count}: cut short or damaged")
+        samples = samples[:count]
         records[key] = samples.astype(np.float64) / (per_m if quantity else 1.0)
     return UffSets(records, nodes_m)
+
+
+def _step_s(found: dict[str, Any], count: int, where: str) -> float:
+    """Time between the samples of a set 58: as it states it, or that of its abscissa, where that has a value for each sample."""
+    step_s = float(found["abscissa_inc"])
+    if int(found["abscissa_spacing"]) != UFF_UNEVEN:
+        if not step_s > 0:
+            raise CalibrationError(f"{where}: gives {step_s:g} s from sample to sample")
+        return step_s
+    times_s = np.asarray(found["x"], np.float64)[:count]
+    if len(times_s) < 2:
+        raise CalibrationError(f"{where}: {len(times_s)} times of {count} samples")
+    mean_s = float(times_s[-1] - times_s[0]) / (len(times_s) - 1)
+    even_s = times_s[0] + mean_s * np.arange(len(times_s))
+    largest_s = max(float(np.abs(times_s - even_s).max()), 0.0)
+    tolerance_s = UFF_JITTER * mean_s + UFF_DIGITS * float(np.abs(times_s).max())
+    if not (mean_s > 0 and largest_s <= tolerance_s):
+        raise CalibrationError(
+            f"{where}: its samples are not evenly spaced in time (one is {largest_s:.3g} s from where {mean_s:.3g} s from sample to"
+            " sample would put it): export them at a fixed rate"
+        )
+    return mean_s
 
 
 def _uff_sets(file: Path) -> list[dict[str, Any]]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -30,6 +29,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.paths import bank_path, build_line, is_there
 from controller.commands.output import progress_bar, show
+from controller.console import tell
 from controller.errors import BankError, ConfigError, UsageError
 from controller.scene.coverage import cells_needed
 from controller.scene.scene import Scene, Spot, load_scene
@@ -102,18 +102,18 @@ def bank_build(options: argparse.Namespace) -> int:
         scene_file = scene_file or find_scene(board)
         scene = scene or load_scene(scene_file, board)
         choice = _choose(board, scene, scene_file)
-        print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
+        tell(f"{scene_file.name}: {choice['why']}")
     pitch_m = _pitch_m(board, choice) if options.pitch_mm is None else options.pitch_mm * 1e-3
     own = bank_path(board, None if choice else pitch_m)
     path = Path(options.out) if options.out else own
     cells = None if scene is None else _cells(board, pitch_m, scene)
     name, spots = (scene_file.name, scene.spots) if scene_file and scene else (None, ())
     if measured_at(path):
-        print(f"haptic-panel: {path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}", file=sys.stderr)
+        tell(f"{path}: its responses were measured, and become modelled; back: {MEASURE_AGAIN}")
     report = _build(board, path, pitch_m, cells, name, spots, choice, measure=True, options=options)
     show(options, asdict(report), _build_table)
     if path != (played := find_bank(board)).path:
-        print(f"haptic-panel: run plays from {played.path} ({played.why}) unless told --bank {path}", file=sys.stderr)
+        tell(f"run plays from {played.path} ({played.why}) unless told --bank {path}")
     return 0
 
 
@@ -212,12 +212,9 @@ def open_bank(options: argparse.Namespace, board: Board, scene: Scene, scene_fil
                 f" again, {MEASURE_AGAIN}, or give another with --bank"
             )
         count = int(found.cells.sum())
-        print(f"haptic-panel: building the bank {path}: {found.reason}; {count:,} cells, some seconds", file=sys.stderr)
+        tell(f"building the bank {path}: {found.reason}; {count:,} cells, some seconds")
         if aim := optimised_for(path):
-            print(
-                f"haptic-panel: its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}",
-                file=sys.stderr,
-            )
+            tell(f"its entries were optimised, and become plain: {build_line(path, board)} --optimise {aim}")
         path = bank_path(board)
         _build(board, path, pitch_m, found.cells, scene_file.name, scene.spots, choice, measure=False)
     return Bank.open(path, board)
@@ -309,10 +306,10 @@ def _build(
         )
     except KeyboardInterrupt:
         if aim:
-            print("haptic-panel: what is optimised is kept: the same command goes on from there", file=sys.stderr)
+            tell("what is optimised is kept: the same command goes on from there")
         raise
     if warning := interpolation_warning(report.interpolation_error):
-        print(f"haptic-panel: {path}: {warning}", file=sys.stderr)
+        tell(f"{path}: {warning}")
     return report
 
 

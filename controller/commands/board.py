@@ -10,6 +10,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.board.reference import reference, schema
 from controller.commands.output import show
+from controller.console import is_unicode, say
 from controller.errors import ConfigError
 from controller.scene.effects import EffectTable
 from controller.scene.scene_file import find_scene, read_scene
@@ -83,14 +84,14 @@ def board_check(options: argparse.Namespace) -> int:
 
 def board_reference(_: argparse.Namespace) -> int:
     """Print the reference that is committed as board/reference.md."""
-    print(reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED), end="")
+    say(reference("board.toml", Board) + "\n" + reference("scene.toml", SceneTable, NAMED), end="")
     return 0
 
 
 def board_schema(options: argparse.Namespace) -> int:
     """Print the JSON schema that is committed as boards/board.schema.json or boards/scene.schema.json."""
     found = schema(SceneTable, NAMED) if options.scene else schema(Board)
-    print(json.dumps(found, indent=1, ensure_ascii=False))
+    say(json.dumps(found, indent=1, ensure_ascii=not is_unicode()))
     return 0
 
 

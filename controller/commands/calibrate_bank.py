@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +17,7 @@ from controller.board.paths import bank_path
 from controller.commands.bank import MET_AHEAD_M
 from controller.commands.calibrate_check import calibration_cache, declare_accept
 from controller.commands.output import picture_path, progress_bar, show
+from controller.console import tell
 from controller.errors import CalibrationError, ConfigError
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
@@ -96,7 +96,7 @@ def calibrate_bank(options: argparse.Namespace) -> int:
             scene_file = find_scene(board)
             choice = choose(board, load_scene(scene_file, board), scene_file, MET_AHEAD_M, source)
             pitch_mm = choice["pitch_mm"]
-            print(f"haptic-panel: {scene_file.name}: {choice['why']}", file=sys.stderr)
+            tell(f"{scene_file.name}: {choice['why']}")
         grid = Grid.of(board.plate, pitch_mm * 1e-3)
         cells = source.near_enough(grid.points())
         if not cells.any():
@@ -123,11 +123,11 @@ def calibrate_bank(options: argparse.Namespace) -> int:
     if warning := interpolation_warning(report.interpolation_error):
         notes.append(warning)
     for note in notes:
-        print(f"haptic-panel: {note}", file=sys.stderr)
+        tell(note)
     figures = _figures(board, learned, source, waves, decays, drift)
     show(options, {"path": str(path), "cells": report.cells, "bytes": report.bytes} | figures | {"notes": notes}, _table)
     if path != (played := find_bank(board)).path:
-        print(f"haptic-panel: run plays from {played.path} ({played.why}) unless told --bank {path}", file=sys.stderr)
+        tell(f"run plays from {played.path} ({played.why}) unless told --bank {path}")
     return 0
 
 

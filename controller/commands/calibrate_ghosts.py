@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import Any
 
 from controller.bank.reader import Bank
@@ -13,6 +12,7 @@ from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.bank import open_bank
 from controller.commands.calibrate_value import calibrate_value
 from controller.commands.output import progress_bar
+from controller.console import tell
 from controller.errors import ConfigError
 from controller.fpga.link import Link
 from controller.loop.records import Played
@@ -44,9 +44,9 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
     clock: Clock = VirtualClock() if simulated else MonotonicClock()
     with open_bank(options, board, load_scene(scene := find_scene(board, board.scene), board), scene, keep=True) as bank:
         if not simulated:
-            print("haptic-panel: hands off the panel for one to three minutes: it plays by itself", file=sys.stderr, flush=True)
+            tell("hands off the panel for one to three minutes: it plays by itself")
             for warning in enter_realtime(board.realtime):  # a heartbeat that is missed ends it
-                print(f"haptic-panel: {warning}", file=sys.stderr)
+                tell(warning)
         link = open_link(board, clock.now_s)
         try:
             reader = _simulated_panel(board, link) if simulated else open_panel(board)
@@ -86,7 +86,7 @@ def _simulated_panel(board: Board, link: Link) -> EventReader:
     from controller.simulation.ghostly_panel import GhostlyPanel, pins_of
 
     assert isinstance(link, SimulatedLink)
-    print("haptic-panel: a simulated panel: what it does is made up", file=sys.stderr)
+    tell("a simulated panel: what it does is made up")
     return GhostlyPanel(
         board,
         (),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import selectors
-import sys
 from typing import TYPE_CHECKING, Any
 
 from controller.board.board import Board
 from controller.board.touch_panels import RecordingTouch
 from controller.clocks import MonotonicClock
 from controller.commands.calibrate_value import calibrate_value
+from controller.console import tell
 from controller.errors import ConfigError
 from controller.service.drivers import open_panel
 from controller.touch.event_capture import EventCapture, recording_text
@@ -38,7 +38,7 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
             )
         from controller.simulation.simulated_strokes import simulated_strokes
 
-        print(f"haptic-panel: a simulated panel: its lag is {SIMULATED_LAG_S * 1e3:g} ms", file=sys.stderr)
+        tell(f"a simulated panel: its lag is {SIMULATED_LAG_S * 1e3:g} ms")
         return simulated_strokes(board, lag_s=SIMULATED_LAG_S)
 
     from controller.touch.mouse import Mouse
@@ -55,11 +55,7 @@ def _measured(options: argparse.Namespace, board: Board) -> str:
 
 
 def _watched(panel: EventCapture, mouse: Mouse, seconds: float) -> str:
-    print(
-        f"haptic-panel: hold the mouse to the finger and slide both 5 cm to and fro, twice a second, for {seconds:g} s from now on",
-        file=sys.stderr,
-        flush=True,
-    )
+    tell(f"hold the mouse to the finger and slide both 5 cm to and fro, twice a second, for {seconds:g} s from now on")
     clock = MonotonicClock()
     end_s = clock.now_s() + seconds
     steps: list[Event] = []

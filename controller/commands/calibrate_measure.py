@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +12,9 @@ from controller.board.lookup import find_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
 from controller.commands.tables import plain_table
+from controller.console import tell
 from controller.errors import CalibrationError, LinkError, UsageError
+from controller.programs import ProgramError, run_program
 from controller.service.drivers import open_link, open_session, open_simulated
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from controller.calibration.simulated_recorder import SimulatedRecorder
     from controller.fpga.link import Link
 
+MOVE_S = 600.0  # that the program which moves the head may take
 TRIES = 3  # of a point, before the measurement ends
 SENSITIVITIES = {"v_per_m": "m", "v_per_m_s": "m/s", "v_per_m_s2": "m/s^2"}
 
@@ -107,7 +109,7 @@ def measure(options: argparse.Namespace) -> int:
             _move(options, names[index], done, len(names), x_m * 1e3, y_m * 1e3, ask=sensor is None)
             write_records(folder, settings, names[index], _measured(played, names[index]).astype("float32"))
     except KeyboardInterrupt:
-        print(f"haptic-panel: the outputs are off; the same command goes on with what {options.folder} lacks", file=sys.stderr)
+        tell(f"the outputs are off; the same command goes on with what {options.folder} lacks")
         raise
     finally:
         if recorder is not None:
@@ -136,7 +138,7 @@ def _measured(played: InPlace, name: str) -> Any:
         except (CalibrationError, LinkError) as error:
             if attempt == TRIES:
                 raise type(error)(f"point {name}: {error}") from error
-            print(f"haptic-panel: point {name}: {error}; once more", file=sys.stderr)
+            tell(f"point {name}: {error}; once more")
     raise AssertionError
 
 
@@ -210,15 +212,15 @@ def _move(options: argparse.Namespace, name: str, done: int, count: int, x_mm: f
     where = f"point {name} ({done + 1} of {count}): x = {x_mm:.2f} mm, y = {y_mm:.2f} mm"
     if options.move:
         try:
-            subprocess.run([options.move, f"{x_mm:.4f}", f"{y_mm:.4f}"], check=True, stdin=subprocess.DEVNULL)
-        except (OSError, subprocess.CalledProcessError) as error:
+            run_program([options.move, f"{x_mm:.4f}", f"{y_mm:.4f}"], MOVE_S)  # no second try: nobody knows where the head stands
+        except ProgramError as error:
             raise CalibrationError(f"{where}: the head was not moved: {error}") from error
     elif ask and not options.yes:
-        print(f"haptic-panel: outputs are off; put the sensor on {where}, and press Enter", file=sys.stderr, flush=True)
+        tell(f"outputs are off; put the sensor on {where}, and press Enter")
         if not sys.stdin.readline():
             raise CalibrationError(f"{where}: nobody pressed Enter; with --yes nobody is asked")
     else:
-        print(f"haptic-panel: {where}", file=sys.stderr)
+        tell(where)
 
 
 def _check(options: argparse.Namespace, board: Board) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.commands.output import picture_path, show
+from controller.console import tell
 from controller.errors import ConfigError, UsageError
 
 ENOUGH = 0.97  # of the amplitude, foreseen between the points
@@ -83,7 +83,7 @@ def plan(options: argparse.Namespace) -> int:
     show(options, figures, _table)
     if figures["foreseen_share"]["median"] < ENOUGH:
         advice = f"{scattered_count(board)} are proposed" if options.points is not None else "let them reach farther"
-        print(f"haptic-panel: the points foresee less than {ENOUGH:g} of the amplitude between them: {advice}", file=sys.stderr)
+        tell(f"the points foresee less than {ENOUGH:g} of the amplitude between them: {advice}")
     return 0
 
 

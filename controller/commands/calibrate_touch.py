@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import selectors
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.clocks import Clock, MonotonicClock, VirtualClock
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import CalibrationError, UsageError
 from controller.service.drivers import open_touch
 from controller.touch.calibration import (
@@ -160,11 +160,7 @@ def _ask(targets: Sequence[Point], index: int) -> None:
     if index == len(targets):
         return
     x_mm, y_mm = targets[index]
-    print(
-        f"haptic-panel: touch {index + 1} of {len(targets)}: at x = {x_mm:.1f} mm, y = {y_mm:.1f} mm, and hold still",
-        file=sys.stderr,
-        flush=True,
-    )
+    tell(f"touch {index + 1} of {len(targets)}: at x = {x_mm:.1f} mm, y = {y_mm:.1f} mm, and hold still")
 
 
 def _figures(board: Board, targets: Sequence[Point], found: Calibration, written: Path | None) -> dict[str, Any]:

@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from controller.console import say
+
 if TYPE_CHECKING:
     from controller.commands.output import Declare
 
@@ -25,5 +27,5 @@ def add(declare: Declare, _: argparse.ArgumentParser) -> None:
 
 def completion(options: argparse.Namespace) -> int:
     """Print the file that `shell_files` has generated: the device needs no package for it."""
-    print((SHELL_FILES / COMPLETIONS[options.shell]).read_text(encoding="utf-8"), end="")
+    say((SHELL_FILES / COMPLETIONS[options.shell]).read_text(encoding="utf-8"), end="")
     return 0

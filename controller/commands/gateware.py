@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
@@ -17,6 +16,7 @@ from controller.clocks import MonotonicClock, VirtualClock
 from controller.commands import gateware_build, gateware_info, gateware_load
 from controller.commands.output import progress_bar, show
 from controller.commands.tables import check_table
+from controller.console import tell
 from controller.errors import ConfigError
 from controller.fpga import configuration
 from controller.fpga.capture import Capture
@@ -85,7 +85,7 @@ def gateware_check(options: argparse.Namespace) -> int:
     complaints += done.complaints
     show(options, asdict(done) | {"expected": expected, "complaints": complaints, "good": not complaints}, check_table)
     for complaint in complaints:
-        print(f"haptic-panel: {complaint}", file=sys.stderr)
+        tell(complaint)
     return 1 if complaints else 0
 
 
@@ -121,6 +121,6 @@ def gateware_factory(options: argparse.Namespace) -> tuple[GatewareFactory, bool
         raise ConfigError("--link rtl is slower than real time, and the FPGA would call the host silent: use --speed max")
 
     def compiling() -> None:
-        print("haptic-panel: compiling the gateware, about 10 s", file=sys.stderr)
+        tell("compiling the gateware, about 10 s")
 
     return partial(RtlGateware, compiling=compiling), False

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import hashlib
 import os
-import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -18,6 +17,7 @@ from controller.board.board import load_board
 from controller.board.fpga_part import find_part
 from controller.board.lookup import find_board
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import ConfigError, GatewareError, UsageError
 from controller.fpga.bitstream import Figures, figures_path
 from controller.fpga.bitstream_build import Design, Placement, pack, place, synthesise
@@ -120,7 +120,7 @@ def _write(path: Path, data: bytes) -> None:
 
 
 def _tell(text: str) -> None:
-    print(f"haptic-panel: {text}", file=sys.stderr, flush=True)
+    tell(text)
 
 
 def _table(built: dict[str, Any]) -> str:

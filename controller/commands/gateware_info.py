@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import msgspec
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import ConfigError
 from controller.fpga.bitstream import Identity, differences, read_figures, read_identity, sha256_of
 from controller.fpga.build_parameters import top_parameters
@@ -44,9 +44,9 @@ def gateware_info(options: argparse.Namespace) -> int:
     }
     show(options, told, _table)
     if board is None:
-        print(f"haptic-panel: this computer has no board {identity.board!r}: --board compares it with another", file=sys.stderr)
+        tell(f"this computer has no board {identity.board!r}: --board compares it with another")
     for complaint in complaints:
-        print(f"haptic-panel: {file}: {complaint}", file=sys.stderr)
+        tell(f"{file}: {complaint}")
     return 1 if complaints else 0
 
 

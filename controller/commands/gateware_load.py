@@ -7,20 +7,21 @@ import contextlib
 import fcntl
 import os
 import shlex
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 from controller.board.board import Board, load_board
 from controller.board.lookup import find_board
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import ConfigError, GatewareError, LinkError
 from controller.fpga.bitstream import differences, read_identity
+from controller.fpga.bitstream_loader import ATTEMPTS
+from controller.programs import CannotStart, ProgramError, run_program
 from controller.service.drivers import bitstream_path, gateware_hash
 
 TO_MEMORY, TO_FLASH = "--write-sram", "--write-flash"  # of openFPGALoader
-STDERR = 2
+FLASH_S = 600.0  # that writing the flash may take
 PACKAGES = {"openFPGALoader": "openfpgaloader"}  # Debian's, by program
 
 
@@ -48,16 +49,15 @@ def gateware_load(options: argparse.Namespace) -> int:
         raise ConfigError(f"{file}: bring-up would refuse it: {'; '.join(complaints)}")
     command = [word.replace("{bitstream}", str(file)) for word in command]
     with _nobody_else(board):
-        print(f"haptic-panel: {shlex.join(command)}", file=sys.stderr, flush=True)
+        tell(f"{shlex.join(command)}")
+        limit_s = FLASH_S if options.flash else board.gateware.limit_s
+        package = PACKAGES.get(command[0], "")
         try:
-            code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=STDERR, check=False).returncode
-        except FileNotFoundError as error:
-            package = PACKAGES.get(command[0])
-            how = f"apt-get install {package}" if package else "gateware.load of board.toml names it"
-            raise ConfigError(f"{command[0]} is not installed: {how}") from error
-    if code:
-        ended = f"was ended by signal {-code}" if code < 0 else f"ended with exit code {code}"
-        raise GatewareError(f"{command[0]} {ended}: is its USB plugged in?")
+            run_program(command, limit_s, attempts=ATTEMPTS, package=package, shown=True)
+        except CannotStart as error:
+            raise ConfigError(str(error) if package else f"{error}: gateware.load of board.toml names it") from error
+        except ProgramError as error:
+            raise GatewareError(f"{error}: is its USB plugged in?") from error
     show(options, {"file": str(file), "flash": options.flash}, lambda done: f"{done['file']}: loaded")
     return 0
 

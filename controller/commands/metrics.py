@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.application_socket.client import DEFAULT_PATH
+from controller.console import say
 from controller.errors import ControllerError, UsageError
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         except OSError as error:
             raise ControllerError(f"--textfile {file}: cannot be written ({error.strerror})") from error
         return 0
-    print(generate_latest(alone).decode(), end="")
+    say(generate_latest(alone).decode(), end="")
     return 0
 
 

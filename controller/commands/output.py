@@ -8,13 +8,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from controller.console import say
+
 Declare = Callable[..., argparse.ArgumentParser]
 """Makes the parser of a command, by the arguments of `argparse.ArgumentParser`; `cli` has given name and help text."""
 
 
 def show(options: argparse.Namespace, figures: dict[str, Any], table: Callable[[dict[str, Any]], str]) -> None:
     """Print figures on stdout: one JSON object with --json, else a table."""
-    print(json.dumps(figures, allow_nan=False) if options.json else table(figures))
+    say(json.dumps(figures, allow_nan=False) if options.json else table(figures))
 
 
 def progress_bar(what: str) -> Callable[[int, int], None]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +11,7 @@ from controller.board.board import load_board
 from controller.board.lookup import find_board
 from controller.commands.output import show
 from controller.commands.tables import plain_table
+from controller.console import tell
 from controller.service.drivers import open_input, open_panel
 from controller.touch.recorder import open_recording, record
 
@@ -40,14 +40,14 @@ def store(options: argparse.Namespace) -> int:
     try:
         with open_recording(Path(options.out)) as file:
             if not options.json:
-                print(f"haptic-panel: recording {reader.description.name!r}; Ctrl-C ends it", file=sys.stderr)
+                tell(f"recording {reader.description.name!r}; Ctrl-C ends it")
             stored = asdict(record(reader, file, options.seconds))
     finally:
         reader.close()
     for warning in stored["warnings"]:
-        print(f"haptic-panel: {warning}", file=sys.stderr)
+        tell(warning)
     if not stored["events"]:
-        print(f"haptic-panel: {options.out}: holds no event, as the panel sent none: it cannot be replayed", file=sys.stderr)
+        tell(f"{options.out}: holds no event, as the panel sent none: it cannot be replayed")
     show(options, {"file": options.out} | stored, plain_table)
     return 0
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,8 +14,9 @@ from controller.board.paths import state_folder
 from controller.board.touch_panels import RecordingTouch
 from controller.commands.bank import open_bank
 from controller.commands.output import picture_path, progress_bar, show
+from controller.console import tell
 from controller.errors import ConfigError, UsageError
-from controller.log import Priority, line
+from controller.log import Priority
 from controller.scene.edge_rate import edge_warnings
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
@@ -94,7 +94,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
 
     if board.is_the_systems:
         for said in migrate(state_folder(board)):
-            print(line(said, Priority.INFO), file=sys.stderr)
+            tell(said)
     simulating = (options.plot, options.speed == "max", bool(options.plate), options.drift_percent is not None, options.drift)
     if any(simulating):
         raise ConfigError("--plot, --speed max, --plate, --drift are for simulated panels: add --link model to simulate this board")
@@ -107,7 +107,7 @@ def _serve(options: argparse.Namespace, board: Board) -> int:
         replay = Recording.open(recording_path(board, options.replay))
     with open_bank(options, board, scene, scene_file, keep=True) as bank:
         for warning in edge_warnings(scene, board, *bank.worst_edges):
-            print(line(f"{scene_file}: {warning}", Priority.WARNING), file=sys.stderr)
+            tell(f"{scene_file}: {warning}", Priority.WARNING)
         figures = {"bank": str(bank.path)} | serve(board, scene, str(scene_file), bank, replay)
     show(options, figures, service_table)
     return 0
@@ -133,16 +133,13 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
 
     def ready() -> None:
         if real_time:
-            print(
-                f"haptic-panel: playing {recording.name} in real time, {recording.duration_s:.0f} s (Ctrl-C ends it)",
-                file=sys.stderr,
-            )
+            tell(f"playing {recording.name} in real time, {recording.duration_s:.0f} s (Ctrl-C ends it)")
 
     # the loop's and the twin's products are small: a second BLAS thread costs more to wake than it saves
     with open_bank(options, board, scene, scene_file) as bank, threadpool_limits(1, "blas"):
         overdone = [f"{scene_file}: {warning}" for warning in edge_warnings(scene, board, *bank.worst_edges)]
         for warning in overdone:
-            print(f"haptic-panel: {warning}", file=sys.stderr)
+            tell(warning)
         done = simulated_run.play(
             board,
             scene,
@@ -156,10 +153,10 @@ def _simulate(options: argparse.Namespace, board: Board) -> int:
         )
         judged = focus_evaluation.judge(done, progress_bar("plate"))
     if judged.left_out:
-        print(f"haptic-panel: interrupted: {judged.left_out} emissions are not in the figures of the foci", file=sys.stderr)
+        tell(f"interrupted: {judged.left_out} emissions are not in the figures of the foci")
     figures = {"link": options.link or "model", "bank": str(bank.path)} | run_figures.report(done, judged.foci)
     for warning in figures["warnings"]:
-        print(f"haptic-panel: {warning}", file=sys.stderr)
+        tell(warning)
     figures["warnings"] = [*overdone, *figures["warnings"]]
     show(options, figures, run_table)
     if picture:
@@ -184,7 +181,7 @@ def _drifting(options: argparse.Namespace, board: Board) -> tuple[Board, Drift |
     if options.sensor == "none":
         return msgspec.structs.replace(board, temperature=None), drift
     if board.temperature is None:
-        print("haptic-panel: the board has no [temperature], so nothing corrects the drift: add --sensor assumed", file=sys.stderr)
+        tell("the board has no [temperature], so nothing corrects the drift: add --sensor assumed")
     return board, drift
 
 
@@ -192,7 +189,7 @@ def _plot_run(path: Path, board: Board, judged: Judged, recording: str) -> None:
     from controller.physics.plot import plot_focus
 
     if judged.field is None:
-        print("haptic-panel: nothing was played, so there is nothing to draw", file=sys.stderr)
+        tell("nothing was played, so there is nothing to draw")
         return
     foci = sorted(judged.shown, key=lambda focus: -abs(focus.metrics.amplitude_m))
     fingers = sum(focus.emission.finger is not None for focus in foci)

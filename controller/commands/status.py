@@ -11,6 +11,7 @@ import msgspec
 
 from controller.board.panel_state import PLAYS, PanelState
 from controller.board.panel_status import FOLDER, NAME, PanelStatus, is_running, read_now
+from controller.console import say
 from controller.errors import LinkError
 from controller.touch.reports import describe_warnings
 from controller.update.installed import UpdateState, update_state
@@ -47,11 +48,11 @@ def run(options: argparse.Namespace) -> int:
         raise LinkError(f"no service runs: there is no {options.file}: {START}")
     gone = old and (status.ended or not is_running(status.pid))
     if not options.json:
-        print(_in_words(status, old, updates))
+        say(_in_words(status, old, updates))
     else:
         said: dict[str, Any] = msgspec.to_builtins(status)
         more = {"serves": status.serves and not old, "old": old, "uptime_s": status.uptime_s, "updates": updates.figures()}
-        print(json.dumps(said | more))
+        say(json.dumps(said | more))
     if gone:
         raise LinkError(f"no service runs: {options.file} is its last word: {old}: {START}")
     return 0 if status.serves and not old else 1

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import argparse
 import os
-import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
-
-import platformdirs
 
 from controller.bank.file_format import VERSION as BANK_FORMAT
 from controller.bank.file_format import Section
 from controller.bank.reader import Bank
 from controller.board.board import Board, load_board
 from controller.board.lookup import data_folder, find_board
+from controller.board.paths import user_cache
 from controller.commands.output import show
 from controller.errors import BankError, UpdateError, UsageError
 from controller.fpga.bitstream import differences, read_identity
 from controller.fpga.build_hash import build_hash
 from controller.fpga.registers import PROTOCOL_VERSION
+from controller.programs import ProgramError, run_program
 from controller.update.manifest import SETTINGS_FORMAT, Manifest, this_platform
 from controller.update.release_folder import write_release
 
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from controller.update.lock_file import Target
 
 DISTRIBUTION = "haptic-panel"
+GIT_S = 60.0  # for an answer
 PIECE_BYTES_MIN = 256  # rows of a bank shorter than this are one piece: an index has 8 bytes for each
 
 
@@ -43,7 +43,7 @@ def add(step: argparse.ArgumentParser) -> None:
         "--gateware", nargs="+", default=[], type=Path, metavar="FILE", help="bitstreams, by the names boards call them"
     )
     step.add_argument(
-        "--platform", default=this_platform(), metavar="P", help=f"such as aarch64-cp311 (default: {this_platform()})"
+        "--platform", default=this_platform(), metavar="P", help="such as aarch64-cp311 (default: that of this computer and Python)"
     )
     step.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take wheels from here, without a network (default: fetch, build)"
@@ -113,7 +113,7 @@ def _wheels(options: argparse.Namespace, target: Target, systemd: Path, time_s: 
     from controller.update import lock_file, wheel_folder
     from controller.update.sbom import sbom
 
-    tools, cache = systemd / "build.lock", platformdirs.user_cache_path(DISTRIBUTION)
+    tools, cache = systemd / "build.lock", user_cache()
     wanted = lock_file.wanted(lock_file.read_lock(systemd / "requirements.lock"), target)
     folder = options.wheels or wheel_folder.fetched(wanted, target, tools, cache)
     others = list(lock_file.choose(wanted, target, folder).values())
@@ -132,8 +132,12 @@ def _time_s(checkout: Path) -> int:
     told = os.environ.get("SOURCE_DATE_EPOCH")
     if told is None:
         command = ["git", "-C", str(checkout), "log", "-1", "--format=%ct"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        told = done.stdout.strip()
+        try:
+            told = run_program(command, GIT_S, package="git").out.strip()
+        except ProgramError as error:
+            raise UpdateError(
+                f"{checkout}: no checkout whose last commit gives the release its time ({error}): set SOURCE_DATE_EPOCH"
+            ) from error
     if not told.isdecimal():
         raise UpdateError(f"{checkout}: is no checkout whose last commit gives the release its time: set SOURCE_DATE_EPOCH")
     return int(told)

@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from controller.commands.output import show
+from controller.console import tell
 from controller.errors import UpdateError, UsageError
+from controller.text_file import read_text
 
 if TYPE_CHECKING:
     from securesystemslib.signer import CryptoSigner
@@ -127,8 +129,8 @@ def sign_draft(options: argparse.Namespace) -> int:
     from controller.update.publisher import Repository, now
 
     with Repository.opened(options.repository, dated=options.date) as repository:
-        for line in describe(repository):
-            print(line, file=sys.stderr)
+        for part in describe(repository):
+            tell(part)
         must_be(repository, options.same_as)
         for copy in options.copies:
             repository.take(copy)
@@ -226,10 +228,10 @@ def _passphrase(options: argparse.Namespace, key: Path, new: bool = False) -> st
     """The passphrase: of a file, of the environment, or asked at the terminal (twice for a new key)."""
     if options.passphrase_file:
         try:
-            text: str = options.passphrase_file.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+            text = read_text(options.passphrase_file)
+        except (OSError, ValueError) as error:
             raise UpdateError(f"{options.passphrase_file}: the passphrase cannot be read: {error}") from error
-        return text.rstrip("\r\n")
+        return text.rstrip("\n")
     if PASSPHRASE in os.environ:
         return os.environ[PASSPHRASE]
     if not sys.stdin.isatty():

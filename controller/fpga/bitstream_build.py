@@ -13,7 +13,6 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import sysconfig
 from collections.abc import Mapping, Sequence
@@ -28,8 +27,10 @@ from controller.errors import ConfigError, GatewareError
 from controller.fpga.bitstream import Identity, sealed
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import top_parameters
+from controller.programs import ProgramError, run_program
 
 SYNTHESISED, PLACED, REPORT, PACKED = "top.json", "top.placed", "report.json", "top.bit"
+TOOL_S = 3600.0  # that a tool may take: a full FPGA on a slow computer, after it was compiled itself
 LOG_LINES = 5  # of a tool that failed without a line that tells an error
 
 
@@ -248,11 +249,12 @@ def _run(command: Sequence[str], work: Path) -> None:
     program = shutil.which(command[0], path=os.pathsep.join(places))
     if program is None:
         raise ConfigError(f"{command[0]}: is on no path, though its package {package} is installed")
-    done = subprocess.run(
-        [program, *command[1:]], cwd=work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
-    )
-    if done.returncode:
-        lines = [line.strip() for line in done.stdout.decode(errors="replace").splitlines() if line.strip()]
+    try:
+        run_program([program, *command[1:]], TOOL_S, cwd=work)
+    except ProgramError as error:
+        lines = [line.strip() for line in error.said.splitlines() if line.strip()]
         errors = [line for line in lines if line.startswith("ERROR") or ": ERROR" in line]
-        said = errors[0] if errors else " / ".join(lines[-LOG_LINES:]) or f"exit code {done.returncode}"
-        raise GatewareError(f"{command[0].removeprefix('yowasp-')}: {said}")
+        said = errors[0] if errors else " / ".join(lines[-LOG_LINES:])
+        if error.code is None or not said:  # too long, or silent
+            said = str(error)
+        raise GatewareError(f"{command[0].removeprefix('yowasp-')}: {said}") from error

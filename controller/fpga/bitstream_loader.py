@@ -1,26 +1,28 @@
-"""Loading of an FPGA that answers with another gateware than this software's, by a program beside the loop; nothing here blocks."""
+"""Loading of an FPGA that answers with another gateware than this software's, by a program beside the loop; nothing here blocks.
+
+A loader that fails has not condemned the FPGA: it may have loaded it before, or do so at the next attempt. The FPGA is asked who it
+is after each attempt, and its answer alone counts.
+"""
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shlex
-import signal
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from typing import Final
 
 from controller.board.devices import GatewareLoading
 from controller.errors import LinkError
-from controller.fpga.configuration import IncompatibleFpga, OtherGateware
+from controller.fpga.configuration import IncompatibleFpga
+from controller.programs import SAID_BYTES, CannotStart, ProgramError, end, how_it_ended, last_line, start
 
-SAID_BYTES = 4096  # of what the program says last
-SAID_CHARACTERS = 160  # of its last line
-ENDS_S = 1.0  # that a killed program may need; the service's watchdog bites after 3
+ATTEMPTS: Final = 3  # a cable, a USB bus or a supply may fail for a moment
 
 
 class BitstreamLoader:
-    """Loads a bitstream once for each time that the FPGA is found with another gateware.
+    """Loads a bitstream, in up to `ATTEMPTS` attempts for each time that the FPGA is found with another gateware.
 
     Parameters
     ----------
@@ -39,83 +41,94 @@ class BitstreamLoader:
         self._process: subprocess.Popen[bytes] | None = None
         self._said = -1  # file with what the process says
         self._until_s = 0.0
-        self._found = ""  # what was wrong with the FPGA
-        self._loaded = False  # and the FPGA was not found good since
+        self._found = ""  # what was wrong with the FPGA before the newest attempt
+        self._attempts = 0  # since the FPGA was last found good
+        self._failure = ""  # of the newest attempt; empty: it succeeded
 
     def require_done(self) -> None:
-        """Call before the FPGA is sent anything.
+        """Call before the FPGA is sent anything; what it answers then says whether the attempt was successful.
 
         Raises
         ------
         LinkError
             While it is being loaded.
-        IncompatibleFpga
-            If that failed, or takes too long.
         """
         process = self._process
         if process is None:
             return
         code = process.poll()
+        if code is None and self._now_s() < self._until_s:
+            found = self._found.partition(":")[0]
+            raise LinkError(f"{found}: its gateware is being loaded: {shlex.join(self._command)}")
         if code is None:
-            if self._now_s() < self._until_s:
-                raise LinkError(f"{self._found}: its gateware is being loaded: {shlex.join(self._command)}")
-            self.close()
-            raise IncompatibleFpga(f"{self._found}; {self._command[0]} did not end within {self._limit_s:g} s")
+            end(process)
         said = self._last_line()
         self.close()
-        if code:
-            ended = f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
-            raise IncompatibleFpga(f"{self._found}; {self._command[0]} {ended}{': ' * bool(said)}{said}")
-        self._loaded = True
+        if code is None:
+            self._failure = f"{self._command[0]} did not end within {self._limit_s:g} s{': ' * bool(said)}{said}"
+        else:
+            self._failure = how_it_ended(self._command[0], code, said) if code else ""
 
-    def begin(self, error: OtherGateware) -> None:
-        """Load the FPGA, for this error.
+    def begin(self, error: LinkError) -> None:
+        """Load the FPGA, for what it answers, or does not.
 
         Raises
         ------
         LinkError
-            Always, while this can still become good: try again later.
+            Always, while this can still become good: try again later. `error` itself for an FPGA that does not answer and that no
+            attempt has failed to load.
         IncompatibleFpga
-            If there is nothing to load, or it was loaded already.
+            If there is nothing to load, or it answers with another gateware after the last attempt.
         """
-        if self._loaded:
+        if not isinstance(error, IncompatibleFpga):
+            self._load_silent(error)
+        elif self._attempts and not self._failure and str(error) != self._found:
             raise IncompatibleFpga(f"{error}; it is so after {self._bitstream} was loaded") from error
+        elif self._attempts == ATTEMPTS:
+            why = self._failure or f"{self._bitstream} was loaded"
+            raise IncompatibleFpga(f"{error}; it is so after {ATTEMPTS} attempts to load it; {why}") from error
         if not self._bitstream.is_file():
             raise IncompatibleFpga(
                 f"{error}; {self._bitstream}: there is no such bitstream to load (gateware.bitstream)"
             ) from error
+        self._attempts += 1
+        self._found = str(error)
         self._said = os.memfd_create("loader")
         try:
-            self._process = subprocess.Popen(
-                self._command, stdin=subprocess.DEVNULL, stdout=self._said, stderr=self._said, start_new_session=True
-            )
-        except OSError as failure:
+            self._process = start(self._command, self._said, self._said)
+        except CannotStart as failure:
             self.close()
-            raise IncompatibleFpga(
-                f"{error}; {self._command[0]} cannot be started ({failure.strerror}): gateware.load"
-            ) from failure
-        self._found = str(error).partition(":")[0]
+            raise IncompatibleFpga(f"{error}; {failure}: gateware.load") from failure
+        except ProgramError as failure:  # no memory, no process: another time
+            self.close()
+            self._failure = str(failure)
+            raise LinkError(f"{error}; {failure}") from failure
         self._until_s = self._now_s() + self._limit_s
         self.require_done()
+        raise LinkError(f"{error}; {self._failure or 'it has just been loaded'}")  # ended at once: the FPGA is asked next time
 
     def good(self) -> None:
         """Note that the FPGA has the right gateware: it may be loaded again after it has lost it."""
-        self._loaded = False
+        self._attempts = 0
+        self._failure = ""
 
     def close(self) -> None:
         """End the program, if it runs."""
         if self._process is not None:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-            with contextlib.suppress(subprocess.TimeoutExpired):  # a driver that hangs keeps it
-                self._process.wait(ENDS_S)
+            end(self._process)
             self._process = None
         if self._said >= 0:
             os.close(self._said)
             self._said = -1
 
+    def _load_silent(self, error: LinkError) -> None:
+        """Raise unless an FPGA that does not answer is to be loaded: an attempt that failed half-way leaves it empty."""
+        if not self._failure:
+            raise error
+        if self._attempts == ATTEMPTS:
+            why, self._attempts, self._failure = self._failure, 0, ""  # it may be loaded again once it answers
+            raise LinkError(f"{error}; it is so after {ATTEMPTS} attempts to load it; {why}") from error
+
     def _last_line(self) -> str:
         size = os.fstat(self._said).st_size
-        text = os.pread(self._said, SAID_BYTES, max(size - SAID_BYTES, 0)).decode(errors="replace")
-        lines = [line.strip() for line in text.splitlines() if line.strip()]
-        return "".join(filter(str.isprintable, lines[-1]))[-SAID_CHARACTERS:] if lines else ""
+        return last_line(os.pread(self._said, SAID_BYTES, max(size - SAID_BYTES, 0)).decode(errors="replace"))

@@ -13,11 +13,13 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import fields
 from pathlib import Path
 
 from controller.board.lookup import data_folder
+from controller.console import program, say
+from controller.errors import UsageError
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.register_lines import (
     INPUTS,
@@ -167,20 +169,19 @@ def with_table(readme: str, lines: list[str]) -> str:
     return readme[:start] + "\n".join(lines) + "\n" + readme[end:]
 
 
-def main(arguments: list[str] | None = None, say: Callable[[str], object] = sys.stdout.write) -> int:
+@program
+def main(arguments: list[str] | None = None) -> int:
     """Write, or compare, the files.
 
     Parameters
     ----------
     arguments : list of str
         Of the command line; those of this process unless given.
-    say : callable
-        Takes a line for each file that differs, with its line end.
 
     Returns
     -------
     int
-        Exit code: 1 if `--check` finds a difference, otherwise 0. Exits with 2 if a record or a file is refused.
+        Exit code: 1 if `--check` finds a difference, 2 if a record or a file is refused, otherwise 0.
     """
     parser = argparse.ArgumentParser(prog="python -m controller.fpga.register_table", description="Registers as registers.py says.")
     parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 if a file would change")
@@ -189,9 +190,9 @@ def main(arguments: list[str] | None = None, say: Callable[[str], object] = sys.
     try:
         other = {path: text for path, text in rewritten(options.folder).items() if path.read_text() != text}
     except (OSError, ValueError) as error:
-        parser.exit(2, f"{error}\n")
+        raise UsageError(str(error)) from error
     for path, text in other.items():
-        say(f"{path}: {'not as registers.py says' if options.check else 'written'}\n")
+        say(f"{path}: {'not as registers.py says' if options.check else 'written'}")
         if not options.check:
             path.write_text(text)
     return int(options.check and bool(other))

@@ -100,10 +100,10 @@ class Supervision:
         self._heartbeat_s = math.inf  # its clock may have restarted
         if self.loader is not None:
             self.loader.require_done()
-        self.exchange.control(Control.CLEAR, raise_faults=False)  # with a fault every read would raise
         try:
+            self.exchange.control(Control.CLEAR, raise_faults=False)  # with a fault every read would raise
             configuration.verify(self.exchange.read, self._board, self._build_hash)
-        except configuration.OtherGateware as error:
+        except LinkError as error:  # another gateware, or silence
             if self.loader is None:
                 raise
             self.loader.begin(error)

@@ -18,6 +18,7 @@ from cobs import cobs
 
 from controller.board.board import load_board
 from controller.board.lookup import data_folder, find_board
+from controller.console import flush, say
 from controller.fpga.build_hash import build_hash
 from controller.fpga.build_parameters import BuildParameters
 from controller.fpga.frames import FRAME_BYTES
@@ -151,8 +152,8 @@ def main(name: str = "simulated") -> None:
     model = GatewareModel(BuildParameters.of(board, build_hash(data_folder("fpga_rtl"))))
     panel = UartPanel(model, link.clock_hz, link.baud, time.monotonic)
     with contextlib.suppress(KeyboardInterrupt), PseudoTerminal(panel.receive) as terminal:
-        sys.stdout.write(f"{terminal.device}\n")
-        sys.stdout.flush()
+        say(terminal.device)
+        flush()
         threading.Event().wait()
 
 

@@ -40,7 +40,7 @@ class KernelBuildHook(BuildHookInterface[WheelBuilderConfig]):
 
     def dependencies(self) -> list[str]:
         """What mypyc needs: itself, and what the modules are checked against."""
-        return ["mypy[mypyc]>=1.15", "numpy>=1.26", "msgspec>=0.18.6", "platformdirs>=4"] if _wants_mypyc() else []
+        return ["mypy[mypyc]>=1.15", "numpy>=1.26", "msgspec>=0.22", "platformdirs>=4"] if _wants_mypyc() else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile the extension; a wheel with it is for every CPython from 3.11 on, on one kind of machine.

@@ -6,9 +6,11 @@ focus. The frame at T stays for a second.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -19,8 +21,10 @@ from PIL import Image, ImageDraw
 
 from controller.errors import ConfigError
 from controller.physics.movie import Frames, Movie
+from controller.programs import how_it_ended, last_line
 
 KINDS = {".png": "PNG", ".apng": "PNG", ".gif": "GIF", ".mp4": "MP4"}
+ENCODED_S = 600.0  # that ffmpeg may need after the last picture
 RATE_HZ = 20  # frames a second
 HELD = 20  # times that the frame at T is shown
 LEVELS = 253  # colours; the middle one is at rest
@@ -141,20 +145,22 @@ def _encode(part: Path, pictures: Iterator[Image.Image], held: Sequence[int]) ->
     size = f"{first.width}x{first.height}"
     read = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(RATE_HZ), "-i", "-"]
     write = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-f", "mp4", str(part)]
-    with subprocess.Popen(
-        ["ffmpeg", "-y", "-loglevel", "error", *read, *write], stdin=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as run:
+    with tempfile.TemporaryFile() as err:
+        run = subprocess.Popen(["ffmpeg", "-y", "-loglevel", "error", *read, *write], stdin=subprocess.PIPE, stderr=err)
         assert run.stdin is not None
-        assert run.stderr is not None
         try:
-            for picture, times in zip(_from(first, pictures), held, strict=True):
-                run.stdin.write(picture.convert("RGB").tobytes() * times)
-            run.stdin.close()
-        except BrokenPipeError:
-            pass  # it says why
-        said = run.stderr.read().decode(errors="replace").strip().splitlines()
-    if run.returncode:
-        raise ConfigError(f"{part}: ffmpeg could not write the movie ({said[-1] if said else run.returncode})")
+            with contextlib.suppress(BrokenPipeError), run.stdin:  # it says why
+                for picture, times in zip(_from(first, pictures), held, strict=True):
+                    run.stdin.write(picture.convert("RGB").tobytes() * times)
+            code = run.wait(ENCODED_S)
+        except subprocess.TimeoutExpired:
+            raise ConfigError(f"{part}: ffmpeg did not end within {ENCODED_S:g} s of the last picture") from None
+        finally:
+            run.kill()
+            run.wait()
+        err.seek(0)
+        if code:
+            raise ConfigError(f"{part}: {how_it_ended('ffmpeg', code, last_line(err.read().decode(errors='replace')))}")
 
 
 def _from(first: Image.Image, others: Iterator[Image.Image]) -> Iterator[Image.Image]:

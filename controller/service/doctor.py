@@ -8,7 +8,6 @@ import os
 import pwd
 import resource
 import stat
-import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -25,9 +24,10 @@ from controller.board.touch_panels import I2cTouch, LinuxInputTouch, RecordingTo
 from controller.errors import BankError, ConfigError, ControllerError, LinkError
 from controller.fpga.frames import UPLOAD_BYTES
 from controller.fpga.link import Link
+from controller.programs import ProgramError, run_program
 from controller.scene.scene import load_scene
 from controller.scene.scene_file import find_scene
-from controller.service.drivers import open_link, open_panel
+from controller.service.drivers import open_link, open_panel, recording_path
 from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.service.prepare_scene import populate
@@ -36,6 +36,8 @@ from controller.touch.recording import Recording
 from controller.touch.reports import FAULTS, describe_warnings
 
 MEMORY_BYTES = 64 << 20  # that the service locks: interpreter, libraries, and the waveforms of a scene
+
+ASK_S = 10.0  # for an answer of systemd
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,8 +175,7 @@ def _lines(link: LinkSettings) -> str:
 def _touch(board: Board, now_s: Callable[[], float]) -> str | Finding:
     touch = board.touch
     if isinstance(touch, RecordingTouch):
-        file = board.beside(touch.recording)
-        return f"recording {Recording.open(file).name}"
+        return f"recording {Recording.open(recording_path(board, None)).name}"
     if isinstance(touch, LinuxInputTouch):
         board = msgspec.structs.replace(board, touch=msgspec.structs.replace(touch, grab=False))
     if isinstance(touch, I2cTouch | SerialTouch) and (served := _served(board)):
@@ -260,8 +261,8 @@ def _unit_allows() -> _Allowed:
     names = ("LoadState", "LimitRTPRIO", "LimitMEMLOCK")
     asked = ["systemctl", "show", *(f"--property={name}" for name in names), f"{SERVICE}.service"]
     try:
-        said = subprocess.run(asked, capture_output=True, text=True, check=True, timeout=10).stdout
-    except (OSError, subprocess.SubprocessError) as error:
+        said = run_program(asked, ASK_S, attempts=2).out
+    except ProgramError as error:
         raise ConfigError(f"systemctl does not tell the limits of {SERVICE}.service ({error})") from None
     told = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
     if told.get("LoadState") != "loaded":

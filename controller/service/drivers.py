@@ -205,5 +205,15 @@ def _beside(what: str, priority: int, settings: Record) -> Worker:
 
 
 def recording_path(board: Board, given: str | None) -> Path:
-    """Path of the recording to replay: the given one, else the board's."""
-    return board.beside(board.touch.recording) if given is None else Path(given)
+    """Path of the recording to replay: the given one, else the board's.
+
+    Raises
+    ------
+    ConfigError
+        If none is given and the board names none.
+    """
+    if given is not None:
+        return Path(given)
+    if not board.touch.recording:
+        raise ConfigError(f"board {board.name!r} names no recording to replay: give --replay FILE, or it touch.recording")
+    return board.beside(board.touch.recording)

@@ -165,7 +165,11 @@ def _metrics(version: str, board: str, figures: dict[str, Any]) -> Iterator[Metr
         "What the FPGA said that was other than believed, and what was sent again.",
         figures.get("link_counts", {}),
     )
-    yield _by_cause("haptic_panel_socket", "Clients and commands of the application socket.", figures.get("application_socket", {}))
+    told = dict(figures.get("application_socket", {}))
+    if "clients_connected" in told:
+        text = "Clients of the application socket that are connected."
+        yield GaugeMetricFamily("haptic_panel_clients_connected", text, told.pop("clients_connected"))
+    yield _by_cause("haptic_panel_socket", "Clients and commands of the application socket.", told)
     yield from _histograms(figures.get("latency_histograms"))
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,9 +11,11 @@ from pathlib import Path
 from controller.board.board import Board
 from controller.board.touch_panels import I2cTouch
 from controller.fpga.frames import LOAD_FRAME_BYTES
+from controller.programs import ProgramError, last_line, run_program
 from controller.service.finding import Finding
 
 PAGE = "boards/raspberry_pi.md"
+ASK_S = 10.0  # for an answer of the firmware
 CMDLINE = "cmdline.txt in /boot/firmware"
 POLLED_CLOCKS = 9  # of SCK for a byte, where spi-bcm2835 polls
 POLLING_LIMIT_US = 250  # more than a LOAD frame takes at 25 MHz, with room for 19 MHz
@@ -220,11 +221,13 @@ def _throttled_by_firmware(root: Path) -> Iterator[Finding]:
     if not os.access(command, os.X_OK):
         return
     try:
-        said = subprocess.run([command, "get_throttled"], capture_output=True, text=True, check=False, timeout=10).stdout
-    except (OSError, subprocess.SubprocessError):
+        said = run_program([command, "get_throttled"], ASK_S, attempts=2).out
+    except ProgramError as error:
+        yield _warned("supply and heat", f"not known: {error}; users of the group video may ask")
         return
     if not (found := re.search(r"throttled=0x([0-9a-fA-F]+)", said)):
-        return  # this user may not ask
+        yield _warned("supply and heat", f"not known: {command} answers {last_line(said)!r}")
+        return
     bits = int(found[1], 16)
     now = [what for bit, what in enumerate(THROTTLED) if bits >> bit & 1]
     before = [what for bit, what in enumerate(THROTTLED) if bits >> 16 + bit & 1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import errno
 import os
 import re
 import resource
@@ -13,7 +14,7 @@ from controller.board.devices import Realtime
 
 MCL_CURRENT, MCL_FUTURE, MCL_ONFAULT = 1, 2, 4  # mman-common.h: of every machine but alpha, powerpc and sparc
 BLAS_NAMES = [f"{who}openblas_set_num_threads{integers}" for who in ("scipy_", "") for integers in ("64_", "")]  # by who built it
-CAP_IPC_LOCK = 14  # linux/capability.h
+CAP_IPC_LOCK, CAP_SYS_NICE = 14, 23  # linux/capability.h
 
 
 def enter_realtime(settings: Realtime) -> list[str]:
@@ -44,8 +45,41 @@ def _schedule(priority: int) -> str:
         os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(priority))
     except OSError as error:
         limit = resource.getrlimit(resource.RLIMIT_RTPRIO)[1]
-        return f"SCHED_FIFO at priority {priority}: {error.strerror} (ulimit -r is {limit}; LimitRTPRIO={priority} in the unit)"
+        permitted = _has(CAP_SYS_NICE) or limit == resource.RLIM_INFINITY or limit >= priority
+        if error.errno == errno.EPERM and permitted:
+            why = group_refusal(Path("/"))
+        else:
+            why = f"ulimit -r is {limit}; LimitRTPRIO={priority} in the unit"
+        return f"SCHED_FIFO at priority {priority}: {error.strerror} ({why})"
     return ""
+
+
+def group_refusal(root: Path) -> str:
+    """Why a process that has the right to SCHED_FIFO is refused it: CONFIG_RT_GROUP_SCHED, and what to do.
+
+    A kernel built with it refuses real-time scheduling in a control group that was given no share of it (sched(7),
+    Documentation/scheduler/sched-rt-group.rst); in the unified hierarchy no group but the root has one.
+
+    Parameters
+    ----------
+    root : Path
+        Of the file system.
+    """
+    groups = dict(line.split(":", 2)[1:] for line in _text(root / "proc/self/cgroup").splitlines() if line.count(":") >= 2)
+    names = next((names for names in groups if "cpu" in names.split(",")), "")
+    group = groups.get(names, groups.get("", "/"))
+    inside = group.lstrip("/")
+    if names:
+        for place in (names, "cpu"):
+            share = root / "sys/fs/cgroup" / place / inside / "cpu.rt_runtime_us"
+            if _text(share).strip() == "0":
+                return f"RT_GROUP_SCHED of the kernel: {share} is 0: give the group a share, such as 950000"
+    if inside:
+        return (
+            f"the limits permit it, so RT_GROUP_SCHED of the kernel does not, in the control group {group}: start the kernel with"
+            " rt_group_sched=0 (Linux 6.16), or take one without it; in a container its seccomp profile may refuse it too"
+        )
+    return "the limits permit it: a container's seccomp profile, or another security module, refuses it"
 
 
 def _pin(cpu: int | None) -> str:
@@ -76,9 +110,20 @@ def _lock_memory() -> str:
 
 
 def _may_lock() -> bool:
-    """Whether this process may exceed RLIMIT_MEMLOCK (CAP_IPC_LOCK)."""
-    effective = re.search(r"^CapEff:\s*(\w+)", Path("/proc/self/status").read_text(), re.MULTILINE)
-    return bool(effective and int(effective[1], 16) >> CAP_IPC_LOCK & 1)
+    """Whether this process may exceed RLIMIT_MEMLOCK."""
+    return _has(CAP_IPC_LOCK)
+
+
+def _has(capability: int) -> bool:
+    effective = re.search(r"^CapEff:\s*(\w+)", _text(Path("/proc/self/status")), re.MULTILINE)
+    return bool(effective and int(effective[1], 16) >> capability & 1)
+
+
+def _text(file: Path) -> str:
+    try:
+        return file.read_text(errors="replace")
+    except OSError:
+        return ""
 
 
 def one_blas_thread() -> list[str]:

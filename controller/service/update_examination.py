@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
 from controller.errors import ConfigError, ControllerError
+from controller.programs import run_program
 from controller.service.finding import Finding
 from controller.service.installation import missing_package
 from controller.update.installed import manifest_of, update_state
@@ -26,6 +26,7 @@ OWNERS: Final = {  # user and mode of each folder, as tmpfiles.d/haptic-panel.co
 }
 RESERVE_BYTES: Final = 32_000_000  # that a download leaves free
 UNITS: Final = ("haptic-panel-update.timer", "haptic-panel-requests.path")
+ASK_S: Final = 10.0  # for an answer of systemd
 BOOTED: Final = Path("/run/systemd/system")  # there where systemd runs the machine
 
 
@@ -133,8 +134,8 @@ def _space(layout: Layout) -> str | Finding:
 
 
 def _units() -> str | Finding:
-    done = subprocess.run(["systemctl", "is-active", *UNITS], capture_output=True, text=True, check=False, timeout=10)
-    states = dict(zip(UNITS, done.stdout.split(), strict=False))
+    said = run_program(["systemctl", "is-active", *UNITS], ASK_S, attempts=2, good=range(5)).out  # 3, 4: one is not
+    states = dict(zip(UNITS, said.split(), strict=False))
     off = [unit for unit in UNITS if states.get(unit) != "active"]
     if not off:
         return f"{' and '.join(UNITS)} are active"

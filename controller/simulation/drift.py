@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from controller.board.devices import Temperature
 from controller.errors import ConfigError
 from controller.fpga.capture import Capture
+from controller.text_file import read_text
 
 LEVEL: Final = 2e-4  # of the drifts that are simulated: half of it costs 2e-4 of the amplitude
 FORGOTTEN: Final = 16.0  # decay times after which the plate has forgotten
@@ -72,8 +73,8 @@ class Drift:
             Naming file and line.
         """
         try:
-            rows = list(csv.reader(file.read_text(encoding="utf-8").splitlines()))
-        except (OSError, UnicodeDecodeError, csv.Error) as error:
+            rows = list(csv.reader(read_text(file).splitlines()))
+        except (OSError, ValueError, csv.Error) as error:
             raise ConfigError(f"{file}: cannot be read as CSV: {error}") from None
         head = [cell.strip() for cell in rows[0]] if rows else []
         if tuple(head) not in (COLUMNS, COLUMNS[:2]):

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,8 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.errors import ControllerError
+from controller.programs import CannotStart, ProgramError, last_line, run_program
 
 Floats = NDArray[np.float64]
+
+LIMIT_S = 1800.0  # that a simulation may take
 
 
 @dataclass(frozen=True)
@@ -77,19 +78,25 @@ def transient(netlist: str, vectors: Sequence[str], step_s: float, end_s: float)
     ControllerError
         If there is no ngspice, or it could not simulate this.
     """
-    if not shutil.which("ngspice"):
-        raise ControllerError("there is no ngspice on this machine: apt-get install ngspice")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         saved = " ".join(vectors)
         text = f"* haptic-panel\n{netlist}\n.save {saved}\n.tran {step_s:g} {end_s:g} 0 {step_s:g}\n.end\n"
         (folder / "deck.cir").write_text(text)
         command = ["ngspice", "-n", "-b", "-r", "traces.raw", "deck.cir"]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        try:
+            done = run_program(command, LIMIT_S, package="ngspice", cwd=folder)
+        except CannotStart:
+            raise
+        except ProgramError as error:
+            raise ControllerError(f"ngspice did not simulate this: {error}") from error
         raw = folder / "traces.raw"
-        time_s, values = _read(raw.read_bytes()) if raw.exists() else (np.empty(0), {})
-        if done.returncode or not time_s.size or time_s[-1] < end_s * (1 - 1e-9):
-            raise ControllerError(f"ngspice did not simulate this:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+        try:
+            time_s, values = _read(raw.read_bytes()) if raw.exists() else (np.empty(0), {})
+        except ValueError as error:
+            raise ControllerError(f"ngspice wrote a file that is not understood ({error})") from error
+        if not time_s.size or time_s[-1] < end_s * (1 - 1e-9):
+            raise ControllerError(f"ngspice did not simulate this to its end: {last_line(done.err) or last_line(done.out)}")
     return Traces(time_s, {vector: values[vector.lower()] for vector in vectors})
 
 

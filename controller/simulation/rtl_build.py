@@ -13,21 +13,24 @@ import importlib.metadata
 import importlib.util
 import os
 import shutil
-import subprocess
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
 from controller.board.lookup import data_folder
 from controller.board.paths import state_folder
 from controller.errors import LinkError
+from controller.programs import ProgramError, run_program
 from controller.regular_file import open_private
 from controller.service.installation import install_line
 
 VERILATE = ["--cc", "-O3", "-fno-table", "-fno-dfg", "--x-assign", "fast", "--x-initial", "fast", "--noassert"]
 COMPILE = ["-fPIC", "-fvisibility=hidden", "-DVERILATOR=1"]
 COMPILE += [f"-DVM_{feature}=0" for feature in ("COVERAGE", "SC", "TRACE", "TIMING")]
+COMPILE_S = 1800.0  # that a compiler may take on a slow computer
+KILLED = "Killed"  # what g++ says of its compiler when the kernel ended it for want of memory
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")  # hardly ever called, and slow to optimise: compiled with -O0
 
 
@@ -149,13 +152,16 @@ def _build(root: Path, design: Design, parameters: dict[str, int], folder: Path)
     include.append("-std=c++20" if timing else "-std=c++17")  # coroutines
     _include_all(all_of_it, [design.wrapper, *sorted(folder.glob(f"V{design.top}*.cpp"))])
     _include_all(runtime, [root / "include" / name for name in (*RUNTIME, *timing)])
-    slow = subprocess.Popen(_object(runtime, "-O0", include), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    try:
-        _run(_object(all_of_it, design.optimise, include))
-    finally:
-        said, _ = slow.communicate()
-    if slow.returncode:
-        raise LinkError(_failed("g++", said))
+    parts = [_object(runtime, "-O0", include), _object(all_of_it, design.optimise, include)]
+    with ThreadPoolExecutor(2) as together:
+        both = [together.submit(_run, part) for part in parts]
+    for part, compiled in zip(parts, both, strict=True):
+        try:
+            compiled.result()
+        except LinkError as error:
+            if KILLED not in str(error):
+                raise
+            _run(part)  # alone: for both at once there was not enough memory
     library = folder / f"{design.top}.so"
     _run(["g++", "-shared", "-o", library, all_of_it.with_suffix(".o"), runtime.with_suffix(".o"), "-pthread"])
     return library
@@ -170,12 +176,9 @@ def _object(source: Path, optimise: str, include: list[str]) -> list[str]:
 
 
 def _run(command: Sequence[str | Path], **environment: str) -> None:
-    done = subprocess.run(command, env=os.environ | environment, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise LinkError(_failed(Path(command[0]).name, done.stdout + done.stderr))
-
-
-def _failed(program: str, said: str) -> str:
-    """The first line with an error of a compiler's output, as a message."""
-    lines = [line.strip() for line in said.splitlines() if "rror" in line] or ["no message"]
-    return f"the Verilog cannot be compiled: {program} failed: {lines[0]}"
+    try:
+        run_program(command, COMPILE_S, environment=os.environ | environment)
+    except ProgramError as error:  # what matters is the first line with an error
+        lines = [line.strip() for line in error.said.splitlines() if "rror" in line]
+        said = f"{Path(command[0]).name} failed: {lines[0]}" if error.code is not None and lines else str(error)
+        raise LinkError(f"the Verilog cannot be compiled: {said}") from error

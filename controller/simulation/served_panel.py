@@ -28,7 +28,7 @@ from controller.board.devices import ApplicationSocket
 from controller.board.lookup import find_board
 from controller.board.records import as_record
 from controller.clocks import MonotonicClock
-from controller.errors import ControllerError
+from controller.console import program, tell
 from controller.log import Priority, log
 from controller.loop.wiring import assemble
 from controller.scene.scene import load_scene
@@ -127,6 +127,7 @@ def _back_and_forth(seconds: float) -> str:
     return "".join(lines)
 
 
+@program
 def main(arguments: list[str] | None = None) -> int:
     """Run from the command line (`sys.argv` by default); the exit code."""
     parser = argparse.ArgumentParser(prog="python -m controller.simulation.served_panel", description=__doc__)
@@ -141,27 +142,23 @@ def main(arguments: list[str] | None = None) -> int:
         return _in_background(sys.argv[1:] if arguments is None else arguments)
 
     def ready() -> None:
-        _say(f"playing; its socket is {options.socket}, and `kill {os.getpid()}` or Ctrl-C ends it")
+        tell(f"playing; its socket is {options.socket}, and `kill {os.getpid()}` or Ctrl-C ends it")
         if options.ready_fd is not None:
             os.write(options.ready_fd, b"1")
             os.close(options.ready_fd)
 
-    try:
-        board = load_board(find_board(options.board))
-        asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
-        settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
-        with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
-            path = Path(folder) / "whole plate.bank"
-            _say(f"building a bank of the whole plate, {PITCH_M * 1e3:g} mm from cell to cell: some seconds")
-            report = build_bank(board, path, PITCH_M, progress=True, measure_sgemm=False)
-            _say(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
-            started_s = time.monotonic()
-            with Bank.open(path, board) as bank:
-                serve(board, settings, bank, options.touched_s, ready)
-        _say(f"served for {time.monotonic() - started_s:.0f} s")
-    except ControllerError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return error.exit_code
+    board = load_board(find_board(options.board))
+    asked = {"path": options.socket, "mode": "600", "commands_per_s": options.commands_per_s, "burst": 200}
+    settings = as_record("--commands-per-s: ", asked, ApplicationSocket)
+    with tempfile.TemporaryDirectory() as folder, threadpool_limits(1, "blas"):
+        path = Path(folder) / "whole plate.bank"
+        tell(f"building a bank of the whole plate, {PITCH_M * 1e3:g} mm from cell to cell: some seconds")
+        report = build_bank(board, path, PITCH_M, progress=True, measure_sgemm=False)
+        tell(f"built {report.cells:,} cells in {report.seconds:.1f} s; arming")
+        started_s = time.monotonic()
+        with Bank.open(path, board) as bank:
+            serve(board, settings, bank, options.touched_s, ready)
+    tell(f"served for {time.monotonic() - started_s:.0f} s")
     return 0
 
 
@@ -175,11 +172,6 @@ def _in_background(arguments: Sequence[str]) -> int:
         os.close(write_end)
         playing = answer.read(1)
     return 0 if playing else panel.wait()
-
-
-def _say(what: str) -> None:
-    sys.stderr.write(f"served_panel: {what}\n")
-    sys.stderr.flush()
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from typing import Any
 
 from controller.board.board import load_board
 from controller.errors import CalibrationError
+from controller.text_file import decoded
 from controller.touch.calibration import Calibration, Row
 
 AXIS_KEYS = ("x_mm_from_axes", "y_mm_from_axes")
@@ -119,8 +120,7 @@ def _rewrite(file: Path, change: Callable[[str], str]) -> None:
     file = file.resolve()  # a link stays a link
     temporary = None
     try:
-        with file.open(encoding="utf-8", newline="") as old:
-            changed = change(old.read())
+        changed = change(decoded(file.read_bytes()))
         handle, name = tempfile.mkstemp(prefix=".board-", suffix=".toml", dir=file.parent)
         temporary = Path(name)
         with os.fdopen(handle, "w", encoding="utf-8", newline="") as new:

@@ -12,7 +12,8 @@ import sys
 from pathlib import Path
 from typing import Literal
 
-from controller.errors import ControllerError, UpdateError
+from controller.console import program, say, tell
+from controller.errors import UpdateError
 from controller.update.durable import sync_folder
 from controller.update.install import install
 from controller.update.installed import manifest_of, update_state
@@ -103,10 +104,13 @@ def _store(layout: Layout, folder: Path, file: ReleaseFile) -> None:
         new.unlink(missing_ok=True)
 
 
+@program
+def _main() -> int:
+    outcome, why = install_brought(Layout.from_environment(), Path(sys.argv[1]))
+    tell(why)
+    say(outcome)
+    return 0
+
+
 if __name__ == "__main__":
-    try:
-        outcome, why = install_brought(Layout.from_environment(), Path(sys.argv[1]))
-    except (ControllerError, OSError) as error:
-        sys.exit(f"haptic-panel: {error}")
-    sys.stderr.write(f"haptic-panel: {why}\n")
-    sys.stdout.write(f"{outcome}\n")
+    sys.exit(_main())

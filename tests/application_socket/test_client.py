@@ -135,7 +135,7 @@ def test_the_command_line_fails_in_one_line(served, folder, capsys):
     capsys.readouterr()
     assert main(["--socket", served.settings.path, "load", "absent"]) == 1
     *_, last = capsys.readouterr().err.splitlines()  # behind what the panel, in this process too, has to say
-    assert last == "error: the panel refused: absent.toml: no such scene"
+    assert last == "haptic-panel: the panel refused: absent.toml: no such scene"
     assert main(["--socket", served.settings.path, "play", "click", "--at", "-1", "70"]) == 1
     assert json.loads(capsys.readouterr().out)["outcome"] == "refused"
     assert main(["--socket", str(folder / "nobody.sock"), "hello"]) == 69

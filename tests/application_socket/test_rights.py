@@ -72,7 +72,7 @@ def test_one_who_may_do_nothing_is_told_so_and_takes_no_place(panel):
             "reason": f"uid 50004 (pid 14) does not have the right to play: group {PLAY_GROUP.gr_name!r} gives it",
         }
         assert stranger.recv(1) == b""
-    assert (panel.socket.counters.without_right, panel.socket.counters.clients) == (20, 0)
+    assert (panel.socket.counters.without_right, panel.socket.counters.clients_accepted) == (20, 0)
 
 
 def test_that_it_was_disarmed_is_known_to_the_next_service_until_somebody_arms(panel, board, changed):

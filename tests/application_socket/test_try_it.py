@@ -30,7 +30,7 @@ def test_each_line_works_when_it_is_pasted(lines, tmp_path):
         code = subprocess.run(["sh", "-c", first], stdin=subprocess.DEVNULL, stdout=said, stderr=said, check=False).returncode
         text = (tmp_path / "said").read_text()
     assert code == 0, text
-    assert text.startswith("served_panel: building a bank"), "it says at once what it does"
+    assert text.startswith("haptic-panel: building a bank"), "it says at once what it does"
     pid = int(re.search(r"`kill (\d+)`", text)[1])
     try:
         done = shell(second)

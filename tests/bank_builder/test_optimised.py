@@ -1,6 +1,11 @@
+import contextlib
 import dataclasses
+import importlib.metadata
 import os
+import re
 import signal
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,7 +18,7 @@ from controller.bank.file_format import creator
 from controller.bank.inspection import bank_info, optimised_for, verify_bank
 from controller.bank.lookup import FoundBank
 from controller.bank.reader import Bank
-from controller.bank_builder import optimised
+from controller.bank_builder import dask_client, optimised
 from controller.bank_builder.build import build_bank
 from controller.bank_builder.optimised import Workers, compute
 from controller.cli import main
@@ -141,9 +146,66 @@ def test_a_worker_of_another_version_is_refused():
 
 @pytest.mark.slow
 def test_a_scheduler_that_is_not_there_is_told(tmp_path, monkeypatch):
-    monkeypatch.setattr(optimised, "FOUND_WITHIN_S", 0.05)
+    monkeypatch.setattr(dask_client, "FOUND_WITHIN_S", 0.05)
     with pytest.raises(BankError, match=r"--dask tcp://127\.0\.0\.1:1: no dask scheduler answers"):
         build(tmp_path / "bank", aim=AIM, workers=Workers(address="tcp://127.0.0.1:1"))
+
+
+CLUSTER = """
+import sys
+{first}
+from distributed import LocalCluster
+cluster = LocalCluster(n_workers=1, processes=False, protocol="tcp://", host="127.0.0.1", dashboard_address=None)
+print(cluster.scheduler_address, flush=True)
+sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def cluster():
+    """Starts a scheduler with one worker, in a process that is prepared by some code; its address."""
+    with contextlib.ExitStack() as stack:
+
+        def start(first):
+            code = [sys.executable, "-c", CLUSTER.format(first=first)]
+            process = subprocess.Popen(code, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+            stack.enter_context(process)  # its standard input is closed, and it ends
+            return process.stdout.readline().strip()
+
+        yield start
+
+
+@pytest.mark.slow
+def test_workers_without_the_package_are_told(cluster, tmp_path):
+    address = cluster("sys.modules['controller'] = None")
+    with pytest.raises(BankError, match=f"--dask {address}: .*lack this package.*what was done is kept") as caught:
+        build(tmp_path / "bank", aim=AIM, workers=Workers(address=address))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.slow
+def test_a_scheduler_of_another_version_is_told_with_both(cluster, tmp_path):
+    address = cluster(
+        "import importlib.metadata as told\nversion = told.version\n"
+        "told.version = lambda name: '2024.8.0' if name == 'distributed' else version(name)"
+    )
+    both = rf"scheduler has distributed 2024\.8\.0, this computer {re.escape(importlib.metadata.version('distributed'))}"
+    with pytest.raises(BankError, match=both):
+        build(tmp_path / "bank", aim=AIM, workers=Workers(address=address))
+
+
+@pytest.mark.parametrize("error", [TypeError("identity() got an unexpected\nkeyword"), RuntimeError(""), OSError("closed")])
+def test_whatever_dask_raises_is_one_line(error):
+    with pytest.raises(BankError, match="--workers 2: dask failed") as caught, dask_client.dask_errors("--workers 2"):
+        raise error
+    assert "\n" not in str(caught.value)
+
+
+def test_errors_of_ours_and_want_of_dask_itself_stay_what_they_are():
+    for error in (BankError("a worker has another version"), ModuleNotFoundError("no dask", name="dask")):
+        with pytest.raises(type(error)) as caught, dask_client.dask_errors("--workers 2"):
+            raise error
+        assert caught.value is error
 
 
 @pytest.mark.slow

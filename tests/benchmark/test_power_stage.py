@@ -62,7 +62,7 @@ def test_a_wrong_part_is_one_that_there_is_and_another():
 
 
 def test_without_ngspice_it_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(ngspice.shutil, "which", lambda _: None)
+    monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(ControllerError, match="apt-get install ngspice"):
         ngspice.transient("", ["v(a)"], 1e-6, 1e-3)
 

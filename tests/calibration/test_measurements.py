@@ -190,7 +190,7 @@ WORDS = WordsDrive(file="drive.npy", bit_clock_hz=500e3, supply_v=60.0)
         ({"points.csv": "point,x_mm,y_mm\n1,1,2\n2,1,2\n"}, r"points 1 and 2 are the same place, 1, 2 mm"),
         ({"points.csv": "point,x_mm,y_mm\n../1,1,2\n"}, r"point '../1': its name may have"),
         ({"points.csv": "point,x_mm,y_mm\n"}, r"no points"),
-        ({"points.csv": b"\xff\xfe"}, r"points.csv: no CSV file"),
+        ({"points.csv": b"\xff\xfe\xff"}, r"points.csv: no CSV file"),
         ({"points.csv": None}, r"points.csv: cannot be read"),
         ({"measurement.toml": None}, r"measurement.toml: cannot be read"),
         ({"measurement.toml": "date = 3"}, r"measurement.toml: date = 3"),

@@ -188,6 +188,17 @@ def test_what_is_no_recording_is_told_and_not_replayed(capsys, small_board, tmp_
     assert "junk: is no touch recording" in told_off(capsys, "calibrate-touch", "--board", small_board, *replay)
 
 
+@pytest.mark.parametrize("link", [(), ("--link", "model")])
+def test_a_board_without_a_recording_says_so(capsys, small_board, link):
+    file = small_board / "board.toml"
+    file.write_text(file.read_text().replace('recording = "demo.evemu"\n', ""))
+    line = told_off(capsys, "run", "--board", small_board, *link)
+    assert "board 'small' names no recording to replay: give --replay FILE" in line
+    assert "names no recording" in printed(capsys, "doctor", "--board", small_board, code=1).out
+    figures = json.loads(printed(capsys, "run", "--board", small_board, *link, "--speed", "max", "--replay", DEMO, "--json").out)
+    assert figures["recording"]["contacts"] > 0
+
+
 def test_a_plot_is_written_and_shows_something(capsys, small_board, tmp_path):
     printed(capsys, "run", "--board", small_board, "--speed", "max", "--plot", tmp_path / "plate.png")
     content = (tmp_path / "plate.png").read_bytes()

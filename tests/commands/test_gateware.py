@@ -317,7 +317,8 @@ def test_what_bring_up_would_take_is_loaded_into_the_memory_and_the_flash_only_i
     assert main(["gateware", "load", str(out), "--board", str(panel), "--flash"]) == 0
     assert loader()[1:] == [f"--board ulx3s --write-flash {out}"]
     (tmp_path / "code").write_text("3")
-    assert "openFPGALoader ended with exit code 3: is its USB plugged in?" in said(capsys, "load", "--board", panel, code=1)
+    line = said(capsys, "load", "--board", panel, code=1)
+    assert "openFPGALoader ended with exit code 3 (3 attempts): is its USB plugged in?" in line
 
 
 def test_nothing_is_loaded_that_bring_up_would_refuse_or_while_another_program_has_the_link(tools, panel, loader, capsys, tmp_path):

@@ -21,6 +21,16 @@ from controller.gateware_model.simulated_link import SimulatedLink
 BUILD, OTHER = 0x1234ABCD, 7
 BOARD = load_board(find_board("simulated"))
 LOAD = "import sys; open(sys.argv[2], 'w').write(open(sys.argv[1]).read())"
+COUNT = "import os, signal, sys; open(sys.argv[2] + '.runs', 'a').write('.'); runs = os.path.getsize(sys.argv[2] + '.runs')\n"
+EMPTY = "empty"  # in place of a build hash: the FPGA is not configured
+
+
+class SilentLink(SimulatedLink):
+    """To an FPGA that is not configured: its pin stays low."""
+
+    def exchange(self, sent, lengths, received):
+        super().exchange(sent, lengths, received)
+        received[: sum(lengths)] = bytes(sum(lengths))
 
 
 class Bench:
@@ -39,9 +49,9 @@ class Bench:
 
     def power_up(self, build):
         """The FPGA just out of reset, with this gateware."""
-        model = GatewareModel(BuildParameters.of(BOARD, build))
+        model = GatewareModel(BuildParameters.of(BOARD, OTHER if build == EMPTY else build))
         start_s = self.clock.now_s()
-        self.link = SimulatedLink(BOARD.link, lambda: self.clock.now_s() - start_s, model)
+        self.link = (SilentLink if build == EMPTY else SimulatedLink)(BOARD.link, lambda: self.clock.now_s() - start_s, model)
         self.session = Session(self.link, BOARD, BUILD, lambda: self.clock.now_s() - start_s, bring_up=False)
         self.session.loader = self.loader
         self.gateware = model
@@ -58,8 +68,14 @@ class Bench:
                 if self.loader._process is not None:
                     os.waitid(os.P_PID, self.loader._process.pid, os.WEXITED | os.WNOWAIT)
                 if self.configured.exists():
-                    self.power_up(int(self.configured.read_text()))
+                    text = self.configured.read_text()
+                    self.power_up(EMPTY if text == EMPTY else int(text))
                     self.configured.unlink()
+
+    @property
+    def runs(self):
+        """How often a program that begins with COUNT was run."""
+        return self.configured.with_suffix(".runs").stat().st_size
 
     def refused(self):
         """One line that says why the FPGA is refused; it was never armed, and no program is left."""
@@ -105,6 +121,60 @@ def test_a_loader_that_is_missing_or_fails_is_said(tmp_path, program, said):
     refused = Bench(tmp_path, program).refused()
     assert said in refused
     assert "BUILD_HASH is 0x00000007" in refused
+    assert ("after 3 attempts" in refused) == (program is not None), "a missing program has no second"
+
+
+@pytest.mark.parametrize(
+    ("program", "runs"),
+    [
+        (COUNT + "if runs == 1: sys.exit('unable to open ftdi device')\n" + LOAD, 2),
+        (COUNT + "if runs < 3: os.kill(os.getpid(), signal.SIGSEGV)\n" + LOAD, 3),
+        (COUNT + f"if runs == 1: open(sys.argv[2], 'w').write('{EMPTY}'); sys.exit('broken off')\n" + LOAD, 2),
+        (COUNT + "if runs == 1: sys.exit(0)\n" + LOAD, 2),
+    ],
+    ids=["fails once", "crashes twice", "fails half-way: the FPGA is empty", "says done, and has not"],
+)
+def test_a_loader_that_fails_for_a_moment_has_further_attempts(tmp_path, program, runs):
+    bench = Bench(tmp_path, program)
+    bench.bring_up()
+    assert bench.runs == runs
+    assert bench.session.arm() > 0
+
+
+@pytest.mark.parametrize("ends", ["os.kill(os.getpid(), signal.SIGSEGV)", "sys.exit('could not release the interface')"])
+def test_a_loader_that_crashes_after_it_has_loaded_is_no_failure(tmp_path, ends):
+    """The FPGA's own answer counts."""
+    bench = Bench(tmp_path, f"{COUNT}{LOAD}; {ends}")
+    bench.bring_up()
+    assert bench.runs == 1
+    assert bench.session.arm() > 0
+
+
+def test_each_time_that_the_gateware_is_lost_has_its_own_attempts(tmp_path):
+    bench = Bench(tmp_path, COUNT + "if runs % 3: sys.exit('busy')\n" + LOAD)
+    for times in (1, 2):
+        bench.power_up(OTHER)
+        bench.bring_up()
+        assert bench.runs == 3 * times
+
+
+def test_an_fpga_that_stays_silent_is_waited_for_and_not_loaded_for_ever(tmp_path):
+    """As one whose cable was pulled while it was loaded: what it is, is not known, so it is not refused."""
+    bench = Bench(tmp_path, COUNT + f"open(sys.argv[2], 'w').write('{EMPTY}'); sys.exit('cable pulled')")
+    said = []
+    for _ in range(12):
+        with pytest.raises(LinkError) as caught:
+            bench.session.bring_up()
+        assert not isinstance(caught.value, IncompatibleFpga)
+        said.append(str(caught.value))
+        if bench.loader._process is not None:
+            os.waitid(os.P_PID, bench.loader._process.pid, os.WEXITED | os.WNOWAIT)
+            bench.power_up(EMPTY)
+    assert bench.runs == 3
+    assert "it is so after 3 attempts to load it" in "".join(said)
+    assert "cable pulled" in "".join(said)
+    bench.power_up(BUILD)
+    bench.bring_up()
 
 
 def test_a_bitstream_that_is_missing_is_said(tmp_path):
@@ -126,7 +196,14 @@ def test_a_loader_that_hangs_is_ended_with_all_it_started(tmp_path):
     bench = Bench(tmp_path, f"import subprocess; subprocess.run(['sh', '-c', 'exec sleep infinity >{held}'])")
     with pytest.raises(LinkError, match="is being loaded"):
         bench.session.bring_up()
-    with held.open("rb") as far_end:  # open once the program's own program has it open
+    for _ in range(2):
+        with held.open("rb") as far_end:  # open once the program's own program has it open
+            bench.clock._now_s += 5.1
+            with pytest.raises(LinkError, match="is being loaded"):
+                bench.session.bring_up()
+            process = bench.loader._process
+        assert process.returncode is None, "the next attempt"
+    with held.open("rb") as far_end:
         bench.clock._now_s += 5.1
         assert "did not end within 5 s" in bench.refused()
         assert far_end.read() == b"", "nobody has it open any more"

@@ -9,10 +9,9 @@ from controller.fpga.registers import CONSTANTS, Control, Fault, FrameType, Regi
 DEFINE = re.compile(r"^`define (\w+) (?:\d*'([dh]))?([0-9A-Fa-f]+)\b", re.MULTILINE)
 
 
-def test_the_generated_text_is_committed():
+def test_the_generated_text_is_committed(capsys):
     """`.venv/bin/python -m controller.fpga.register_table` writes it."""
-    said = []
-    assert main(["--check"], said.append) == 0, "".join(said)
+    assert main(["--check"]) == 0, capsys.readouterr().out
 
 
 def test_the_verilog_has_the_same_names_and_numbers():

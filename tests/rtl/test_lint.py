@@ -1,4 +1,4 @@
-"""Three readers of the same Verilog find nothing to complain of; each of them complains of what is wrong on purpose.
+"""Four readers of the same Verilog find nothing to complain of; each of them complains of what is wrong on purpose.
 
 Yosys comes as WebAssembly, which is compiled at its first use (a minute of computing, 210 MB of cache): `pytest -m slow`.
 """
@@ -160,6 +160,39 @@ def test_icarus_would_complain(broken):
     code, text = icarus("broken", [broken(UNKNOWN[0])])
     assert code
     assert UNKNOWN[1] in text
+
+
+def used_before_declared(sources):
+    """Names that a module uses above their declaration: Icarus 13 refuses them, 12 and Verilator do not."""
+    pyslang = pytest.importorskip("pyslang")
+    driver = pyslang.driver.Driver()
+    driver.addStandardArgs()
+    assert driver.parseCommandLine(" ".join(["slang", "-I", str(RTL), "--single-unit", *map(str, sources)]))
+    driver.processOptions()
+    driver.parseAllSources()
+    found = driver.createCompilation().getAllDiagnostics()
+    return [str(error.args[0]) for error in found if "UsedBeforeDeclared" in str(error.code)]
+
+
+BOARDS = RTL.parent / "boards"
+TESTS = Path(__file__).parent.parent
+
+
+@pytest.mark.parametrize(
+    "sources",
+    [
+        sorted(RTL.glob("*.v")),
+        *[[*sorted(RTL.glob("*.v")), top] for top in sorted(BOARDS.glob("*/top.v"))],
+        *[[file] for folder in (RTL / "formal", TESTS) for file in sorted(folder.rglob("*.v"))],
+    ],
+    ids=lambda sources: str(sources[-1].relative_to(RTL.parent)),
+)
+def test_every_name_is_declared_before_it_is_used(sources):
+    assert used_before_declared(sources) == []
+
+
+def test_a_use_before_the_declaration_would_be_found(broken):
+    assert used_before_declared([broken("wire first = later; wire later = clk_i; assign led_o = first;")]) == ["later"]
 
 
 @pytest.mark.slow

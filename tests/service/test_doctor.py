@@ -5,7 +5,6 @@ import os
 import pwd
 import re
 import resource
-import subprocess
 from pathlib import Path
 
 import msgspec
@@ -154,16 +153,26 @@ def panel(board, tmp_path, monkeypatch):
     return found
 
 
+@pytest.fixture
+def systemctl(tmp_path, monkeypatch):
+    """A program of that name: the file in which it notes its arguments, and what sets its answer."""
+    program = tmp_path / "programs" / "systemctl"
+    program.parent.mkdir()
+    asked = program.with_name("systemctl.asked")
+    monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
+
+    def tell(answer, first=""):
+        asked.unlink(missing_ok=True)
+        program.write_text(f'#!/bin/sh\necho "$*" >>"$0.asked"\n{first}\ncat <<E\n{answer}E\n')
+        program.chmod(0o755)
+
+    return asked, tell
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root looks with another's eyes")
-def test_root_looks_as_the_services_user_and_with_the_limits_of_its_unit(panel, monkeypatch):
-    told = "LoadState=loaded\nLimitRTPRIO=50\nLimitMEMLOCK=infinity\n"
-    asked = []
-
-    def systemctl(command, **_):
-        asked.append(command)
-        return subprocess.CompletedProcess(command, 0, told, "")
-
-    monkeypatch.setattr(doctor.subprocess, "run", systemctl)
+def test_root_looks_as_the_services_user_and_with_the_limits_of_its_unit(panel, systemctl):
+    asked, tell = systemctl
+    tell("LoadState=loaded\nLimitRTPRIO=50\nLimitMEMLOCK=infinity\n")
     own = os.getgroups(), os.getegid(), os.geteuid()
     findings = look(panel, VirtualClock().now_s)
     assert (os.getgroups(), os.getegid(), os.geteuid()) == own, "and as root again afterwards"
@@ -173,13 +182,24 @@ def test_root_looks_as_the_services_user_and_with_the_limits_of_its_unit(panel, 
     assert "Permission denied" in text
     assert said(findings, "priority") == (True, "SCHED_FIFO 50 is permitted")
     assert said(findings, "locked memory") == (True, "permitted")
-    told = "LoadState=loaded\nLimitRTPRIO=0\nLimitMEMLOCK=8388608\n"
+    tell("LoadState=loaded\nLimitRTPRIO=0\nLimitMEMLOCK=8388608\n")
     findings = look(panel, VirtualClock().now_s)
     assert "the unit may ask for 0, the board for 50" in said(findings, "priority")[1]
     assert "the unit may lock 8 MiB" in said(findings, "locked memory")[1]
-    told = "LoadState=not-found\n"
+    tell("LoadState=not-found\n")
     assert "is not installed" in said(look(panel, VirtualClock().now_s), "priority")[1]
-    assert asked[0][:2] == ["systemctl", "show"]
+    assert asked.read_text().startswith("show --property=LoadState")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root looks with another's eyes")
+def test_systemd_that_fails_once_is_asked_again_and_one_that_keeps_failing_is_quoted(panel, systemctl):
+    _, tell = systemctl
+    tell("LoadState=loaded\nLimitRTPRIO=50\nLimitMEMLOCK=infinity\n", "[ $(wc -l <$0.asked) = 1 ] && exit 1")
+    assert said(look(panel, VirtualClock().now_s), "priority") == (True, "SCHED_FIFO 50 is permitted")
+    tell("", "echo 'Failed to connect to bus: Connection timed out' >&2; exit 1")
+    good, text = said(look(panel, VirtualClock().now_s), "priority")
+    assert not good
+    assert "systemctl ended with exit code 1: Failed to connect to bus: Connection timed out (2 attempts)" in text
 
 
 def test_without_the_services_user_root_is_told_to_install_it(panel, monkeypatch):

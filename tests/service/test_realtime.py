@@ -3,6 +3,10 @@
 import subprocess
 import sys
 
+import pytest
+
+from controller.service.realtime import group_refusal
+
 
 def in_a_process_without_rights(code):
     """Printed by code run as nobody, with no limit left to raise."""
@@ -32,6 +36,46 @@ numpy.zeros(40_000_000 // 8)  # more than the limit: it must not have become uno
     assert "SCHED_FIFO at priority 40: Operation not permitted (ulimit -r is 0; LimitRTPRIO=40 in the unit)" in printed
     assert "core 1023: Invalid argument" in printed
     assert "memory is not locked (ulimit -l is 64 KiB; LimitMEMLOCK=infinity in the unit)" in printed
+
+
+@pytest.mark.parametrize(
+    ("groups", "files", "said"),
+    [
+        (
+            "4:memory:/\n3:cpu,cpuacct:/system.slice/haptic-panel.service\n",
+            {"sys/fs/cgroup/cpu,cpuacct/system.slice/haptic-panel.service/cpu.rt_runtime_us": "0\n"},
+            "/system.slice/haptic-panel.service/cpu.rt_runtime_us is 0: give the group a share",
+        ),
+        ("1:cpu:/pod\n", {"sys/fs/cgroup/cpu/pod/cpu.rt_runtime_us": "0\n"}, "/cpu/pod/cpu.rt_runtime_us is 0"),
+        ("1:cpu:/pod\n", {"sys/fs/cgroup/cpu/pod/cpu.rt_runtime_us": "950000\n"}, "in the control group /pod"),
+        (
+            "0::/system.slice/haptic-panel.service\n",
+            {},
+            "in the control group /system.slice/haptic-panel.service: start the kernel",
+        ),
+        ("0::/\n", {}, "seccomp profile"),
+        ("", {}, "seccomp profile"),
+    ],
+)
+def test_a_refusal_in_spite_of_every_right_names_the_control_group(tmp_path, groups, files, said):
+    for name, text in ({"proc/self/cgroup": groups} | files).items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    why = group_refusal(tmp_path)
+    assert said in why
+    assert ("RT_GROUP_SCHED" in why) == ("control group" in said or "rt_runtime_us" in said)
+
+
+def test_the_control_group_is_looked_at_where_the_limit_permits_the_priority():
+    """The kernel's refusal is that of one with RT_GROUP_SCHED: EPERM."""
+    printed = in_a_process_without_rights("""
+def refuse(*_): raise PermissionError(1, "Operation not permitted")
+os.sched_setscheduler = refuse
+resource.getrlimit = lambda _: (50, 50)
+print(*enter_realtime(Realtime(priority=50, lock_memory=False)))
+""")
+    assert "SCHED_FIFO at priority 50: Operation not permitted (the limits permit it" in printed
+    assert "LimitRTPRIO" not in printed
 
 
 def test_what_is_not_asked_for_is_not_warned_of():

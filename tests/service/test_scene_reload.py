@@ -242,7 +242,8 @@ def test_the_helper_is_ordinary_nice_and_has_no_file_of_ours_but_its_socket(chan
     assert os.getpriority(os.PRIO_PROCESS, changer.pid) >= 5
     opened = {int(file.name): str(file.readlink()) for file in Path(f"/proc/{changer.pid}/fd").iterdir()}
     assert opened[1] == "/dev/null"
-    assert set(opened) == {0, 1, 2}, opened
+    ours = {number for number, path in opened.items() if "/libffi.so" not in path}  # its trampolines map its own file
+    assert ours == {0, 1, 2}, opened
 
 
 def test_until_the_first_request_the_helper_has_imported_nothing_of_it(changer):

@@ -350,7 +350,7 @@ def peak_of_a_turn_bytes(fingers):
 def test_no_block_over_512_bytes_and_nothing_kept_from_report_to_report():
     """One finger's turn makes less in all; with ten only a list of ten pointers is larger."""
     largest, _ = alone(partial(peak_of_a_turn_bytes, 1))
-    assert largest <= 512
+    assert largest <= (512 if sys.version_info < (3, 14) else 640), "a tuple keeps its hash since Python 3.14"
     _, kept_by_few = alone(partial(peak_of_a_turn_bytes, 4))
     _, kept_by_many = alone(partial(peak_of_a_turn_bytes, 10))
     assert kept_by_few < 2048 > kept_by_many
