@@ -11,7 +11,7 @@ from typing import Any
 
 from controller.commands.output import show
 from controller.errors import UpdateError
-from controller.update.identity import become_update_user
+from controller.update.identity import refuse_root
 from controller.update.layout import Layout
 from controller.update.settings import UpdateSettings, load_settings
 
@@ -33,14 +33,14 @@ def declare_source(step: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
-    """Layout and settings of this device; what is done within is done as the user of updates, and ends in time.
+    """Layout and settings of this device; what is done within is not done by root, and ends in time.
 
     Raises
     ------
     UpdateError, ConfigError
     """
     layout, settings = Layout.from_environment(), load_settings()
-    become_update_user(layout)
+    refuse_root(layout)
 
     def too_long(_: int, __: FrameType | None) -> None:
         raise UpdateError(f"not done within {settings.total_s:g} s (total_s of update.toml): what came is kept for the next try")

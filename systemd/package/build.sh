@@ -40,7 +40,7 @@ for unit in "$checkout"/systemd/*.service "$checkout"/systemd/*.path "$checkout"
   put "$unit" "lib/systemd/system/${unit##*/}"
 done
 sed -i "s/@UNITS@/$(cd "$files/lib/systemd/system" && echo *)/" "$source/debian/prerm"
-put "$checkout/systemd/fall-back" usr/lib/haptic-panel/fall-back 755
+for script in fall-back as-user set-touch; do put "$checkout/systemd/$script" "usr/lib/haptic-panel/$script" 755; done
 put "$checkout/systemd/haptic-panel" usr/bin/haptic-panel 755
 put "$here/install-first-release" usr/lib/haptic-panel/install-first-release 755
 sed -i "s/@VERSION@/$version/; s/@PYTHON@/$python/" "$files/usr/lib/haptic-panel/install-first-release"
