@@ -41,14 +41,28 @@ def at_work() -> Iterator[tuple[Layout, UpdateSettings]]:
     """
     layout, settings = Layout.from_environment(), load_settings()
     refuse_root(layout)
+    said = f"not done within {settings.total_s:g} s (total_s of update.toml): what came is kept for the next try"
+    with ends_within(settings.total_s + ALARM_AFTER_S, said):
+        yield layout, settings
+
+
+@contextmanager
+def ends_within(limit_s: float, said: str) -> Iterator[None]:
+    """End what is done within by an error, whatever it waits for.
+
+    Raises
+    ------
+    UpdateError
+        Saying this, when the time is over.
+    """
 
     def too_long(_: int, __: FrameType | None) -> None:
-        raise UpdateError(f"not done within {settings.total_s:g} s (total_s of update.toml): what came is kept for the next try")
+        raise UpdateError(said)
 
     before = signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, settings.total_s + ALARM_AFTER_S)
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
     try:
-        yield layout, settings
+        yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

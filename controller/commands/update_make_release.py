@@ -201,7 +201,9 @@ def _gateware_made_by(file: Path) -> dict[str, str]:
         identity = read_identity(file)
     except GatewareError:
         return {}
-    return {"device": identity.device, "sources": identity.sources} | {f"tool:{name}": told for name, told in identity.tools.items()}
+    return {"device": identity.device, "sources": identity.sources} | {
+        f"tool:{name}": told for name, told in identity.tools.items()
+    }
 
 
 def _gateware(files: Sequence[Path], boards: Mapping[str, Board]) -> dict[str, Path]:

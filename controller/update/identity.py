@@ -9,10 +9,10 @@ from controller.update.layout import ROOT, Layout
 
 
 def refuse_root(layout: Layout) -> None:
-    """Refuse to work on this device's releases as root, for whom /usr/bin/haptic-panel becomes `haptic-update` before this runs.
+    """Refuse to work on this device's releases as root: /usr/bin/haptic-panel becomes another user before this runs.
 
-    It keeps a checkout's command from leaving root's files among that user's. What protects root from a release is that script: code
-    that a less trusted user owns cannot be trusted to give up rights.
+    It keeps a checkout's command from leaving files of root's among those of `haptic-update`. What protects root from a release is
+    that script: code that a less trusted user owns cannot be trusted to give up rights.
 
     Raises
     ------

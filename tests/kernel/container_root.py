@@ -16,12 +16,17 @@ from controller.cli import COMMANDS, parser
 
 ROOT = Path("/opt/haptic-panel")
 SEEN = Path("/var/tmp/seen")
-PLANTED = (
-    "import os; "
-    f"open('{SEEN}/' + ' '.join(map(str, (*os.getresuid(), *os.getresgid()))), 'a').write(open('/proc/self/cmdline').read() + '\\n')\n"
-)
+IDS = "'-'.join(map(str, (*os.getresuid(), *os.getresgid())))"
+PLANTED = f"import os; open('{SEEN}/' + {IDS}, 'a').write(open('/proc/self/cmdline').read() + '\\n')\n"
 LASTS = {"run", "record", "calibrate-touch", "judge"}  # until Ctrl-C, or a verdict: called for their help alone
-DOCUMENTS = ("README.md", "systemd/README.md", "controller/README.md", "controller/update/README.md", "boards/README.md", "boards/raspberry_pi.md")
+DOCUMENTS = (
+    "README.md",
+    "systemd/README.md",
+    "controller/README.md",
+    "controller/update/README.md",
+    "boards/README.md",
+    "boards/raspberry_pi.md",
+)
 
 
 def plant():
@@ -37,11 +42,11 @@ def users():
     """Users as which the planted file has run since the last time, by what has started it."""
     found = {}
     for file in SEEN.iterdir():
-        uids = set(map(int, file.name.split()))
+        uids = set(map(int, file.name.split("-")))
         found[file.name] = file.read_text()
         assert 0 not in uids, f"it ran as root: {file.read_text()!r}"
         file.unlink()
-    return {pwd.getpwuid(int(name.split()[0])).pw_name for name in found}
+    return {pwd.getpwuid(int(name.split("-")[0])).pw_name for name in found}
 
 
 def leaves(commands, words=()):
@@ -97,9 +102,21 @@ def test_lines_of_the_documents_called_by_root_run_as_another_user():
     """Those that look at a device, as they stand: with the processes that they start."""
     lines = set()
     for document in DOCUMENTS:
-        lines |= set(re.findall(r"\bhaptic-panel ((?:[a-z-]+ )*[a-z-]+(?: --[a-z-]+(?: panel)?)*)", (CHECKOUT / document).read_text()))
+        lines |= set(
+            re.findall(r"\bhaptic-panel ((?:[a-z-]+ )*[a-z-]+(?: --[a-z-]+(?: panel)?)*)", (CHECKOUT / document).read_text())
+        )
     wanted = [line for line in sorted(lines) if line.split()[0] in COMMANDS and not LASTS & set(line.split())]
-    for line in ["--version", "status", "doctor", "update status", "update check", "update rollback", "update install", "update judge", *wanted]:
+    for line in [
+        "--version",
+        "status",
+        "doctor",
+        "update status",
+        "update check",
+        "update rollback",
+        "update install",
+        "update judge",
+        *wanted,
+    ]:
         said("haptic-panel", *line.split())
         seen = users()
         assert seen <= {"haptic-update", UNIT}, line
@@ -120,7 +137,12 @@ def test_what_root_pipes_into_a_script_of_roots_changes_a_board():
 
 
 def test_units_start_a_release_as_its_users():
-    for unit in ("haptic-panel-update.service", "haptic-panel-metrics.service", "haptic-panel-requests.service", "haptic-panel-trial.service"):
+    for unit in (
+        "haptic-panel-update.service",
+        "haptic-panel-metrics.service",
+        "haptic-panel-requests.service",
+        "haptic-panel-trial.service",
+    ):
         said("systemctl", "start", unit)
     said("systemctl", "start", UNIT)
     wait_for("an end", lambda: "activating" not in said("systemctl", "show", "-p", "ActiveState", UNIT))
@@ -130,7 +152,14 @@ def test_units_start_a_release_as_its_users():
 
 
 def test_dpkg_installs_upgrades_removes_and_purges_without_running_a_release_as_root():
-    done("apt-get", "install", "-y", "--reinstall", "--allow-downgrades", next(iter(map(str, Path("/packages").glob("haptic-panel_1.0-1_*")))))
+    done(
+        "apt-get",
+        "install",
+        "-y",
+        "--reinstall",
+        "--allow-downgrades",
+        next(iter(map(str, Path("/packages").glob("haptic-panel_1.0-1_*")))),
+    )
     install("2.0")
     assert users() <= {"haptic-update", UNIT}
     done("apt-get", "purge", "-y", "haptic-panel")

@@ -32,7 +32,8 @@ def reachable(path):
         return False
     return True
 print(json.dumps({
-    "uids": os.getresuid(), "gids": os.getresgid(), "groups": os.getgroups(), "umask": os.umask(0), "session": os.getsid(0) != OUTSIDE,
+    "uids": os.getresuid(), "gids": os.getresgid(), "groups": os.getgroups(), "umask": os.umask(0),
+    "session": os.getsid(0) != OUTSIDE,
     "capabilities": [status["Cap" + kind].strip("0") for kind in ("Inh", "Prm", "Eff", "Bnd", "Amb")],
     "no_new_privileges": status["NoNewPrivs"], "environment": dict(os.environ), "terminal": reachable("/dev/tty"),
     "files": [name for name in os.listdir("/proc/self/fd") if os.path.exists("/proc/self/fd/" + name)],
@@ -52,8 +53,8 @@ def place():
 
 def as_user(*command, user="nobody", **how):
     """A command run by the script."""
-    how = {"capture_output": True, "text": True, "check": False, "stdin": subprocess.DEVNULL} | how
-    return subprocess.run([SYSTEMD / "as-user", user, *command], **how)
+    how = {"stdin": subprocess.DEVNULL} | how
+    return subprocess.run([SYSTEMD / "as-user", user, *command], capture_output=True, text=True, check=False, **how)
 
 
 def probed(**how):
@@ -95,7 +96,7 @@ def test_a_folder_that_only_root_reaches_is_left(place):
     closed.mkdir(parents=True)
     assert probed(cwd=closed)["folder"] == closed.stat().st_ino
     closed.parent.chmod(0o700)
-    assert probed(cwd=closed)["folder"] == os.stat("/").st_ino
+    assert probed(cwd=closed)["folder"] == Path("/").stat().st_ino
     refused = as_user("cat", "some.toml", cwd=closed.parent)
     assert "Permission denied" in refused.stderr, "and not that there is no such file"
 
@@ -160,12 +161,13 @@ import json, os, subprocess, sys, termios
 signals = __import__("signal")
 signals.signal(signals.SIGINT, signals.SIG_IGN)
 tty = os.open("/dev/tty", os.O_RDWR)
-code = subprocess.run(json.loads(sys.argv[1]), restore_signals=True, preexec_fn=lambda: signals.signal(signals.SIGINT, signals.SIG_DFL)).returncode
+code = subprocess.run(json.loads(sys.argv[1]), preexec_fn=lambda: signals.signal(signals.SIGINT, signals.SIG_DFL)).returncode
 how = termios.tcgetattr(tty)
 how[3] &= ~termios.ICANON
 how[6][termios.VMIN] = how[6][termios.VTIME] = 0
 termios.tcsetattr(tty, termios.TCSANOW, how)
-os.write(tty, f"exit code {code}; typed: {os.read(tty, 100)}; at {next(os.ttyname(file) for file in (0, 1, 2) if os.isatty(file))}\\n".encode())
+(at, *_) = (os.ttyname(file) for file in (0, 1, 2) if os.isatty(file))
+os.write(tty, f"exit code {code}; typed: {os.read(tty, 100)}; at {at}\\n".encode())
 """
 TYPES = """
 import fcntl, os, sys, termios
@@ -225,7 +227,7 @@ def test_without_that_user_nothing_is_run():
 
 
 class Installed:
-    """The command as it is installed, with its folder and its users changed to those of a test; a release that anybody may have spoilt."""
+    """The command as it is installed, but for its folder and its users, and a release that anybody may have spoilt."""
 
     def __init__(self, place):
         self.root = place / "root"
@@ -267,7 +269,10 @@ def test_a_planted_file_of_a_release_never_runs_as_root_whatever_is_called(insta
     seen.mkdir()
     seen.chmod(0o777)
     (installed.packages / "planted.pth").write_text(f"import os; open('{seen}/%d' % os.getuid(), 'a').close()\n")
-    users = {"65534": [("update", step) for step in STEPS], "1": [(), ("--version",), ("nonsense",), *((name,) for name in COMMANDS)]}
+    users = {
+        "65534": [("update", step) for step in STEPS],
+        "1": [(), ("--version",), ("nonsense",), *((name,) for name in COMMANDS)],
+    }
     users["1"].remove(("update",))
     for user, calls in users.items():
         for call in calls:

@@ -1,4 +1,4 @@
-"""Root does not work on a device's releases: what is called as root becomes another user before this code runs (test_as_user.py)."""
+"""Root does not work on a device's releases: its commands become another user before this code runs (test_as_user.py)."""
 
 import os
 

@@ -99,7 +99,9 @@ def test_one_version_is_told_wherever_one_is_told(place, bank_file):
         assert rows["controller/__init__.py"] == f"sha256={digest},22"
     bill = json.loads((place / "a/sbom.cdx.json").read_bytes())
     assert (bill["metadata"]["component"]["name"], bill["metadata"]["component"]["version"]) == ("haptic-panel", "1.0.0")
-    subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-index", "--target", place / "to", own], check=True)
+    subprocess.run(
+        [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-index", "--target", place / "to", own], check=True
+    )
     assert "haptic_panel-1.0.0.dist-info" in {path.name for path in (place / "to").iterdir()}, "pip takes it"
 
 
