@@ -16,6 +16,7 @@ from controller.errors import UpdateError, UsageError
 
 TELLS_VERSION: Final = "controller/__init__.py"
 LINE: Final = re.compile(rb'^__version__ = "[^"\n]*"$', re.MULTILINE)
+MANUAL: Final = re.compile(rb'^(\.TH [^\n]*"version )[^"\n]+("[^\n]*panel )[^"\n]+(")')
 METADATA: Final = re.compile(rb"^Version: \S+$", re.MULTILINE)
 
 
@@ -36,7 +37,7 @@ def check_version(version: str) -> None:
 
 
 def with_version(wheel: Path, version: str, folder: Path) -> Path:
-    """A wheel of this project with another version: in its name, its metadata and `controller.__version__`.
+    """A wheel of this project with another version: in its name, its metadata, its manual and `controller.__version__`.
 
     Parameters
     ----------
@@ -72,6 +73,8 @@ def with_version(wheel: Path, version: str, folder: Path) -> Path:
                     data = pattern.sub(text.encode(), data, count=1)
                     if text.encode() not in data:
                         raise UpdateError(f"{wheel}: {entry.filename} tells no version: is it a wheel of haptic-panel?")
+                if path.endswith("/haptic-panel.1"):
+                    data = MANUAL.sub(rf"\g<1>{version}\g<2>{version}\g<3>".encode(), data)
                 digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
                 lines.append(f"{path},sha256={digest},{len(data)}\n")
                 _write(target, path, entry, data)
