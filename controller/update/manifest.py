@@ -152,7 +152,7 @@ def read_object(data: bytes, whence: str) -> dict[str, Any]:
 
     Raises
     ------
-    UpdateError
+    ConfigError
         If it is none.
     """
 
@@ -169,9 +169,9 @@ def read_object(data: bytes, whence: str) -> dict[str, Any]:
     try:
         tables: Any = json.loads(data.decode("utf-8"), object_pairs_hook=once, parse_constant=refuse)
     except (ValueError, RecursionError) as error:
-        raise UpdateError(f"{whence}: is not JSON: {error}") from error
+        raise ConfigError(f"{whence}: is not JSON: {error}") from error
     if not isinstance(tables, dict):
-        raise UpdateError(f"{whence}: is not an object")
+        raise ConfigError(f"{whence}: is not an object")
     return tables
 
 
